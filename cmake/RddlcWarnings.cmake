@@ -1,0 +1,10 @@
+# What every target of our own code is compiled with.
+add_library(rddlc_options INTERFACE)
+target_compile_options(rddlc_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion -Werror
+  # Interpreter and compiled simulators agree bit for bit: no fused multiply-add.
+  -ffp-contract=off)
+if(RDDLC_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,249 @@
+// The intermediate representation, on one page.
+//
+// A program is a few blocks of statements over named buffers. Expressions live in one flat pool
+// and are addressed by id; the builder (builder.hpp) folds constants and hash-conses, so equal
+// expressions have equal ids. Loops over objects stay loops. Objects are integers.
+//
+// Invariants, checked by verify.hpp: operands precede their users in the pool; every loop index is
+// used inside the statement or reduction that binds it; types fit; sites are used once.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/vocabulary.hpp"
+#include "support/source.hpp"
+
+namespace rddlc::ir {
+
+// Typed ids: an index into the table of the same name in Program.
+template <class Tag>
+struct Id {
+    std::uint32_t index = 0;
+    auto operator<=>(const Id&) const = default;
+};
+using NodeId = Id<struct NodeTag>;
+using VariableId = Id<struct VariableTag>;
+using BufferId = Id<struct BufferTag>;
+using LocalId = Id<struct LocalTag>;
+using SiteId = Id<struct SiteTag>;
+
+enum class Scalar : std::uint8_t { Bool, Int, Real };
+using Value = std::variant<bool, std::int64_t, double>;
+
+// A loop index, running over [0, size). Named as in the RDDL text, without "?".
+struct Variable {
+    std::string name;
+    std::uint32_t type;  // index into Program::types
+    std::int64_t size;
+};
+
+enum class Storage : std::uint8_t {
+    Constant,     // a table fixed by the instance
+    State,        // read only, except in `reset`
+    Action,       // read only
+    Scratch,      // interm- and derived-fluents, large temporaries
+    Next,         // the next state: one buffer for each State buffer, same name and shape
+    Observation,
+};
+
+// Named storage of fixed shape, row-major over the objects of its parameter types.
+struct Buffer {
+    std::string name;  // the RDDL name of the fluent, or a name made by a pass
+    Storage storage;
+    Scalar scalar;
+    std::vector<std::int64_t> shape;       // empty: one value
+    std::vector<std::uint32_t> types;      // one per dimension, index into Program::types
+    std::optional<std::uint32_t> fluent;   // index into Program::fluents
+    std::vector<Value> values;             // Constant: the table; State: initial; Action: defaults
+    Span span;
+
+    std::int64_t count() const;
+};
+
+// Where a draw or a fault happens: a site of the program text and the place inside its scope.
+// The pair is the counter of the random number generator, so a draw is the same wherever and
+// whenever it is evaluated.
+struct Place {
+    SiteId site;
+    NodeId index;  // Int: row-major index over Site::scope
+    bool operator==(const Place&) const = default;
+};
+struct Site {
+    Span span;
+    std::vector<VariableId> scope;  // CPF parameters, then aggregation variables, outermost first
+    std::string what;               // "Bernoulli", "pow", ... for messages
+};
+
+// ---------------------------------------------------------------------------- expressions
+
+struct Constant {
+    Value value;
+    bool operator==(const Constant&) const = default;  // the builder compares reals by their bits
+};
+struct Index {  // the current value of a loop index; Int
+    VariableId variable;
+    bool operator==(const Index&) const = default;
+};
+struct Load {
+    BufferId buffer;
+    std::vector<NodeId> indices;  // Int, one per dimension, in range by construction
+    bool operator==(const Load&) const = default;
+};
+struct Local {  // the value of an enclosing Let
+    LocalId local;
+    bool operator==(const Local&) const = default;
+};
+// Bool -> Int, Bool -> Real, Int -> Real; the target is Node::type.
+struct Convert {
+    NodeId operand;
+    bool operator==(const Convert&) const = default;
+};
+struct Apply {
+    Operator op;
+    std::vector<NodeId> operands;
+    std::optional<Place> place;  // exactly for operators that may fault
+    bool operator==(const Apply&) const = default;
+};
+// Lazy: the branch not taken is not evaluated, so it cannot fault.
+struct Select {
+    NodeId condition, then_value, else_value;
+    bool operator==(const Select&) const = default;
+};
+// Over one variable; several variables are nested reductions, outermost first. Average does not
+// occur (it is a sum divided by a constant). ArgMin and ArgMax give Int; Minimum, Maximum and
+// both Arg forms are never empty.
+struct Reduce {
+    Reduction op;
+    VariableId variable;
+    NodeId body;
+    bool operator==(const Reduce&) const = default;
+};
+// KronDelta and DiracDelta do not occur (they are their argument).
+struct Sample {
+    Distribution distribution;
+    Place place;
+    std::vector<NodeId> parameters;
+    bool operator==(const Sample&) const = default;
+};
+struct Discrete {  // an index into `weights`; Int
+    bool normalise;
+    Place place;
+    std::vector<NodeId> weights;
+    bool operator==(const Discrete&) const = default;
+};
+struct DiscreteOver {  // a value of `variable`; Int
+    bool normalise;
+    Place place;
+    VariableId variable;
+    NodeId weight;
+    bool operator==(const DiscreteOver&) const = default;
+};
+// Faults when evaluated, with Site::what as the message; its value is zero of Node::type.
+struct Fault {
+    Place place;
+    bool operator==(const Fault&) const = default;
+};
+
+struct Node {
+    Scalar type;
+    std::variant<Constant, Index, Load, Local, Convert, Apply, Select, Reduce, Sample, Discrete,
+                 DiscreteOver, Fault>
+        form;
+    bool operator==(const Node&) const = default;
+};
+
+// ----------------------------------------------------------------------------- statements
+
+struct Statement;
+using Block = std::vector<Statement>;
+
+// Evaluates once and names the value.
+struct Let {
+    LocalId local;
+    NodeId value;
+};
+struct Store {
+    BufferId target;  // Scratch, Next or Observation
+    std::vector<NodeId> indices;
+    NodeId value;
+};
+struct Loop {
+    VariableId variable;
+    Block body;
+};
+struct Statement {
+    std::variant<Let, Store, Loop> form;
+};
+
+// One CPF, or a table made by a pass: the statements that fill one buffer.
+struct Definition {
+    BufferId target;
+    Block body;
+    Span span;  // of the CPF
+};
+// A value with what must be computed before it.
+struct Computation {
+    Block body;
+    NodeId value;
+    Span span;
+};
+
+// -------------------------------------------------------------------------------- program
+
+struct ObjectType {
+    std::string name;
+    bool enumerated;
+    std::vector<std::string> objects;
+};
+
+// A pvariable as declared: what the simulator tells about itself.
+struct Fluent {
+    std::string name;
+    Role role;
+    Scalar scalar;
+    std::optional<std::uint32_t> object_type;    // range, for object- and enumerated-valued fluents
+    std::vector<std::uint32_t> parameter_types;  // index into Program::types
+    BufferId buffer;
+    Span span;
+    // Per grounding, from action-preconditions and state-invariants (semantics of env-and-viz 1.1);
+    // -inf/+inf where nothing bounds it. Only for numeric State and Action fluents; else empty.
+    std::vector<double> lower, upper;
+};
+
+struct Program {
+    std::string domain_name;
+    std::string instance_name;
+    std::vector<ObjectType> types;
+    std::vector<Fluent> fluents;  // in declaration order
+
+    std::vector<Node> nodes;
+    std::vector<Variable> variables;
+    std::vector<Buffer> buffers;
+    std::vector<Site> sites;
+    std::uint32_t local_count = 0;
+
+    // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
+    // their place.
+    std::vector<Definition> step;
+    Computation reward;  // Real
+    std::vector<Computation> preconditions;  // Bool, as are the next two
+    std::vector<Computation> invariants;
+    std::vector<Computation> terminations;
+
+    std::int64_t horizon = 0;
+    double discount = 1.0;
+    std::optional<std::int64_t> max_nondef_actions;
+
+    const Node& operator[](NodeId id) const { return nodes[id.index]; }
+    const Variable& operator[](VariableId id) const { return variables[id.index]; }
+    const Buffer& operator[](BufferId id) const { return buffers[id.index]; }
+    const Site& operator[](SiteId id) const { return sites[id.index]; }
+    bool partially_observed() const;
+};
+
+}  // namespace rddlc::ir

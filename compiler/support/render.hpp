@@ -1,0 +1,23 @@
+// The one place where diagnostics become text.
+#pragma once
+
+#include <string>
+
+#include "support/diagnostic.hpp"
+
+namespace rddlc {
+
+enum class DiagnosticsFormat { Text, Json };
+
+struct RenderOptions {
+    DiagnosticsFormat format = DiagnosticsFormat::Text;
+    bool color = false;  // ANSI colours, for terminals
+    std::size_t error_limit = 50;  // 0: no limit
+};
+
+// Text: "path:line:col: error: message [E0203]", the source line, a caret line with the
+// "declared here" note beside it, then notes and hint. Json: an array of objects.
+std::string render(const Diagnostics& diagnostics, const Sources& sources,
+                   const RenderOptions& options);
+
+}  // namespace rddlc

@@ -1,0 +1,192 @@
+/* The C interface of every simulator, compiled or interpreted, linked or loaded with dlopen.
+ *
+ * Solvers, renderers, the command line and Python use nothing else. A simulator describes itself
+ * (rddl_problem) and steps batches of environments (rddl_batch). All functions work on arrays
+ * that the caller owns. None throws or aborts; those that can fail return RDDL_OK or an error.
+ *
+ * Records. A state, an action and an observation are each one fixed-size record per environment:
+ * a plain C struct of the fluents in declaration order, every fluent a row-major array over its
+ * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
+ * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
+ */
+#ifndef RDDL_SIMULATOR_H
+#define RDDL_SIMULATOR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RDDL_ABI_VERSION 1
+
+/* ------------------------------------------------------------------------- description */
+
+typedef enum { RDDL_BOOL = 0, RDDL_INT = 1, RDDL_REAL = 2 } rddl_scalar;
+
+typedef enum {
+    RDDL_NON_FLUENT = 0,
+    RDDL_STATE = 1,
+    RDDL_ACTION = 2,
+    RDDL_INTERM = 3,
+    RDDL_DERIVED = 4,
+    RDDL_OBSERVATION = 5
+} rddl_role;
+
+/* A place in the RDDL source; line and column are 1-based. */
+typedef struct {
+    const char* file;
+    int32_t line;
+    int32_t column;
+} rddl_source;
+
+typedef struct {
+    const char* name;
+    const char* const* objects; /* names without '@'; an object's value is its index */
+    int64_t object_count;
+    int32_t enumerated; /* 1: members given by the domain, 0: by the instance */
+} rddl_type;
+
+typedef struct {
+    const char* name;
+    rddl_role role;
+    rddl_scalar scalar;
+    int32_t range_type;             /* index into types for object values; -1 for bool, int, real */
+    int32_t rank;                   /* number of parameters */
+    const int32_t* parameter_types; /* `rank` indices into types */
+    int64_t count;                  /* number of groundings: product of the types' sizes */
+    int64_t offset;                 /* bytes into its record; -1 for non-, interm- and derived-fluents */
+    const double* lower;            /* `count` bounds from the constraints (-inf: none), or NULL: */
+    const double* upper;            /* not numeric, or not a state- or action-fluent */
+    rddl_source source;
+} rddl_fluent;
+
+/* A constraint, by its text as written. */
+typedef struct {
+    const char* text;
+    rddl_source source;
+} rddl_condition;
+
+typedef struct {
+    const char* domain;
+    const char* instance;
+    const rddl_type* types;
+    int32_t type_count;
+    const rddl_fluent* fluents; /* in declaration order */
+    int32_t fluent_count;
+    int64_t state_size; /* bytes of one record */
+    int64_t action_size;
+    int64_t observation_size; /* equals state_size when not partially observed */
+    int32_t partially_observed;
+    int32_t stochastic; /* 1: some step draws at random */
+    const void* default_action; /* one action record */
+    int64_t horizon;            /* steps; 0: none */
+    double discount;
+    int64_t max_nondef_actions; /* how many action values may differ from the default; -1: all */
+    const rddl_condition* preconditions;
+    int32_t precondition_count;
+    const rddl_condition* invariants;
+    int32_t invariant_count;
+    const rddl_condition* terminations;
+    int32_t termination_count;
+} rddl_problem;
+
+/* ------------------------------------------------------------------------------ batches */
+
+typedef enum { RDDL_OK = 0, RDDL_BAD_ARGUMENT = 1, RDDL_OUT_OF_MEMORY = 2 } rddl_error;
+
+/* What happens to an environment whose episode has ended. */
+typedef enum {
+    RDDL_AUTORESET_DISABLED = 0,  /* it stays as it is; stepping it again changes nothing */
+    RDDL_AUTORESET_NEXT_STEP = 1, /* the next step ignores its action and resets it (reward 0) */
+    RDDL_AUTORESET_SAME_STEP = 2  /* the same step resets it; final_observations tells its end */
+} rddl_autoreset;
+
+typedef struct {
+    int64_t environment_count;
+    int64_t first_environment; /* identity of environment 0: its random numbers depend on the
+                                  identity, never on batch size, place, threads or ranks */
+    uint64_t seed;
+    int32_t thread_count; /* 0: one per core */
+    rddl_autoreset autoreset;
+    int64_t horizon; /* -1: the instance's; 0: none; else this many steps */
+} rddl_batch_options;
+
+/* Why an episode ended; several may hold. */
+enum {
+    RDDL_RUNNING = 0,
+    RDDL_TERMINATED = 1,         /* a termination condition holds in the new state */
+    RDDL_TRUNCATED_HORIZON = 2,  /* the horizon is reached */
+    RDDL_TRUNCATED_INVARIANT = 4,/* a state invariant is violated */
+    RDDL_FAULTED = 8             /* a run-time fault (rddl_fault); counts as truncated */
+};
+
+/* Arrays of environment_count entries that a step fills; any may be NULL. */
+typedef struct {
+    void* observations; /* records */
+    double* rewards;
+    uint8_t* terminated; /* 0 or 1 */
+    uint8_t* truncated;  /* 0 or 1 */
+    uint8_t* causes;     /* bits above */
+    void* final_observations; /* records; written only where a same-step reset happened */
+} rddl_transition;
+
+/* The first fault of an environment's current (or just ended) episode. */
+typedef struct {
+    int32_t faulty; /* 0: none; the rest is unset then */
+    int32_t step;
+    rddl_source source;
+    char message[512]; /* names the cause, the ground objects and the value */
+} rddl_fault;
+
+typedef struct rddl_batch rddl_batch;
+typedef struct rddl_simulator rddl_simulator;
+
+struct rddl_simulator {
+    uint32_t abi_version; /* RDDL_ABI_VERSION */
+    uint32_t struct_size; /* sizeof(rddl_simulator) of its maker */
+    const rddl_problem* problem;
+    const void* self; /* the maker's own; pass the simulator itself to the functions below */
+
+    /* All environments start an episode. NULL when out of memory or on bad options. */
+    rddl_batch* (*create)(const rddl_simulator*, const rddl_batch_options*);
+    void (*destroy)(rddl_batch*);
+
+    /* Starts a new episode where mask is non-zero (NULL: everywhere); observations (records, may
+     * be NULL) are written for all environments. In a partially observed problem nothing is
+     * observed before the first step: its records are zero then. An environment whose initial
+     * state terminates has its episode over at once. */
+    rddl_error (*reset)(rddl_batch*, const uint8_t* mask, void* observations);
+    rddl_error (*step)(rddl_batch*, const void* actions, const rddl_transition* out);
+
+    /* Records of environments [begin, begin + count). set_state keeps step counter and episode
+     * and makes an ended environment run again unless the new state terminates; it refuses object
+     * indices out of range. */
+    rddl_error (*get_state)(const rddl_batch*, int64_t begin, int64_t count, void* states);
+    rddl_error (*set_state)(rddl_batch*, int64_t begin, int64_t count, const void* states);
+    rddl_error (*get_observation)(const rddl_batch*, int64_t begin, int64_t count, void* records);
+
+    /* Steps made in the current episode, and episodes ended before it; either may be NULL. */
+    rddl_error (*get_progress)(const rddl_batch*, int64_t begin, int64_t count, int64_t* steps,
+                               int64_t* episodes);
+    /* The causes of the current episode's end (RDDL_RUNNING while it runs). */
+    rddl_error (*get_causes)(const rddl_batch*, int64_t begin, int64_t count, uint8_t* causes);
+    rddl_error (*get_fault)(const rddl_batch*, int64_t environment, rddl_fault* fault);
+
+    /* For each environment the first violated precondition of its action in its current state, or
+     * -1. Steps never check preconditions by themselves. */
+    rddl_error (*violated_preconditions)(rddl_batch*, const void* actions, int32_t* first_violated);
+
+    /* An independent copy, episodes and random streams included. NULL when out of memory. */
+    rddl_batch* (*copy)(const rddl_batch*);
+};
+
+/* What a shared object exports under the name "rddl_simulator_entry". */
+typedef const rddl_simulator* (*rddl_simulator_entry_function)(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
