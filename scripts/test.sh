@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Installs what the tests need (Debian 12), builds everything and passes all tests: once as
+# released, and the tests of bad input once more under the address and undefined-behaviour
+# sanitizers. Running it again builds and installs only what has changed.
+#
+#   scripts/test.sh [CTEST ARGUMENTS...]      e.g. scripts/test.sh -R conformance
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source scripts/lib.sh
+
+step "1/4 packages and the Python environment of the conformance tests (.venv)"
+install_packages "${build_packages[@]}" "${test_packages[@]}"
+[ -x .venv/bin/python ] || python3 -m venv .venv
+.venv/bin/pip install --quiet --disable-pip-version-check \
+    --requirement tests/conformance/requirements.txt
+
+step "2/4 build"
+cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON
+cmake --build build
+
+step "3/4 build with sanitizers"
+cmake -S . -B build/sanitize -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON \
+    -DRDDLC_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo
+cmake --build build/sanitize --target sanitized_tests
+
+step "4/4 tests"
+jobs=$(nproc)
+ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
+ctest --test-dir build --parallel "$jobs" --output-on-failure "$@"
