@@ -1,0 +1,235 @@
+#include "support/render.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string_view>
+
+namespace rddlc {
+
+namespace {
+
+// ------------------------------------------------------------------------- one line of source
+
+constexpr std::size_t tab_width = 4;
+constexpr std::size_t window_width = 110;  // longer lines are shown around the caret only
+constexpr std::string_view ellipsis = "...";
+
+// The length of the UTF-8 sequence that begins `text`; 0 if there is none that is valid.
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return static_cast<unsigned char>(text[i]);
+    };
+    const std::size_t length = byte(0) < 0x80             ? 1
+                               : (byte(0) & 0xE0) == 0xC0 ? 2
+                               : (byte(0) & 0xF0) == 0xE0 ? 3
+                               : (byte(0) & 0xF8) == 0xF0 ? 4
+                                                          : 0;
+    if (length == 0 || length > text.size()) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    return length;
+}
+
+// What a terminal shows for a piece of source, one element per column: tabs become blanks,
+// control characters and broken UTF-8 become a replacement character.
+std::vector<std::string> columns_of(std::string_view text) {
+    std::vector<std::string> columns;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const bool control = static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F;
+        if (text[0] == '\t')
+            columns.insert(columns.end(), tab_width - columns.size() % tab_width, " ");
+        else
+            columns.emplace_back(length == 0 || control ? "\xEF\xBF\xBD" : text.substr(0, length));
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return columns;
+}
+
+// A source line as shown, with the marked columns [begin, end).
+struct Excerpt {
+    std::vector<std::string> columns;
+    std::size_t begin;
+    std::size_t end;
+};
+
+// The first line of the span; a span over several lines is marked to the end of the first.
+Excerpt excerpt_of(const Source& source, Span span) {
+    const int number = source.position(span.begin).line;
+    const std::string_view line = source.line(number);
+    const std::size_t first =
+        std::min<std::size_t>(span.begin - source.line_begin(number), line.size());
+    const std::size_t last =
+        std::clamp<std::size_t>(span.end - source.line_begin(number), first, line.size());
+    const std::size_t begin = columns_of(line.substr(0, first)).size();
+    const std::size_t end = columns_of(line.substr(0, last)).size();
+    return {columns_of(line), begin, std::max(end, begin + 1)};
+}
+
+Excerpt windowed(Excerpt excerpt) {
+    if (excerpt.columns.size() <= window_width) return excerpt;
+    const std::size_t half = window_width / 2;
+    const std::size_t first = excerpt.begin > half ? excerpt.begin - half : 0;
+    const std::size_t last = std::min(first + window_width, excerpt.columns.size());
+    std::vector<std::string> shown(excerpt.columns.begin() + static_cast<std::ptrdiff_t>(first),
+                                   excerpt.columns.begin() + static_cast<std::ptrdiff_t>(last));
+    const std::size_t added = first > 0 ? 1 : 0;
+    if (first > 0) shown.emplace(shown.begin(), ellipsis);
+    if (last < excerpt.columns.size()) shown.emplace_back(ellipsis);
+    // The leading ellipsis is one element, but as wide as its text.
+    const std::size_t shift = added * ellipsis.size();
+    return {std::move(shown), excerpt.begin - first + shift,
+            std::min(excerpt.end, last) - first + shift};
+}
+
+std::string joined(const std::vector<std::string>& columns) {
+    std::string text;
+    for (const std::string& column : columns) text += column;
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+// ---------------------------------------------------------------------------------------- text
+
+struct Palette {
+    std::string_view bold, error, warning, note, caret, off;
+};
+constexpr Palette plain{};
+constexpr Palette colored{"\x1b[1m",    "\x1b[1;31m", "\x1b[1;35m",
+                          "\x1b[1;36m", "\x1b[1;32m", "\x1b[0m"};
+
+// "declared here" becomes "declared at path:line:col"; nothing for notes of another form.
+std::optional<std::string> beside_caret(const Note& note, const Sources& sources) {
+    constexpr std::string_view here = " here";
+    const std::string_view message = note.message;
+    if (!note.span || !message.ends_with(here)) return std::nullopt;
+    return fmt::format("{} at {}", message.substr(0, message.size() - here.size()),
+                       sources.location(*note.span));
+}
+
+class TextRenderer {
+  public:
+    TextRenderer(const Diagnostics& diagnostics, const Sources& sources, bool color)
+        : diagnostics_(diagnostics), sources_(sources), palette_(color ? colored : plain) {}
+
+    std::string render(const Diagnostic& diagnostic) const {
+        std::string text = headline(diagnostic);
+        const Note* beside = nullptr;
+        if (diagnostic.span) {
+            std::string remark;
+            if (!diagnostic.notes.empty())
+                if (auto found = beside_caret(diagnostic.notes.front(), sources_)) {
+                    beside = &diagnostic.notes.front();
+                    remark = std::move(*found);
+                }
+            text += source_lines(*diagnostic.span, remark);
+        }
+        for (const Note& note : diagnostic.notes)
+            if (&note != beside) text += note_line(note);
+        if (!diagnostic.hint.empty())
+            text += fmt::format("{}hint:{} {}\n", palette_.note, palette_.off, diagnostic.hint);
+        return text;
+    }
+
+  private:
+    std::string headline(const Diagnostic& diagnostic) const {
+        const bool error = diagnostics_.is_error(diagnostic);
+        return fmt::format("{0}{1}{2}{3}{4}:{2} {0}{5}{2} [{6}]\n", palette_.bold,
+                           place(diagnostic.span), palette_.off,
+                           error ? palette_.error : palette_.warning, error ? "error" : "warning",
+                           diagnostic.message, to_string(diagnostic.code));
+    }
+
+    std::string note_line(const Note& note) const {
+        return fmt::format("{}{}note:{} {}\n", place(note.span), palette_.note, palette_.off,
+                           note.message);
+    }
+
+    std::string place(const std::optional<Span>& span) const {
+        return span ? sources_.location(*span) + ": " : "";
+    }
+
+    // The line of source and the caret line, with a remark beside the caret.
+    std::string source_lines(Span span, const std::string& remark) const {
+        const Excerpt excerpt = windowed(excerpt_of(sources_[span.file], span));
+        const std::string source = joined(excerpt.columns);
+        const std::string tildes(excerpt.end - excerpt.begin - 1, '~');
+        return fmt::format("{:5} |{}{}\n", sources_.position(span).line, source.empty() ? "" : " ",
+                           source) +
+               fmt::format("{:5} | {:{}}{}^{}{}{}{}\n", "", "", excerpt.begin, palette_.caret,
+                           tildes, palette_.off, remark.empty() ? "" : "   ", remark);
+    }
+
+    const Diagnostics& diagnostics_;
+    const Sources& sources_;
+    Palette palette_;
+};
+
+std::string render_text(const Diagnostics& diagnostics, const Sources& sources,
+                        const RenderOptions& options) {
+    const TextRenderer renderer(diagnostics, sources, options.color);
+    std::string text;
+    std::size_t errors = 0;
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostics.is_error(diagnostic) && ++errors > options.error_limit &&
+            options.error_limit != 0) {
+            const std::size_t left = diagnostics.error_count() - options.error_limit;
+            return text + fmt::format("{} more error{} not shown\n", left, left == 1 ? "" : "s");
+        }
+        text += renderer.render(diagnostic);
+    }
+    return text;
+}
+
+// ---------------------------------------------------------------------------------------- JSON
+
+using nlohmann::ordered_json;
+
+void add_place(ordered_json& object, const std::optional<Span>& span, const Sources& sources) {
+    if (!span) return;
+    const Source& source = sources[span->file];
+    const Position begin = source.position(span->begin);
+    const Position end = source.position(span->end);
+    object["file"] = source.path();
+    object["line"] = begin.line;
+    object["column"] = begin.column;
+    object["end_line"] = end.line;
+    object["end_column"] = end.column;
+}
+
+ordered_json to_json(const Diagnostic& diagnostic, const Diagnostics& diagnostics,
+                     const Sources& sources) {
+    ordered_json object;
+    object["severity"] = diagnostics.is_error(diagnostic) ? "error" : "warning";
+    object["code"] = to_string(diagnostic.code);
+    object["message"] = diagnostic.message;
+    add_place(object, diagnostic.span, sources);
+    object["notes"] = ordered_json::array();
+    for (const Note& note : diagnostic.notes) {
+        ordered_json& entry = object["notes"].emplace_back();
+        entry["message"] = note.message;
+        add_place(entry, note.span, sources);
+    }
+    if (!diagnostic.hint.empty()) object["hint"] = diagnostic.hint;
+    return object;
+}
+
+std::string render_json(const Diagnostics& diagnostics, const Sources& sources) {
+    ordered_json array = ordered_json::array();
+    for (const Diagnostic& diagnostic : diagnostics.all())
+        array.push_back(to_json(diagnostic, diagnostics, sources));
+    // Paths and excerpts of broken files may not be UTF-8.
+    return array.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string render(const Diagnostics& diagnostics, const Sources& sources,
+                   const RenderOptions& options) {
+    return options.format == DiagnosticsFormat::Json ? render_json(diagnostics, sources)
+                                                     : render_text(diagnostics, sources, options);
+}
+
+}  // namespace rddlc

@@ -1,0 +1,94 @@
+#include "support/source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+
+namespace rddlc {
+
+namespace {
+
+// Lines end at "\n", "\r\n" or a lone "\r".
+std::vector<std::uint32_t> find_line_begins(std::string_view text) {
+    std::vector<std::uint32_t> begins{0};
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool ends_line =
+            text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
+        if (ends_line) begins.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+    return begins;
+}
+
+bool is_utf8_continuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
+}
+
+std::string_view without_line_break(std::string_view line) {
+    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+    return line;
+}
+
+}  // namespace
+
+Span cover(Span first, Span last) {
+    assert(first.file == last.file);
+    return {first.file, std::min(first.begin, last.begin), std::max(first.end, last.end)};
+}
+
+Source::Source(std::string path, std::string text)
+    : path_(std::move(path)), text_(std::move(text)), line_begins_(find_line_begins(text_)) {}
+
+Position Source::position(std::uint32_t offset) const {
+    offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
+    const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+    const std::uint32_t begin = *(after - 1);
+    const std::string_view before = std::string_view(text_).substr(begin, offset - begin);
+    const auto column = std::count_if(before.begin(), before.end(),
+                                      [](char byte) { return !is_utf8_continuation(byte); });
+    return {static_cast<int>(after - line_begins_.begin()), static_cast<int>(column) + 1};
+}
+
+std::uint32_t Source::line_begin(int number) const {
+    return line_begins_[static_cast<std::size_t>(number - 1)];
+}
+
+std::string_view Source::line(int number) const {
+    const auto index = static_cast<std::size_t>(number);
+    const std::size_t begin = line_begin(number);
+    const std::size_t end = index < line_begins_.size() ? line_begins_[index] : text_.size();
+    return without_line_break(std::string_view(text_).substr(begin, end - begin));
+}
+
+FileId Sources::add(std::string path, std::string text) {
+    files_.emplace_back(std::move(path), std::move(text));
+    return static_cast<FileId>(files_.size() - 1);
+}
+
+std::optional<FileId> Sources::load(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) return std::nullopt;
+    std::ostringstream text;
+    text << stream.rdbuf();
+    // Reading an empty file sets failbit on `text`; only a failing device makes `stream` bad,
+    // and a folder opens but cannot be read.
+    if (stream.bad() || std::filesystem::is_directory(path)) {
+        errno = std::filesystem::is_directory(path) ? EISDIR : EIO;
+        return std::nullopt;
+    }
+    return add(path.string(), std::move(text).str());
+}
+
+std::string_view Sources::text(Span span) const {
+    return std::string_view(files_[span.file].text()).substr(span.begin, span.end - span.begin);
+}
+
+std::string Sources::location(Span span) const {
+    const Position at = position(span);
+    return fmt::format("{}:{}:{}", files_[span.file].path(), at.line, at.column);
+}
+
+}  // namespace rddlc
