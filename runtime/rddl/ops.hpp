@@ -1,0 +1,227 @@
+// RDDL's scalar operators where C++ has none, or one that means something else.
+//
+// int is int64 and wraps around; real is IEEE double. Nothing here is undefined for any operand.
+// Real + - * / and comparisons, and the connectives on bool, are the plain C++ operators.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/lane.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace rddl {
+
+// ------------------------------------------------------------------------------ choices
+
+// Both values are evaluated by the caller.
+constexpr bool select(bool condition, bool a, bool b) {
+    return condition ? a : b;
+}
+constexpr std::int64_t select(bool condition, std::int64_t a, std::int64_t b) {
+    return condition ? a : b;
+}
+constexpr double select(bool condition, double a, double b) {
+    return condition ? a : b;
+}
+
+// Evaluates only the branch taken; the branches are functions without parameters.
+template <class Then, class Else>
+constexpr auto branch(Context<Scalar>&, bool condition, Then&& then_value, Else&& else_value) {
+    return condition ? then_value() : else_value();
+}
+
+// ---------------------------------------------------------------------------- conversions
+
+constexpr std::int64_t to_int(bool a) {
+    return a ? 1 : 0;
+}
+constexpr double to_real(bool a) {
+    return a ? 1.0 : 0.0;
+}
+constexpr double to_real(std::int64_t a) {
+    return static_cast<double>(a);
+}
+
+// Truncates; nan and what int cannot hold give the least int, as the conversion of x86 does.
+constexpr std::int64_t truncate_to_int(double a) {
+    constexpr double limit = 0x1p63;
+    return a >= -limit && a < limit ? static_cast<std::int64_t>(a)
+                                    : std::numeric_limits<std::int64_t>::min();
+}
+
+// ------------------------------------------------------------------------- int arithmetic
+
+constexpr std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+constexpr std::int64_t wrap_sub(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+constexpr std::int64_t wrap_mul(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) * static_cast<std::uint64_t>(b));
+}
+constexpr std::int64_t wrap_neg(std::int64_t a) {
+    return wrap_sub(0, a);
+}
+
+// Rounds toward -inf; by 0 gives 0.
+constexpr std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+    if (b == 0) return 0;
+    if (b == -1) return wrap_neg(a);
+    const bool rounds_up = a % b != 0 && (a < 0) != (b < 0);
+    return a / b - (rounds_up ? 1 : 0);
+}
+
+// Has the sign of the divisor; by 0 gives 0.
+constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t b) {
+    if (b == 0 || b == -1) return 0;
+    const std::int64_t remainder = a % b;
+    return remainder != 0 && (remainder < 0) != (b < 0) ? remainder + b : remainder;
+}
+
+constexpr std::int64_t wrap_power(std::int64_t base, std::int64_t exponent) {
+    std::int64_t result = 1;
+    for (; exponent > 0; exponent >>= 1) {
+        if (exponent & 1) result = wrap_mul(result, base);
+        base = wrap_mul(base, base);
+    }
+    return result;
+}
+
+// Faults on a negative exponent.
+constexpr std::int64_t power(Context<Scalar>& context, Place place, std::int64_t base,
+                             std::int64_t exponent) {
+    const bool valid =
+        context.require(exponent >= 0, FaultKind::NegativeExponent, place, to_real(exponent));
+    return valid ? wrap_power(base, exponent) : 0;
+}
+
+// ------------------------------------------------------------------- ints and reals alike
+
+constexpr bool is_nan(std::int64_t) {
+    return false;
+}
+constexpr bool is_nan(double a) {
+    return a != a;
+}
+
+constexpr std::int64_t absolute(std::int64_t a) {
+    return a < 0 ? wrap_neg(a) : a;
+}
+inline double absolute(double a) {
+    return std::fabs(a);
+}
+
+constexpr std::int64_t sign(std::int64_t a) {
+    return to_int(a > 0) - to_int(a < 0);
+}
+constexpr std::int64_t sign(double a) {
+    return is_nan(a) ? std::numeric_limits<std::int64_t>::min() : to_int(a > 0) - to_int(a < 0);
+}
+
+constexpr std::int64_t minimum(std::int64_t a, std::int64_t b) {
+    return b < a ? b : a;
+}
+constexpr std::int64_t maximum(std::int64_t a, std::int64_t b) {
+    return a < b ? b : a;
+}
+// nan wins.
+constexpr double minimum(double a, double b) {
+    return a <= b || is_nan(a) ? a : b;
+}
+constexpr double maximum(double a, double b) {
+    return a >= b || is_nan(a) ? a : b;
+}
+
+// -------------------------------------------------------------------------- real functions
+
+// To int; halves go to the even neighbour.
+inline std::int64_t round(double a) {
+    return truncate_to_int(std::nearbyint(a));
+}
+inline std::int64_t floor(double a) {
+    return truncate_to_int(std::floor(a));
+}
+inline std::int64_t ceil(double a) {
+    return truncate_to_int(std::ceil(a));
+}
+
+// Has the sign of the divisor, unlike C's; by 0 gives nan.
+inline double floor_mod(double a, double b) {
+    const double remainder = std::fmod(a, b);
+    if (remainder == 0) return std::copysign(0.0, b);
+    return (remainder < 0) != (b < 0) ? remainder + b : remainder;
+}
+
+inline double exp(double a) {
+    return std::exp(a);
+}
+inline double ln(double a) {
+    return std::log(a);
+}
+inline double log(double a, double base) {
+    return std::log(a) / std::log(base);
+}
+inline double sqrt(double a) {
+    return std::sqrt(a);
+}
+inline double cos(double a) {
+    return std::cos(a);
+}
+inline double sin(double a) {
+    return std::sin(a);
+}
+inline double tan(double a) {
+    return std::tan(a);
+}
+inline double acos(double a) {
+    return std::acos(a);
+}
+inline double asin(double a) {
+    return std::asin(a);
+}
+inline double atan(double a) {
+    return std::atan(a);
+}
+inline double cosh(double a) {
+    return std::cosh(a);
+}
+inline double sinh(double a) {
+    return std::sinh(a);
+}
+inline double tanh(double a) {
+    return std::tanh(a);
+}
+inline double hypot(double a, double b) {
+    return std::hypot(a, b);
+}
+inline double power(double base, double exponent) {
+    return std::pow(base, exponent);
+}
+
+// Both fault unless a > 0.
+inline double ln_gamma(Context<Scalar>& context, Place place, double a) {
+    if (!context.require(a > 0, FaultKind::GammaArgument, place, a)) return 0.0;
+    int sign_of_gamma;
+    return ::lgamma_r(a, &sign_of_gamma);  // std::lgamma writes a global variable
+}
+inline double gamma(Context<Scalar>& context, Place place, double a) {
+    return context.require(a > 0, FaultKind::GammaArgument, place, a) ? std::tgamma(a) : 0.0;
+}
+
+// -------------------------------------------------------------------------------- indexing
+
+// An element of a nested std::array. The indices are in range by construction.
+template <class Array>
+constexpr auto at(const Array& array, std::int64_t index) {
+    return array[static_cast<std::size_t>(index)];
+}
+template <class Array, class... Indices>
+constexpr auto at(const Array& array, std::int64_t index, Indices... rest) {
+    return at(array[static_cast<std::size_t>(index)], rest...);
+}
+
+}  // namespace rddl

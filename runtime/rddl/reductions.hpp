@@ -1,0 +1,107 @@
+// Aggregations over the objects 0 .. n-1 of one variable; several variables are nested calls.
+//
+// The body is called once an object, in order, never short-circuited, so that the result of a
+// floating sum is fixed and a fault in any element is found. The first template parameter is the
+// type of the result. minimum_over, maximum_over, arg_min and arg_max need n > 0.
+#pragma once
+
+#include <rddl/lane.hpp>
+#include <rddl/ops.hpp>
+
+#include <cstdint>
+
+namespace rddl {
+
+namespace detail {
+
+constexpr std::int64_t plus(std::int64_t a, std::int64_t b) {
+    return wrap_add(a, b);
+}
+constexpr double plus(double a, double b) {
+    return a + b;
+}
+constexpr std::int64_t times(std::int64_t a, std::int64_t b) {
+    return wrap_mul(a, b);
+}
+constexpr double times(double a, double b) {
+    return a * b;
+}
+
+// Whether `a` replaces `best`: the first of equals stays, and so does the first nan.
+constexpr auto wins_minimum(auto a, auto best) {
+    return a < best || (is_nan(a) && !is_nan(best));
+}
+constexpr auto wins_maximum(auto a, auto best) {
+    return a > best || (is_nan(a) && !is_nan(best));
+}
+
+template <class Int, class Body, class Wins>
+constexpr Int arg_best(Index n, Body& body, Wins wins) {
+    Int best{0};
+    auto best_value = body(Index{0});
+    for (Index i = 1; i < n; ++i) {
+        const auto value = body(i);
+        const auto better = wins(value, best_value);
+        best = select(better, Int{i}, best);
+        best_value = select(better, value, best_value);
+    }
+    return best;
+}
+
+}  // namespace detail
+
+template <class T, class Body>
+constexpr T sum(Index n, Body&& body) {
+    T total{0};
+    for (Index i = 0; i < n; ++i) total = detail::plus(total, body(i));
+    return total;
+}
+
+template <class T, class Body>
+constexpr T product(Index n, Body&& body) {
+    T total{1};
+    for (Index i = 0; i < n; ++i) total = detail::times(total, body(i));
+    return total;
+}
+
+template <class T, class Body>
+constexpr T minimum_over(Index n, Body&& body) {
+    T best = body(Index{0});
+    for (Index i = 1; i < n; ++i) best = minimum(best, body(i));
+    return best;
+}
+
+template <class T, class Body>
+constexpr T maximum_over(Index n, Body&& body) {
+    T best = body(Index{0});
+    for (Index i = 1; i < n; ++i) best = maximum(best, body(i));
+    return best;
+}
+
+template <class Bool, class Body>
+constexpr Bool for_all(Index n, Body&& body) {
+    Bool all{true};
+    for (Index i = 0; i < n; ++i) all = body(i) && all;
+    return all;
+}
+
+template <class Bool, class Body>
+constexpr Bool exists(Index n, Body&& body) {
+    Bool any{false};
+    for (Index i = 0; i < n; ++i) any = body(i) || any;
+    return any;
+}
+
+template <class Int, class Body>
+constexpr Int arg_min(Index n, Body&& body) {
+    return detail::arg_best<Int>(n, body,
+                                 [](auto a, auto best) { return detail::wins_minimum(a, best); });
+}
+
+template <class Int, class Body>
+constexpr Int arg_max(Index n, Body&& body) {
+    return detail::arg_best<Int>(n, body,
+                                 [](auto a, auto best) { return detail::wins_maximum(a, best); });
+}
+
+}  // namespace rddl
