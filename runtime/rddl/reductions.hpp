@@ -28,12 +28,16 @@ constexpr double times(double a, double b) {
 }
 
 // Whether `a` replaces `best`: the first of equals stays, and so does the first nan.
-constexpr auto wins_minimum(auto a, auto best) {
-    return a < best || (is_nan(a) && !is_nan(best));
-}
-constexpr auto wins_maximum(auto a, auto best) {
-    return a > best || (is_nan(a) && !is_nan(best));
-}
+struct WinsMinimum {
+    constexpr auto operator()(auto a, auto best) const {
+        return a < best || (is_nan(a) && !is_nan(best));
+    }
+};
+struct WinsMaximum {
+    constexpr auto operator()(auto a, auto best) const {
+        return a > best || (is_nan(a) && !is_nan(best));
+    }
+};
 
 template <class Int, class Body, class Wins>
 constexpr Int arg_best(Index n, Body& body, Wins wins) {
@@ -94,14 +98,12 @@ constexpr Bool exists(Index n, Body&& body) {
 
 template <class Int, class Body>
 constexpr Int arg_min(Index n, Body&& body) {
-    return detail::arg_best<Int>(n, body,
-                                 [](auto a, auto best) { return detail::wins_minimum(a, best); });
+    return detail::arg_best<Int>(n, body, detail::WinsMinimum{});
 }
 
 template <class Int, class Body>
 constexpr Int arg_max(Index n, Body&& body) {
-    return detail::arg_best<Int>(n, body,
-                                 [](auto a, auto best) { return detail::wins_maximum(a, best); });
+    return detail::arg_best<Int>(n, body, detail::WinsMaximum{});
 }
 
 }  // namespace rddl
