@@ -176,7 +176,7 @@ struct Model {
 
     std::vector<Cpf> cpfs;  // in evaluation order (semantics 4.6)
     Expr reward;            // real
-    // Each of type bool. State-action constraints are kept for information; nothing enforces them.
+    // Each of type bool. State-action constraints are not kept: nothing enforces them.
     std::vector<Expr> action_preconditions;
     std::vector<Expr> state_invariants;
     std::vector<Expr> terminations;

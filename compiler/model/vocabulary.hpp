@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace rddlc {
 
@@ -55,14 +57,21 @@ std::string_view name_of(Reduction reduction);        // as in RDDL: "sum", "for
 std::string_view name_of(Distribution distribution);  // as in RDDL: "Normal", ...
 
 int arity_of(Operator op);
+// Written name[...] in RDDL, unlike the infix and prefix operators.
+bool is_function(Operator op);
 int arity_of(Distribution distribution);
 
 // True for operators that fault on some operands: Power on ints, LnGamma, Gamma.
 bool may_fault(Operator op, bool on_integers);
 
+std::optional<Role> role_named(std::string_view name);
 std::optional<Reduction> reduction_named(std::string_view name);
 std::optional<Distribution> distribution_named(std::string_view name);
 // Functions called with square brackets: f[...]. "abs", "div", "pow", ...
 std::optional<Operator> function_named(std::string_view name);
+
+// All of them, to suggest a near name.
+std::vector<std::string> function_names();
+std::vector<std::string> reduction_names();
 
 }  // namespace rddlc
