@@ -198,6 +198,12 @@ inline double tanh(double a) {
 inline double hypot(double a, double b) {
     return std::hypot(a, b);
 }
+inline double exp_minus_one(double a) {
+    return std::expm1(a);
+}  // this and the next: for kernels
+inline double ln_one_plus(double a) {
+    return std::log1p(a);
+}
 inline double power(double base, double exponent) {
     return std::pow(base, exponent);
 }

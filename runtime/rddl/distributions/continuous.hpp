@@ -1,0 +1,133 @@
+// Continuous distributions by inversion: one uniform number each, so a draw is a monotone
+// function of it. U is uniform on the open interval (0, 1) and stands for 1 - U where that is the
+// same law. Laws, checks and sources: docs/distributions.md.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/distributions/normal_quantile.hpp>
+#include <rddl/lane.hpp>
+#include <rddl/ops.hpp>
+#include <rddl/random.hpp>
+
+#include <limits>
+#include <numbers>
+
+namespace rddl::sample {
+
+// On [lower, upper); lower = upper gives lower. The width must be finite and not negative.
+template <class L>
+typename L::Real uniform(Context<L>& context, Place place, typename L::Real lower,
+                         typename L::Real upper) {
+    using Real = typename L::Real;
+    const Real width = upper - lower;
+    const auto valid = context.require(width >= 0.0 && width <= std::numeric_limits<double>::max(),
+                                       FaultKind::Width, place, width);
+    const Real draw = lower + width * uniform_at(context, place);
+    const Real rounded_into_range = select(draw < upper, draw, lower);
+    return select(valid, rounded_into_range, Real{0});
+}
+
+// Variance, not standard deviation; variance 0 gives the mean.
+template <class L>
+typename L::Real normal(Context<L>& context, Place place, typename L::Real mean,
+                        typename L::Real variance) {
+    using Real = typename L::Real;
+    const auto valid = context.require(variance >= 0.0, FaultKind::Variance, place, variance);
+    const Real standard = normal_quantile(open_uniform_at(context, place));
+    return select(valid, mean + sqrt(variance) * standard, Real{0});
+}
+
+// -mean ln U.
+template <class L>
+typename L::Real exponential(Context<L>& context, Place place, typename L::Real mean) {
+    using Real = typename L::Real;
+    const auto valid = context.require(mean > 0.0, FaultKind::Mean, place, mean);
+    return select(valid, -ln(open_uniform_at(context, place)) * mean, Real{0});
+}
+
+namespace detail {
+
+template <class L>
+auto require_shape_and_scale(Context<L>& context, Place place, typename L::Real shape,
+                             typename L::Real scale) {
+    const auto shape_is_valid = context.require(shape > 0.0, FaultKind::Shape, place, shape);
+    const auto scale_is_valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
+    return shape_is_valid && scale_is_valid;
+}
+
+}  // namespace detail
+
+// scale (-ln U)^(1 / shape).
+template <class L>
+typename L::Real weibull(Context<L>& context, Place place, typename L::Real shape,
+                         typename L::Real scale) {
+    using Real = typename L::Real;
+    const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
+    const Real standard = -ln(open_uniform_at(context, place));
+    return select(valid, scale * power(standard, 1.0 / shape), Real{0});
+}
+
+// Lomax's form, with support from 0: scale (U^(-1 / shape) - 1).
+template <class L>
+typename L::Real pareto(Context<L>& context, Place place, typename L::Real shape,
+                        typename L::Real scale) {
+    using Real = typename L::Real;
+    const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
+    const Real logarithm = -ln(open_uniform_at(context, place)) / shape;
+    return select(valid, scale * exp_minus_one(logarithm), Real{0});
+}
+
+// location - scale ln(-ln U): of maxima.
+template <class L>
+typename L::Real gumbel(Context<L>& context, Place place, typename L::Real location,
+                        typename L::Real scale) {
+    using Real = typename L::Real;
+    const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
+    const Real standard = -ln(-ln(open_uniform_at(context, place)));
+    return select(valid, location + scale * standard, Real{0});
+}
+
+// An exponential on either side of the location.
+template <class L>
+typename L::Real laplace(Context<L>& context, Place place, typename L::Real location,
+                         typename L::Real scale) {
+    using Real = typename L::Real;
+    const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
+    const Real u = open_uniform_at(context, place);
+    const Real tail = ln(2.0 * minimum(u, 1.0 - u));
+    return select(valid, location + scale * select(u < 0.5, tail, -tail), Real{0});
+}
+
+// tan(pi (U - 1/2)) as a cotangent of the distance to the nearer end: exact in both tails.
+template <class L>
+typename L::Real cauchy(Context<L>& context, Place place, typename L::Real location,
+                        typename L::Real scale) {
+    using Real = typename L::Real;
+    const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
+    const Real u = open_uniform_at(context, place);
+    const Real tail = 1.0 / tan(std::numbers::pi * minimum(u, 1.0 - u));
+    return select(valid, location + scale * select(u < 0.5, -tail, tail), Real{0});
+}
+
+// ln(1 - ln(U) / shape) / rate; RDDL calls the rate a scale.
+template <class L>
+typename L::Real gompertz(Context<L>& context, Place place, typename L::Real shape,
+                          typename L::Real rate) {
+    using Real = typename L::Real;
+    const auto valid = detail::require_shape_and_scale(context, place, shape, rate);
+    const Real standard = -ln(open_uniform_at(context, place));
+    return select(valid, ln_one_plus(standard / shape) / rate, Real{0});
+}
+
+// (1 - U^(1/b))^(1/a).
+template <class L>
+typename L::Real kumaraswamy(Context<L>& context, Place place, typename L::Real a,
+                             typename L::Real b) {
+    using Real = typename L::Real;
+    const auto a_is_valid = context.require(a > 0.0, FaultKind::Shape, place, a);
+    const auto b_is_valid = context.require(b > 0.0, FaultKind::Shape, place, b);
+    const Real inner = -exp_minus_one(ln(open_uniform_at(context, place)) / b);
+    return select(a_is_valid && b_is_valid, power(inner, 1.0 / a), Real{0});
+}
+
+}  // namespace rddl::sample

@@ -1,0 +1,89 @@
+// The Poisson distribution and its gamma mixture. Laws, checks and sources: docs/distributions.md.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/distributions/gamma.hpp>
+#include <rddl/distributions/saddle_point.hpp>
+#include <rddl/lane.hpp>
+#include <rddl/ops.hpp>
+#include <rddl/random.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace rddl {
+
+// Above it a draw might not fit an int.
+inline constexpr double largest_poisson_rate = 9.2e18;
+
+namespace detail {
+
+// Walks up the distribution function; rate < 10, so that ending at 100 loses 1e-60.
+inline std::int64_t poisson_by_inversion(Draws& draws, double rate) {
+    double rest = draws.uniform();
+    double probability = std::exp(-rate);
+    std::int64_t k = 0;
+    while (rest >= probability && k < 100) {
+        rest -= probability;
+        ++k;
+        probability *= rate / to_real(k);
+    }
+    return k;
+}
+
+// W. Hoermann, "The transformed rejection method for generating Poisson random variables",
+// Insurance: Mathematics and Economics 12 (1993), 39-45: algorithm PTRS; rate >= 10.
+inline std::int64_t poisson_by_rejection(Draws& draws, double rate) {
+    const double b = 0.931 + 2.53 * std::sqrt(rate);
+    const double a = -0.059 + 0.02483 * b;
+    const double inverse_alpha = 1.1239 + 1.1328 / (b - 3.4);
+    const double quick_limit = 0.9277 - 3.6224 / (b - 2.0);
+    for (int attempt = 0; attempt < rejection_limit; ++attempt) {
+        const double u = draws.open_uniform() - 0.5;
+        const double v = draws.open_uniform();
+        const double distance = 0.5 - std::fabs(u);
+        const double k = std::floor((2.0 * a / distance + b) * u + rate + 0.43);
+        if (distance >= 0.07 && v <= quick_limit) return truncate_to_int(k);
+        if (k < 0 || (distance < 0.013 && v > distance)) continue;
+        const double height = std::log(v * inverse_alpha / (a / (distance * distance) + b));
+        if (height <= ln_poisson_probability(k, rate)) return truncate_to_int(k);
+    }
+    return truncate_to_int(rate);
+}
+
+}  // namespace detail
+
+// 0 <= rate <= largest_poisson_rate.
+inline std::int64_t standard_poisson(Draws& draws, double rate) {
+    return rate < 10 ? detail::poisson_by_inversion(draws, rate)
+                     : detail::poisson_by_rejection(draws, rate);
+}
+
+namespace sample {
+
+template <class L>
+typename L::Int poisson(Context<L>& context, Place place, typename L::Real rate) {
+    const auto valid =
+        context.require(rate >= 0.0 && rate <= largest_poisson_rate, FaultKind::Rate, place, rate);
+    return draw_in_each_lane(context, place, valid, standard_poisson, rate);
+}
+
+// Failures before the r-th success: a Poisson count whose rate is a gamma draw. r may be real.
+template <class L>
+typename L::Int negative_binomial(Context<L>& context, Place place, typename L::Real r,
+                                  typename L::Real p) {
+    const auto r_is_valid = context.require(r > 0.0, FaultKind::Successes, place, r);
+    const auto p_is_valid =
+        context.require(p > 0.0 && p <= 1.0, FaultKind::PositiveProbability, place, p);
+    const auto kernel = [&context, place](Draws& draws, double shape, double probability) {
+        const double rate = standard_gamma(draws, shape) * ((1.0 - probability) / probability);
+        const bool fits =
+            context.require(rate <= largest_poisson_rate, FaultKind::CountTooLarge, place, rate);
+        return fits ? standard_poisson(draws, rate) : std::int64_t{0};
+    };
+    return draw_in_each_lane(context, place, r_is_valid && p_is_valid, kernel, r, p);
+}
+
+}  // namespace sample
+
+}  // namespace rddl
