@@ -1,0 +1,228 @@
+// The C interface (simulator.h) over Batch<Engine>: arguments are checked here, faults are put
+// into words, and no exception passes.
+#pragma once
+
+#include <rddl/batch.hpp>
+#include <rddl/engine.hpp>
+#include <rddl/record_checks.hpp>
+#include <rddl/simulator.h>
+#include <rddl/sites.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+namespace rddl {
+
+// The options with their defaults resolved; nothing if they are out of range.
+inline std::optional<BatchOptions> checked_options(const rddl_problem& problem,
+                                                   const rddl_batch_options& given) {
+    const bool valid = given.environment_count > 0 && given.thread_count >= 0 &&
+                       given.autoreset >= RDDL_AUTORESET_DISABLED &&
+                       given.autoreset <= RDDL_AUTORESET_SAME_STEP && given.horizon >= -1;
+    if (!valid) return std::nullopt;
+    const std::int64_t threads =
+        given.thread_count > 0 ? given.thread_count : std::thread::hardware_concurrency();
+    const std::int64_t useful_threads = threads < 1 ? 1
+                                        : threads < given.environment_count
+                                            ? threads
+                                            : given.environment_count;
+    return BatchOptions{.environment_count = given.environment_count,
+                        .first_environment = given.first_environment,
+                        .seed = given.seed,
+                        .thread_count = static_cast<int>(useful_threads),
+                        .autoreset = given.autoreset,
+                        .horizon = given.horizon < 0 ? problem.horizon : given.horizon,
+                        .partially_observed = problem.partially_observed != 0};
+}
+
+// A simulator for C: description, sites and engine, and the table of functions over them. The
+// description and the sites must outlive it; it must outlive its batches. An emitted file ends in
+//
+//     extern "C" const rddl_simulator* rddl_simulator_entry() {
+//         static const rddl::SimulatorTable table(problem, sites, rddl::Compiled<Simulator>());
+//         return table.get();
+//     }
+template <Engine E>
+class SimulatorTable {
+  public:
+    SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine)
+        : problem_(&problem), sites_(sites), engine_(std::move(engine)) {}
+    SimulatorTable(const SimulatorTable&) = delete;
+    SimulatorTable& operator=(const SimulatorTable&) = delete;
+
+    const rddl_simulator* get() const { return &table_; }
+
+  private:
+    // What an rddl_batch is.
+    struct Handle {
+        const SimulatorTable* maker;
+        Batch<E> batch;
+
+        const rddl_problem& problem() const { return *maker->problem_; }
+        bool has(std::int64_t begin, std::int64_t count) const {
+            const std::int64_t all = batch.environment_count();
+            return begin >= 0 && count >= 0 && begin <= all && count <= all - begin;
+        }
+        bool accepts_actions(const void* actions) const {
+            if (problem().action_size == 0) return true;
+            return actions != nullptr &&
+                   records_are_valid(problem(), RDDL_ACTION, actions, batch.environment_count());
+        }
+    };
+    static Handle& handle(rddl_batch* batch) { return *reinterpret_cast<Handle*>(batch); }
+    static const Handle& handle(const rddl_batch* batch) {
+        return *reinterpret_cast<const Handle*>(batch);
+    }
+
+    bool sizes_agree() const {
+        return engine_.state_size() == static_cast<std::size_t>(problem_->state_size) &&
+               engine_.action_size() == static_cast<std::size_t>(problem_->action_size) &&
+               engine_.observation_size() == static_cast<std::size_t>(problem_->observation_size);
+    }
+
+    static rddl_batch* create(const rddl_simulator* simulator, const rddl_batch_options* options) {
+        if (simulator == nullptr || options == nullptr) return nullptr;
+        const auto& maker = *static_cast<const SimulatorTable*>(simulator->self);
+        const auto checked = checked_options(*maker.problem_, *options);
+        if (!checked || !maker.sizes_agree()) return nullptr;
+        try {
+            return reinterpret_cast<rddl_batch*>(new Handle{&maker, {maker.engine_, *checked}});
+        } catch (...) {
+            return nullptr;
+        }
+    }
+
+    static rddl_batch* copy(const rddl_batch* batch) {
+        if (batch == nullptr) return nullptr;
+        try {
+            return reinterpret_cast<rddl_batch*>(new Handle(handle(batch)));
+        } catch (...) {
+            return nullptr;
+        }
+    }
+
+    static void destroy(rddl_batch* batch) {
+        if (batch != nullptr) delete &handle(batch);
+    }
+
+    static rddl_error reset(rddl_batch* batch, const std::uint8_t* mask, void* observations) {
+        if (batch == nullptr) return RDDL_BAD_ARGUMENT;
+        handle(batch).batch.reset(mask, static_cast<std::byte*>(observations));
+        return RDDL_OK;
+    }
+
+    static rddl_error step(rddl_batch* batch, const void* actions, const rddl_transition* out) {
+        if (batch == nullptr || out == nullptr || !handle(batch).accepts_actions(actions))
+            return RDDL_BAD_ARGUMENT;
+        handle(batch).batch.step(static_cast<const std::byte*>(actions), *out);
+        return RDDL_OK;
+    }
+
+    static rddl_error violated_preconditions(rddl_batch* batch, const void* actions,
+                                             std::int32_t* first_violated) {
+        if (batch == nullptr || first_violated == nullptr ||
+            !handle(batch).accepts_actions(actions))
+            return RDDL_BAD_ARGUMENT;
+        handle(batch).batch.violated_preconditions(static_cast<const std::byte*>(actions),
+                                                   first_violated);
+        return RDDL_OK;
+    }
+
+    // Calls body(k, environment) for each of the environments.
+    template <class Body>
+    static rddl_error for_each(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                               Body&& body) {
+        if (batch == nullptr || !handle(batch).has(begin, count)) return RDDL_BAD_ARGUMENT;
+        for (std::int64_t k = 0; k < count; ++k) body(k, begin + k);
+        return RDDL_OK;
+    }
+
+    static rddl_error get_state(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                void* states) {
+        if (states == nullptr) return RDDL_BAD_ARGUMENT;
+        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+            const std::int64_t size = handle(batch).problem().state_size;
+            std::memcpy(static_cast<std::byte*>(states) + k * size, handle(batch).batch.state(i),
+                        static_cast<std::size_t>(size));
+        });
+    }
+
+    static rddl_error get_observation(const rddl_batch* batch, std::int64_t begin,
+                                      std::int64_t count, void* records) {
+        if (records == nullptr) return RDDL_BAD_ARGUMENT;
+        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+            const std::int64_t size = handle(batch).problem().observation_size;
+            std::memcpy(static_cast<std::byte*>(records) + k * size,
+                        handle(batch).batch.observation(i), static_cast<std::size_t>(size));
+        });
+    }
+
+    static rddl_error set_state(rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                const void* states) {
+        if (batch == nullptr || states == nullptr || !handle(batch).has(begin, count) ||
+            !records_are_valid(handle(batch).problem(), RDDL_STATE, states, count))
+            return RDDL_BAD_ARGUMENT;
+        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+            const std::int64_t size = handle(batch).problem().state_size;
+            handle(batch).batch.set_state(i, static_cast<const std::byte*>(states) + k * size);
+        });
+    }
+
+    static rddl_error get_progress(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                   std::int64_t* steps, std::int64_t* episodes) {
+        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+            if (steps != nullptr) steps[k] = handle(batch).batch.episode(i).steps;
+            if (episodes != nullptr) episodes[k] = handle(batch).batch.episode(i).number;
+        });
+    }
+
+    static rddl_error get_causes(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+                                 std::uint8_t* causes) {
+        if (causes == nullptr) return RDDL_BAD_ARGUMENT;
+        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+            causes[k] = handle(batch).batch.episode(i).causes;
+        });
+    }
+
+    static rddl_error get_fault(const rddl_batch* batch, std::int64_t environment,
+                                rddl_fault* fault) {
+        if (fault == nullptr) return RDDL_BAD_ARGUMENT;
+        return for_each(batch, environment, 1, [&](std::int64_t, std::int64_t i) {
+            const Episode& episode = handle(batch).batch.episode(i);
+            fault->faulty = episode.fault ? 1 : 0;
+            if (!episode.fault) return;
+            const Site& site = handle(batch).maker->sites_[episode.fault.place.site];
+            fault->step = static_cast<std::int32_t>(episode.fault_steps);
+            fault->source = site.source;
+            describe_fault(episode.fault, site, fault->message);
+        });
+    }
+
+    const rddl_problem* problem_;
+    std::span<const Site> sites_;
+    E engine_;
+    rddl_simulator table_{.abi_version = RDDL_ABI_VERSION,
+                          .struct_size = sizeof(rddl_simulator),
+                          .problem = problem_,
+                          .self = this,
+                          .create = create,
+                          .destroy = destroy,
+                          .reset = reset,
+                          .step = step,
+                          .get_state = get_state,
+                          .set_state = set_state,
+                          .get_observation = get_observation,
+                          .get_progress = get_progress,
+                          .get_causes = get_causes,
+                          .get_fault = get_fault,
+                          .violated_preconditions = violated_preconditions,
+                          .copy = copy};
+};
+
+}  // namespace rddl

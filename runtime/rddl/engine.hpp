@@ -1,0 +1,38 @@
+// What a batch needs from a simulator of one environment, compiled or interpreted.
+//
+// An engine is immutable and shared by threads: all its functions are const and work on records
+// that the caller owns, laid out as simulator.h says. Pointers are never null and are aligned for
+// any element, also where a record is empty.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/lane.hpp>
+
+#include <concepts>
+#include <cstddef>
+
+namespace rddl {
+
+template <class E>
+concept Engine = requires(const E engine, const std::byte* record, std::byte* target,
+                          Context<Scalar>& context) {
+    // Bytes of one record; 0 for an empty one. Scratch is whatever a step needs beside them.
+    { engine.state_size() } -> std::convertible_to<std::size_t>;
+    { engine.action_size() } -> std::convertible_to<std::size_t>;
+    { engine.observation_size() } -> std::convertible_to<std::size_t>;
+    { engine.scratch_size() } -> std::convertible_to<std::size_t>;
+
+    // reset(state): the initial values.
+    {engine.reset(target)};
+    // step(state, action, scratch, next, observation, context): fills the next state, and the
+    // observation of a partially observed problem; the reward.
+    { engine.step(record, record, target, target, target, context) } -> std::convertible_to<double>;
+
+    // Whether a termination condition holds.
+    { engine.terminal(record, context) } -> std::convertible_to<bool>;
+    // The first violated condition, or -1. One that faults counts as violated.
+    { engine.violated_invariant(record, context) } -> std::convertible_to<int>;
+    { engine.violated_precondition(record, record, context) } -> std::convertible_to<int>;
+};
+
+}  // namespace rddl
