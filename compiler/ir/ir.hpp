@@ -5,7 +5,9 @@
 // expressions have equal ids. Loops over objects stay loops. Objects are integers.
 //
 // Invariants, checked by verify.hpp: operands precede their users in the pool; every loop index is
-// used inside the statement or reduction that binds it; types fit; sites are used once.
+// used inside the statement or reduction that binds it, and not bound again there (several loops
+// side by side may bind the same variable); types fit; each site is used by one node; the right
+// operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
 
 #include <compare>
@@ -208,7 +210,7 @@ struct Fluent {
     Scalar scalar;
     std::optional<std::uint32_t> object_type;    // range, for object- and enumerated-valued fluents
     std::vector<std::uint32_t> parameter_types;  // index into Program::types
-    BufferId buffer;
+    std::optional<BufferId> buffer;              // absent: nothing reads it (a pass found out)
     Span span;
     // Per grounding, from action-preconditions and state-invariants (semantics of env-and-viz 1.1);
     // -inf/+inf where nothing bounds it. Only for numeric State and Action fluents; else empty.

@@ -1,0 +1,290 @@
+#include "ir/analysis.hpp"
+
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::ir {
+namespace {
+
+constexpr double cheap_cost = 6;
+
+// In units of an addition.
+double cost_of(Operator op) {
+    switch (op) {
+        case Operator::Divide:
+        case Operator::FloorDivide:
+        case Operator::FloorModulo:
+        case Operator::Sqrt:
+            return 4;
+        case Operator::FloorModuloReal:
+        case Operator::Power:
+        case Operator::Exp:
+        case Operator::Ln:
+        case Operator::Cos:
+        case Operator::Sin:
+        case Operator::Tan:
+        case Operator::Acos:
+        case Operator::Asin:
+        case Operator::Atan:
+        case Operator::Cosh:
+        case Operator::Sinh:
+        case Operator::Tanh:
+        case Operator::Log:
+        case Operator::Hypot:
+        case Operator::LnGamma:
+        case Operator::Gamma:
+            return 20;
+        default:
+            return 1;
+    }
+}
+
+double as_real(const Value& value) {
+    return match(value, [](auto v) { return static_cast<double>(v); });
+}
+
+std::optional<Range> range_of(const std::vector<Value>& values) {
+    if (values.empty()) return std::nullopt;
+    Range range{HUGE_VAL, -HUGE_VAL};
+    for (const Value& value : values) {
+        const double v = as_real(value);
+        if (std::isnan(v)) return std::nullopt;
+        range = join(range, {v, v});
+    }
+    return range;
+}
+
+// Joins what is known of operands into what is known of their user.
+class Collector {
+  public:
+    Collector(const Program& program, std::span<const Facts> known)
+        : program_(program), known_(known) {}
+
+    Facts facts_of(const Node& node) {
+        for (NodeId operand : operands_of(node)) add(known_[operand.index]);
+        match(node.form, [&](const auto& form) { describe(node.type, form); });
+        return std::move(facts_);
+    }
+
+  private:
+    void add(const Facts& operand) {
+        facts_.may_fault |= operand.may_fault;
+        facts_.random |= operand.random;
+        facts_.uniform &= operand.uniform;
+        facts_.cost += operand.cost;
+        std::vector<VariableId> merged;
+        std::set_union(facts_.free_variables.begin(), facts_.free_variables.end(),
+                       operand.free_variables.begin(), operand.free_variables.end(),
+                       std::back_inserter(merged));
+        facts_.free_variables = std::move(merged);
+    }
+
+    void describe(Scalar, const Constant& constant) { facts_.range = range_of({constant.value}); }
+
+    void describe(Scalar, const Index& index) {
+        facts_.free_variables = {index.variable};
+        const auto last = static_cast<double>(program_[index.variable].size - 1);
+        if (last >= 0) facts_.range = Range{0, last};
+    }
+
+    void describe(Scalar, const Load& load) {
+        facts_.cost += 1;
+        const Buffer& buffer = program_[load.buffer];
+        facts_.uniform &= buffer.storage == Storage::Constant;
+        if (buffer.storage == Storage::Constant) facts_.range = table_range(load.buffer);
+    }
+
+    void describe(Scalar type, const Local&) {
+        facts_.uniform = false;
+        if (type == Scalar::Bool) facts_.range = Range{0, 1};
+    }
+
+    void describe(Scalar, const Convert& convert) { facts_.range = range(convert.operand); }
+
+    void describe(Scalar type, const Apply& apply) {
+        facts_.cost += cost_of(apply.op);
+        std::vector<std::optional<Range>> ranges;
+        for (NodeId operand : apply.operands) ranges.push_back(range(operand));
+        if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
+        if (type == Scalar::Bool) facts_.range = Range{0, 1};
+        if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
+    }
+
+    void describe(Scalar, const Select& select) {
+        facts_.cost += 1;
+        const auto a = range(select.then_value);
+        const auto b = range(select.else_value);
+        if (a && b) facts_.range = join(*a, *b);
+    }
+
+    void describe(Scalar, const Reduce& reduce) { bind(reduce.variable, reduce.body); }
+
+    void describe(Scalar, const Sample& sample) {
+        std::vector<std::optional<Range>> ranges;
+        for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
+        draw(!always_in_domain(sample.distribution, ranges));
+        facts_.cost += 20;
+    }
+
+    void describe(Scalar, const Discrete&) {
+        draw(true);
+        facts_.cost += 20;
+    }
+
+    void describe(Scalar, const DiscreteOver& discrete) {
+        bind(discrete.variable, discrete.weight);
+        draw(true);
+        facts_.cost += 20;
+    }
+
+    void describe(Scalar, const Fault&) {
+        facts_.may_fault = true;
+        facts_.uniform = false;
+    }
+
+    void bind(VariableId variable, NodeId body) {
+        std::erase(facts_.free_variables, variable);
+        const auto size = static_cast<double>(std::max<std::int64_t>(program_[variable].size, 1));
+        facts_.cost += known_[body.index].cost * (size - 1) + size;
+    }
+
+    void draw(bool may_fault) {
+        facts_.random = true;
+        facts_.uniform = false;
+        facts_.may_fault |= may_fault;
+    }
+
+    // Of the operators that may fault.
+    static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
+        if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
+        return operands[0] && operands[0]->lower > 0;
+    }
+
+    std::optional<Range> range(NodeId id) const { return known_[id.index].range; }
+
+    std::optional<Range> table_range(BufferId id) const { return range_of(program_[id].values); }
+
+    const Program& program_;
+    std::span<const Facts> known_;
+    Facts facts_;
+};
+
+void append_roots(const Block& block, std::vector<NodeId>& roots) {
+    for (const Statement& statement : block) {
+        match(
+            statement.form, [&](const Let& let) { roots.push_back(let.value); },
+            [&](const Store& store) {
+                roots.insert(roots.end(), store.indices.begin(), store.indices.end());
+                roots.push_back(store.value);
+            },
+            [&](const Loop& loop) { append_roots(loop.body, roots); });
+    }
+}
+
+void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
+    append_roots(computation.body, roots);
+    roots.push_back(computation.value);
+}
+
+}  // namespace
+
+Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known) {
+    return Collector(program, known).facts_of(node);
+}
+
+std::vector<Facts> all_facts(const Program& program) {
+    std::vector<Facts> facts;
+    facts.reserve(program.nodes.size());
+    for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts));
+    return facts;
+}
+
+bool is_cheap(const Facts& facts) {
+    return is_droppable(facts) && facts.cost <= cheap_cost;
+}
+
+std::vector<NodeId> operands_of(const Node& node) {
+    const auto with_place = [](const std::optional<Place>& place, std::vector<NodeId> operands) {
+        if (place) operands.push_back(place->index);
+        return operands;
+    };
+    return match(
+        node.form, [](const Constant&) { return std::vector<NodeId>{}; },
+        [](const Index&) { return std::vector<NodeId>{}; },
+        [](const Local&) { return std::vector<NodeId>{}; },
+        [](const Load& load) { return load.indices; },
+        [](const Convert& convert) { return std::vector{convert.operand}; },
+        [&](const Apply& apply) { return with_place(apply.place, apply.operands); },
+        [](const Select& select) {
+            return std::vector{select.condition, select.then_value, select.else_value};
+        },
+        [](const Reduce& reduce) { return std::vector{reduce.body}; },
+        [&](const Sample& sample) { return with_place(sample.place, sample.parameters); },
+        [&](const Discrete& discrete) { return with_place(discrete.place, discrete.weights); },
+        [&](const DiscreteOver& discrete) { return with_place(discrete.place, {discrete.weight}); },
+        [](const Fault& fault) { return std::vector{fault.place.index}; });
+}
+
+std::optional<Place> place_of(const Node& node) {
+    return match(
+        node.form, [](const Apply& apply) { return apply.place; },
+        [](const Sample& sample) { return std::optional(sample.place); },
+        [](const Discrete& discrete) { return std::optional(discrete.place); },
+        [](const DiscreteOver& discrete) { return std::optional(discrete.place); },
+        [](const Fault& fault) { return std::optional(fault.place); },
+        [](const auto&) { return std::optional<Place>(); });
+}
+
+std::optional<VariableId> bound_variable(const Node& node) {
+    if (const auto* reduce = std::get_if<Reduce>(&node.form)) return reduce->variable;
+    if (const auto* discrete = std::get_if<DiscreteOver>(&node.form)) return discrete->variable;
+    return std::nullopt;
+}
+
+std::vector<NodeId> roots_of(const Block& block) {
+    std::vector<NodeId> roots;
+    append_roots(block, roots);
+    return roots;
+}
+
+std::vector<NodeId> roots_of(const Computation& computation) {
+    std::vector<NodeId> roots;
+    append_roots(computation, roots);
+    return roots;
+}
+
+std::vector<NodeId> roots_of(const Program& program) {
+    std::vector<NodeId> roots;
+    for (const Definition& definition : program.step) append_roots(definition.body, roots);
+    append_roots(program.reward, roots);
+    for (const Computation& condition : program.preconditions) append_roots(condition, roots);
+    for (const Computation& condition : program.invariants) append_roots(condition, roots);
+    for (const Computation& condition : program.terminations) append_roots(condition, roots);
+    return roots;
+}
+
+std::vector<bool> reachable_nodes(const Program& program) {
+    std::vector<bool> reachable(program.nodes.size(), false);
+    for (NodeId root : roots_of(program)) reachable[root.index] = true;
+    for (std::size_t index = program.nodes.size(); index-- > 0;) {
+        if (!reachable[index]) continue;
+        for (NodeId operand : operands_of(program.nodes[index])) reachable[operand.index] = true;
+    }
+    return reachable;
+}
+
+bool is_stochastic(const Program& program) {
+    const std::vector<bool> reachable = reachable_nodes(program);
+    for (std::size_t index = 0; index < reachable.size(); ++index) {
+        const Node& node = program.nodes[index];
+        const bool draws = std::holds_alternative<Sample>(node.form) ||
+                           std::holds_alternative<Discrete>(node.form) ||
+                           std::holds_alternative<DiscreteOver>(node.form);
+        if (reachable[index] && draws) return true;
+    }
+    return false;
+}
+
+}  // namespace rddlc::ir

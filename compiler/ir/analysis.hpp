@@ -1,0 +1,59 @@
+// Small questions about expressions, answered for a whole pool in one pass over it.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "ir/range.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rddlc::ir {
+
+// What holds of a node wherever it is used.
+struct Facts {
+    bool may_fault = false;  // evaluating it may record a fault
+    bool random = false;     // it draws
+    // Depends on constants and loop indices only: equal in all lanes, known to the compiler. So an
+    // index that is uniform may be spelled array[i]; any other needs at(array, i).
+    bool uniform = true;
+    // Roughly the number of simple operations of one evaluation, loops multiplied out.
+    double cost = 0;
+    std::optional<Range> range;  // within which its value lies for certain; none: anything, or nan
+    std::vector<VariableId> free_variables;  // sorted; those not bound inside the node
+};
+
+// Of a node whose operands' facts are already in `known`.
+Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known);
+// Of all nodes of the program, by NodeId::index.
+std::vector<Facts> all_facts(const Program& program);
+
+// Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
+// no more than a handful of operations. A Select of two cheap branches needs no branch.
+bool is_cheap(const Facts& facts);
+// The value may be forgotten without anybody noticing.
+inline bool is_droppable(const Facts& facts) {
+    return !facts.may_fault && !facts.random;
+}
+
+// The nodes that a node uses directly, place included, in evaluation order.
+std::vector<NodeId> operands_of(const Node& node);
+// The place of a node that draws or may fault.
+std::optional<Place> place_of(const Node& node);
+// The variable that a node binds in its body (Reduce, DiscreteOver).
+std::optional<VariableId> bound_variable(const Node& node);
+
+// Every value and index that the statements evaluate, in order, those of nested loops included.
+std::vector<NodeId> roots_of(const Block& block);
+std::vector<NodeId> roots_of(const Computation& computation);
+// All of the program: the step, the reward and the conditions.
+std::vector<NodeId> roots_of(const Program& program);
+
+// By NodeId::index: is the node part of something that the program evaluates?
+std::vector<bool> reachable_nodes(const Program& program);
+
+// Does anything that the program evaluates draw at random?
+bool is_stochastic(const Program& program);
+
+}  // namespace rddlc::ir

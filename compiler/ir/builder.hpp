@@ -1,0 +1,55 @@
+// The only way to make nodes: folds what is known, and gives equal expressions equal ids.
+//
+// Folding is exact: the value of every expression stays the same bit for bit, computed with the
+// runtime's own functions, and what draws or may fault never disappears. The right operand of
+// And, Or and Implies, where it may fault, becomes lazy (a Select): so C++ may spell them && and
+// ||.
+#pragma once
+
+#include "ir/analysis.hpp"
+#include "ir/ir.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace rddlc::ir {
+
+class Builder {
+  public:
+    // Adds to the program's pool. While a builder lives, nobody else may.
+    explicit Builder(Program& program);
+
+    const Program& program() const { return program_; }
+    const Facts& facts(NodeId id) const { return facts_[id.index]; }
+
+    NodeId constant(Value value);
+    // 0 for a variable over one object.
+    NodeId index(VariableId variable);
+    NodeId load(BufferId buffer, std::vector<NodeId> indices);
+    NodeId local(LocalId local, Scalar type);
+    NodeId convert(NodeId operand, Scalar type);
+    // `place` for exactly the operators that may fault (model/vocabulary.hpp).
+    NodeId apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place = {});
+    NodeId select(NodeId condition, NodeId then_value, NodeId else_value);
+    // Over an empty variable only for reductions that have a value there.
+    NodeId reduce(Reduction op, VariableId variable, NodeId body);
+    NodeId sample(Scalar type, Distribution distribution, Place place,
+                  std::vector<NodeId> parameters);
+    NodeId discrete(bool normalise, Place place, std::vector<NodeId> weights);
+    NodeId discrete_over(bool normalise, Place place, VariableId variable, NodeId weight);
+    NodeId fault(Scalar type, Place place);
+
+    // The same form with other operands, folded again. Ids inside `node` are this program's.
+    NodeId rebuild(const Node& node);
+
+  private:
+    NodeId intern(Node node);
+
+    Program& program_;
+    std::vector<Facts> facts_;  // by NodeId::index
+    std::map<std::vector<std::uint64_t>, NodeId> known_;
+};
+
+}  // namespace rddlc::ir

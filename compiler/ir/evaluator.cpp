@@ -1,0 +1,374 @@
+#include "ir/evaluator.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/layout.hpp"
+#include "support/match.hpp"
+
+#include <rddl/distributions.hpp>
+#include <rddl/reductions.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <type_traits>
+
+namespace rddlc::ir {
+namespace {
+
+// Locals of different computations never live together: each computation numbers its own from 0.
+void number_lets(const Block& block, std::size_t& next, std::vector<std::size_t>& slots) {
+    for (const Statement& statement : block) {
+        match(
+            statement.form, [&](const Let& let) { slots[let.local.index] = next++; },
+            [&](const Loop& loop) { number_lets(loop.body, next, slots); }, [](const Store&) {});
+    }
+}
+
+std::vector<const Block*> blocks_of(const Program& program) {
+    std::vector<const Block*> blocks;
+    for (const Definition& definition : program.step) blocks.push_back(&definition.body);
+    blocks.push_back(&program.reward.body);
+    for (const auto* conditions :
+         {&program.preconditions, &program.invariants, &program.terminations}) {
+        for (const Computation& condition : *conditions) blocks.push_back(&condition.body);
+    }
+    return blocks;
+}
+
+template <class T>
+T read(const std::byte* from) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return *from != std::byte{0};
+    } else {
+        T value;
+        std::memcpy(&value, from, sizeof value);
+        return value;
+    }
+}
+
+template <class T>
+void write(std::byte* to, T value) {
+    static_assert(sizeof(T) == 1 || sizeof(T) == 8);
+    std::memcpy(to, &value, sizeof value);
+}
+
+}  // namespace
+
+void write_values(const Buffer& buffer, std::byte* to) {
+    for (const Value& value : buffer.values) {
+        match(value, [&](auto v) { write(to, v); });
+        to += size_of(buffer.scalar);
+    }
+}
+
+// ---------------------------------------------------------------------------- preparation
+
+Evaluator::Evaluator(const Program& program) : program_(&program) {
+    origins_.resize(program.buffers.size());
+    for (std::size_t record = 0; record < Records{}.begin.size(); ++record) {
+        const RecordLayout layout = record_layout(program, static_cast<Storage>(record));
+        for (const Field& field : layout.fields) {
+            origins_[field.buffer.index] = {record, field.offset};
+        }
+    }
+    pack_constants();
+    number_slots();
+}
+
+void Evaluator::pack_constants() {
+    const RecordLayout layout = record_layout(*program_, Storage::Constant);
+    constants_.resize(layout.size);
+    for (const Field& field : layout.fields) {
+        write_values((*program_)[field.buffer], constants_.data() + field.offset);
+    }
+}
+
+void Evaluator::number_slots() {
+    const std::size_t first_local = program_->variables.size();
+    local_slots_.resize(program_->local_count);
+    slot_count_ = first_local;
+    for (const Block* block : blocks_of(*program_)) {
+        std::size_t next = first_local;
+        number_lets(*block, next, local_slots_);
+        slot_count_ = std::max(slot_count_, next);
+    }
+    weight_slots_.resize(program_->nodes.size());
+    for (std::size_t index = 0; index < program_->nodes.size(); ++index) {
+        if (const auto* discrete = std::get_if<Discrete>(&program_->nodes[index].form)) {
+            weight_slots_[index] = slot_count_;
+            slot_count_ += discrete->weights.size();
+        }
+    }
+}
+
+Evaluator::Frame::Frame(const Evaluator& evaluator, Records records, Context& context)
+    : records_(records), context_(context), slots_(room_) {
+    records_.set(Storage::Constant, evaluator.constants_.data());
+    if (evaluator.slot_count_ > std::size(room_)) {
+        more_room_.resize(evaluator.slot_count_);
+        slots_ = more_room_.data();
+    }
+}
+
+template <class T>
+T& Evaluator::Frame::of(Slot& slot) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return slot.boolean;
+    } else if constexpr (std::is_same_v<T, double>) {
+        return slot.real;
+    } else {
+        return slot.integer;
+    }
+}
+
+// ----------------------------------------------------------------------------- statements
+
+void Evaluator::run(const Block& block, Frame& frame) const {
+    for (const Statement& statement : block) {
+        match(
+            statement.form, [&](const Let& form) { let(form, frame); },
+            [&](const Store& form) { store(form, frame); },
+            [&](const Loop& loop) {
+                const std::int64_t size = (*program_)[loop.variable].size;
+                for (std::int64_t i = 0; i < size; ++i) {
+                    frame.set(loop.variable, i);
+                    run(loop.body, frame);
+                }
+            });
+    }
+}
+
+void Evaluator::let(const Let& form, Frame& frame) const {
+    Frame::Slot& slot = frame.slots_[local_slots_[form.local.index]];
+    switch ((*program_)[form.value].type) {
+        case Scalar::Bool:
+            slot.boolean = value<bool>(form.value, frame);
+            break;
+        case Scalar::Int:
+            slot.integer = value<std::int64_t>(form.value, frame);
+            break;
+        case Scalar::Real:
+            slot.real = value<double>(form.value, frame);
+            break;
+    }
+}
+
+void Evaluator::store(const Store& form, Frame& frame) const {
+    std::byte* target = element(form.target, form.indices, frame);
+    switch ((*program_)[form.value].type) {
+        case Scalar::Bool:
+            write(target, value<bool>(form.value, frame));
+            break;
+        case Scalar::Int:
+            write(target, value<std::int64_t>(form.value, frame));
+            break;
+        case Scalar::Real:
+            write(target, value<double>(form.value, frame));
+            break;
+    }
+}
+
+std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const {
+    const Buffer& buffer = (*program_)[id];
+    std::int64_t index = 0;
+    for (std::size_t axis = 0; axis < indices.size(); ++axis) {
+        index = index * buffer.shape[axis] + value<std::int64_t>(indices[axis], frame);
+    }
+    const Origin origin = origins_[id.index];
+    const std::size_t offset = static_cast<std::size_t>(index) * size_of(buffer.scalar);
+    return frame.records_.begin[origin.record] + origin.offset + offset;
+}
+
+rddl::Place Evaluator::place(const std::optional<Place>& place, Frame& frame) const {
+    if (!place) return {};
+    return {place->site.index, value<std::int64_t>(place->index, frame)};
+}
+
+// ---------------------------------------------------------------------------- expressions
+
+template <class T>
+T Evaluator::value(NodeId id, Frame& frame) const {
+    constexpr bool is_int = std::is_same_v<T, std::int64_t>;
+    return match(
+        (*program_)[id].form,  //
+        [&](const Constant& form) -> T { return std::get<T>(form.value); },
+        [&](const Index& form) -> T {
+            if constexpr (is_int) return frame.slots_[form.variable.index].integer;
+            unreachable_operator();
+        },
+        [&](const Load& form) -> T { return read<T>(element(form.buffer, form.indices, frame)); },
+        [&](const Local& form) -> T {
+            return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
+        },
+        [&](const Convert& form) -> T { return convert_operand<T>(form, frame); },
+        [&](const Apply& form) -> T { return apply<T>(form, frame); },
+        [&](const Select& form) -> T {
+            return value<bool>(form.condition, frame) ? value<T>(form.then_value, frame)
+                                                      : value<T>(form.else_value, frame);
+        },
+        [&](const Reduce& form) -> T { return reduce<T>(form, frame); },
+        [&](const Sample& form) -> T { return draw<T>(form, frame); },
+        [&](const Discrete& form) -> T {
+            if constexpr (is_int) return draw(form, id, frame);
+            unreachable_operator();
+        },
+        [&](const DiscreteOver& form) -> T {
+            if constexpr (is_int) return draw(form, frame);
+            unreachable_operator();
+        },
+        [&](const Fault& form) -> T {
+            return rddl::fault<T>(frame.context_, place(form.place, frame));
+        });
+}
+
+template <class T>
+T Evaluator::convert_operand(const Convert& form, Frame& frame) const {
+    if constexpr (!std::is_same_v<T, bool>) {
+        if ((*program_)[form.operand].type == Scalar::Bool) {
+            return static_cast<T>(value<bool>(form.operand, frame));
+        }
+    }
+    if constexpr (std::is_same_v<T, double>) {
+        return rddl::to_real(value<std::int64_t>(form.operand, frame));
+    }
+    unreachable_operator();
+}
+
+template <>
+bool Evaluator::apply<bool>(const Apply& form, Frame& frame) const {
+    const NodeId a = form.operands.front();
+    const NodeId b = form.operands.back();
+    switch ((*program_)[a].type) {
+        case Scalar::Bool:
+            return apply_to_bools(form, frame);
+        case Scalar::Int:
+            return compare(form.op, value<std::int64_t>(a, frame), value<std::int64_t>(b, frame));
+        case Scalar::Real:
+            return compare(form.op, value<double>(a, frame), value<double>(b, frame));
+    }
+    unreachable_operator();
+}
+
+// The right operands of And and Or cannot fault (verify.hpp), so nobody notices a short circuit.
+bool Evaluator::apply_to_bools(const Apply& form, Frame& frame) const {
+    const bool a = value<bool>(form.operands.front(), frame);
+    if (form.op == Operator::Not) return !a;
+    if (form.op == Operator::And && !a) return false;
+    if (form.op == Operator::Or && a) return true;
+    return apply_logic(form.op, a, value<bool>(form.operands.back(), frame));
+}
+
+template <>
+std::int64_t Evaluator::apply<std::int64_t>(const Apply& form, Frame& frame) const {
+    const NodeId a = form.operands.front();
+    const NodeId b = form.operands.back();
+    if ((*program_)[a].type == Scalar::Real) return apply_to_int(form.op, value<double>(a, frame));
+    const std::int64_t left = value<std::int64_t>(a, frame);
+    const std::int64_t right = a == b ? left : value<std::int64_t>(b, frame);
+    return apply_int(form.op, left, right, place(form.place, frame), frame.context_);
+}
+
+template <>
+double Evaluator::apply<double>(const Apply& form, Frame& frame) const {
+    const NodeId a = form.operands.front();
+    const NodeId b = form.operands.back();
+    const double left = value<double>(a, frame);
+    const double right = a == b ? left : value<double>(b, frame);
+    return apply_real(form.op, left, right, place(form.place, frame), frame.context_);
+}
+
+template <class T>
+T Evaluator::reduce(const Reduce& form, Frame& frame) const {
+    const std::int64_t size = (*program_)[form.variable].size;
+    const auto body = [&]<class Body>(Body) {
+        return [&](rddl::Index i) {
+            frame.set(form.variable, i);
+            return value<Body>(form.body, frame);
+        };
+    };
+    if constexpr (std::is_same_v<T, bool>) {
+        if (form.op == Reduction::ForAll) return rddl::for_all<bool>(size, body(bool{}));
+        return rddl::exists<bool>(size, body(bool{}));
+    } else {
+        switch (form.op) {
+            case Reduction::Sum:
+                return rddl::sum<T>(size, body(T{}));
+            case Reduction::Product:
+                return rddl::product<T>(size, body(T{}));
+            case Reduction::Minimum:
+                return rddl::minimum_over<T>(size, body(T{}));
+            case Reduction::Maximum:
+                return rddl::maximum_over<T>(size, body(T{}));
+            default:
+                break;
+        }
+    }
+    if constexpr (std::is_same_v<T, std::int64_t>) {
+        const bool least = form.op == Reduction::ArgMin;
+        if ((*program_)[form.body].type == Scalar::Real) {
+            return least ? rddl::arg_min<T>(size, body(double{}))
+                         : rddl::arg_max<T>(size, body(double{}));
+        }
+        return least ? rddl::arg_min<T>(size, body(T{})) : rddl::arg_max<T>(size, body(T{}));
+    }
+    unreachable_operator();
+}
+
+// ---------------------------------------------------------------------------------- draws
+
+template <class T>
+T Evaluator::draw(const Sample& form, Frame& frame) const {
+    const rddl::Place here = place(form.place, frame);
+    if constexpr (std::is_same_v<T, bool>) {
+        const double p = value<double>(form.parameters.front(), frame);
+        return rddl::sample::bernoulli(frame.context_, here, p);
+    } else {
+        if constexpr (std::is_same_v<T, std::int64_t>) {
+            if (form.distribution == Distribution::Binomial) {
+                const std::int64_t n = value<std::int64_t>(form.parameters.front(), frame);
+                const double p = value<double>(form.parameters.back(), frame);
+                return rddl::sample::binomial(frame.context_, here, n, p);
+            }
+        }
+        const double a = value<double>(form.parameters.front(), frame);
+        const double b = form.parameters.size() == 2 ? value<double>(form.parameters[1], frame) : a;
+        if constexpr (std::is_same_v<T, double>) {
+            return draw_real(form.distribution, a, b, here, frame.context_);
+        } else {
+            return draw_int(form.distribution, a, b, here, frame.context_);
+        }
+    }
+}
+
+std::int64_t Evaluator::draw(const Discrete& form, NodeId id, Frame& frame) const {
+    Frame::Slot* weights = frame.slots_ + weight_slots_[id.index];
+    for (std::size_t i = 0; i < form.weights.size(); ++i) {
+        weights[i].real = value<double>(form.weights[i], frame);
+    }
+    const auto weight = [&](rddl::Index i) {
+        return weights[i].real;
+    };
+    const auto size = static_cast<rddl::Index>(form.weights.size());
+    const rddl::Place here = place(form.place, frame);
+    return form.normalise
+               ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
+               : rddl::sample::discrete_over(frame.context_, here, size, weight);
+}
+
+std::int64_t Evaluator::draw(const DiscreteOver& form, Frame& frame) const {
+    const auto weight = [&](rddl::Index i) {
+        frame.set(form.variable, i);
+        return value<double>(form.weight, frame);
+    };
+    const std::int64_t size = (*program_)[form.variable].size;
+    const rddl::Place here = place(form.place, frame);
+    return form.normalise
+               ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
+               : rddl::sample::discrete_over(frame.context_, here, size, weight);
+}
+
+template bool Evaluator::value<bool>(NodeId, Frame&) const;
+template std::int64_t Evaluator::value<std::int64_t>(NodeId, Frame&) const;
+template double Evaluator::value<double>(NodeId, Frame&) const;
+
+}  // namespace rddlc::ir

@@ -1,0 +1,104 @@
+// Evaluates expressions and statements over records of raw bytes (layout.hpp), with the runtime's
+// own functions. Constant tables are packed once; an evaluation does not allocate, unless a program
+// needs more loop indices and locals than a Workspace holds.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "ir/kernels.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace rddlc::ir {
+
+// Writes a buffer's values to where it begins in a record.
+void write_values(const Buffer& buffer, std::byte* to);
+
+// A record for each storage; null where a computation has none.
+struct Records {
+    std::array<std::byte*, 6> begin{};  // by Storage
+
+    // Of read-only storages too: verify() says that nothing stores to them.
+    Records& set(Storage storage, const std::byte* record) {
+        begin[static_cast<std::size_t>(storage)] = const_cast<std::byte*>(record);
+        return *this;
+    }
+};
+
+class Evaluator {
+  public:
+    // The program must outlive the evaluator, and not change.
+    explicit Evaluator(const Program& program);
+
+    // One evaluation: the records, and room for loop indices and locals.
+    class Frame {
+      public:
+        Frame(const Evaluator& evaluator, Records records, Context& context);
+        Frame(const Frame&) = delete;
+        Frame& operator=(const Frame&) = delete;
+
+        void set(VariableId variable, std::int64_t value) {
+            slots_[variable.index].integer = value;
+        }
+
+      private:
+        friend class Evaluator;
+        union Slot {
+            bool boolean;
+            std::int64_t integer;
+            double real;
+        };
+        template <class T>
+        static T& of(Slot& slot);
+
+        Records records_;
+        Context& context_;
+        Slot room_[512];  // left unset
+        std::vector<Slot> more_room_;
+        Slot* slots_;
+    };
+
+    void run(const Block& block, Frame& frame) const;
+    // T is the C++ type of the node's type: bool, int64_t or double.
+    template <class T>
+    T value(NodeId id, Frame& frame) const;
+
+  private:
+    // Where a buffer's first element lies.
+    struct Origin {
+        std::size_t record;  // index into Records::begin
+        std::size_t offset;
+    };
+
+    void pack_constants();
+    void number_slots();
+
+    std::byte* element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
+    rddl::Place place(const std::optional<Place>& place, Frame& frame) const;
+    void store(const Store& store, Frame& frame) const;
+    void let(const Let& let, Frame& frame) const;
+
+    template <class T>
+    T apply(const Apply& form, Frame& frame) const;
+    bool apply_to_bools(const Apply& form, Frame& frame) const;
+    template <class T>
+    T convert_operand(const Convert& form, Frame& frame) const;
+    template <class T>
+    T reduce(const Reduce& form, Frame& frame) const;
+    template <class T>
+    T draw(const Sample& form, Frame& frame) const;
+    std::int64_t draw(const Discrete& form, NodeId id, Frame& frame) const;
+    std::int64_t draw(const DiscreteOver& form, Frame& frame) const;
+
+    const Program* program_;
+    std::vector<Origin> origins_;            // by BufferId::index
+    std::vector<std::byte> constants_;       // the record of all Constant buffers
+    std::vector<std::size_t> local_slots_;   // by LocalId::index
+    std::vector<std::size_t> weight_slots_;  // by NodeId::index: the first weight of a Discrete
+    std::size_t slot_count_ = 0;             // loop indices come first
+};
+
+}  // namespace rddlc::ir

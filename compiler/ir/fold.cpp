@@ -1,0 +1,105 @@
+#include "ir/fold.hpp"
+
+#include "ir/kernels.hpp"
+#include "support/match.hpp"
+
+#include <rddl/reductions.hpp>
+
+#include <limits>
+
+namespace rddlc::ir {
+namespace {
+
+bool is_comparison(Operator op) {
+    return op >= Operator::Equal && op <= Operator::GreaterEqual;
+}
+
+bool gives_int(Operator op) {
+    return op == Operator::Sign || op == Operator::Round || op == Operator::Floor ||
+           op == Operator::Ceil;
+}
+
+Value apply(Operator op, bool a, bool b, Context&) {
+    return apply_logic(op, a, b);
+}
+
+Value apply(Operator op, std::int64_t a, std::int64_t b, Context& context) {
+    if (is_comparison(op)) return compare(op, a, b);
+    return apply_int(op, a, b, {}, context);
+}
+
+Value apply(Operator op, double a, double b, Context& context) {
+    if (is_comparison(op)) return compare(op, a, b);
+    if (gives_int(op)) return apply_to_int(op, a);
+    return apply_real(op, a, b, {}, context);
+}
+
+template <class T>
+std::optional<Value> fold_numeric(Reduction op, std::int64_t size, T body) {
+    const auto same = [&](rddl::Index) {
+        return body;
+    };
+    switch (op) {
+        case Reduction::Sum:
+            return rddl::sum<T>(size, same);
+        case Reduction::Product:
+            return rddl::product<T>(size, same);
+        case Reduction::Minimum:
+        case Reduction::Maximum:
+            return body;
+        case Reduction::ArgMin:
+        case Reduction::ArgMax:
+            return std::int64_t{0};
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace
+
+Value convert(const Value& value, Scalar type) {
+    return match(value, [&](auto v) -> Value {
+        switch (type) {
+            case Scalar::Bool:
+                return v != 0;
+            case Scalar::Int:
+                return static_cast<std::int64_t>(v);
+            case Scalar::Real:
+                return static_cast<double>(v);
+        }
+        return v;
+    });
+}
+
+std::optional<Value> fold(Operator op, std::span<const Value> operands) {
+    Context context;
+    const Value result = match(operands.front(), [&](auto a) {
+        return apply(op, a, std::get<decltype(a)>(operands.back()), context);
+    });
+    if (context.fault) return std::nullopt;
+    return result;
+}
+
+std::optional<Value> fold(Reduction op, std::int64_t size, const Value& body) {
+    if (op == Reduction::ForAll || op == Reduction::Exists) return body;
+    return match(
+        body, [](bool) { return std::optional<Value>(); },
+        [&](auto value) { return fold_numeric(op, size, value); });
+}
+
+std::optional<Value> fold_empty(Reduction op, Scalar type) {
+    switch (op) {
+        case Reduction::Sum:
+            return convert(Value(false), type);
+        case Reduction::Product:
+            return convert(Value(true), type);
+        case Reduction::ForAll:
+            return true;
+        case Reduction::Exists:
+            return false;
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace rddlc::ir

@@ -1,0 +1,22 @@
+// The value of an operator on constants, by the runtime's own functions; and exact identities.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <optional>
+#include <span>
+
+namespace rddlc::ir {
+
+Value convert(const Value& value, Scalar type);
+
+// None where it faults.
+std::optional<Value> fold(Operator op, std::span<const Value> operands);
+
+// Of a body that is the same for all of `size` > 0 objects.
+std::optional<Value> fold(Reduction op, std::int64_t size, const Value& body);
+
+// Over no objects; none for those that have no value there.
+std::optional<Value> fold_empty(Reduction op, Scalar type);
+
+}  // namespace rddlc::ir

@@ -1,0 +1,76 @@
+#include "ir/interpreter.hpp"
+
+#include "ir/layout.hpp"
+
+#include <utility>
+
+namespace rddlc::ir {
+
+Interpreter::Interpreter(Program program)
+    : program_(std::make_unique<const Program>(std::move(program))),
+      evaluator_(*program_),
+      state_size_(record_layout(*program_, Storage::State).size),
+      action_size_(record_layout(*program_, Storage::Action).size),
+      observation_size_(record_layout(*program_, Storage::Observation).size),
+      scratch_size_(record_layout(*program_, Storage::Scratch).size) {}
+
+void Interpreter::reset(std::byte* state) const {
+    write_initial(Storage::State, state);
+}
+
+void Interpreter::default_action(std::byte* action) const {
+    write_initial(Storage::Action, action);
+}
+
+void Interpreter::write_initial(Storage storage, std::byte* record) const {
+    for (const Field& field : record_layout(*program_, storage).fields) {
+        write_values((*program_)[field.buffer], record + field.offset);
+    }
+}
+
+double Interpreter::step(const std::byte* state, const std::byte* action, std::byte* scratch,
+                         std::byte* next, std::byte* observation, Context& context) const {
+    Records records;
+    records.set(Storage::State, state).set(Storage::Action, action).set(Storage::Scratch, scratch);
+    records.set(Storage::Next, next).set(Storage::Observation, observation);
+    Evaluator::Frame frame(evaluator_, records, context);
+    for (const Definition& definition : program_->step) evaluator_.run(definition.body, frame);
+    evaluator_.run(program_->reward.body, frame);
+    return evaluator_.value<double>(program_->reward.value, frame);
+}
+
+// All are evaluated, as in the compiled simulator: one of them may fault.
+bool Interpreter::terminal(const std::byte* state, Context& context) const {
+    const Records records = Records().set(Storage::State, state);
+    bool any = false;
+    for (const Computation& condition : program_->terminations) {
+        any |= holds(condition, records, context);
+    }
+    return any;
+}
+
+int Interpreter::violated_invariant(const std::byte* state, Context& context) const {
+    return first_violated(program_->invariants, Records().set(Storage::State, state), context);
+}
+
+int Interpreter::violated_precondition(const std::byte* state, const std::byte* action,
+                                       Context& context) const {
+    const Records records = Records().set(Storage::State, state).set(Storage::Action, action);
+    return first_violated(program_->preconditions, records, context);
+}
+
+int Interpreter::first_violated(const std::vector<Computation>& conditions, Records records,
+                                Context& context) const {
+    for (std::size_t index = 0; index < conditions.size(); ++index) {
+        if (!holds(conditions[index], records, context)) return static_cast<int>(index);
+    }
+    return -1;
+}
+
+bool Interpreter::holds(const Computation& condition, Records records, Context& context) const {
+    Evaluator::Frame frame(evaluator_, records, context);
+    evaluator_.run(condition.body, frame);
+    return evaluator_.value<bool>(condition.value, frame);
+}
+
+}  // namespace rddlc::ir

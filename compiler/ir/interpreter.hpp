@@ -1,0 +1,53 @@
+// Runs a program without a C++ compiler: an engine for rddl::Batch (rddl/engine.hpp), and the
+// oracle that compiled simulators are tested against, bit for bit.
+#pragma once
+
+#include "ir/evaluator.hpp"
+#include "ir/ir.hpp"
+
+#include <cstddef>
+#include <memory>
+
+namespace rddlc::ir {
+
+// Records are laid out by layout.hpp. All functions may run at the same time in several threads.
+class Interpreter {
+  public:
+    explicit Interpreter(Program program);
+
+    const Program& program() const { return *program_; }
+
+    // In bytes.
+    std::size_t state_size() const { return state_size_; }
+    std::size_t action_size() const { return action_size_; }
+    std::size_t observation_size() const { return observation_size_; }
+    std::size_t scratch_size() const { return scratch_size_; }
+
+    // Writes the initial state, and the default action.
+    void reset(std::byte* state) const;
+    void default_action(std::byte* action) const;
+
+    // Computes the next state (and the observation, which is unused when fully observed) and
+    // returns the reward.
+    double step(const std::byte* state, const std::byte* action, std::byte* scratch,
+                std::byte* next, std::byte* observation, Context& context) const;
+
+    // Does any termination condition hold?
+    bool terminal(const std::byte* state, Context& context) const;
+    // The first that does not hold, or -1.
+    int violated_invariant(const std::byte* state, Context& context) const;
+    int violated_precondition(const std::byte* state, const std::byte* action,
+                              Context& context) const;
+
+  private:
+    bool holds(const Computation& condition, Records records, Context& context) const;
+    int first_violated(const std::vector<Computation>& conditions, Records records,
+                       Context& context) const;
+    void write_initial(Storage storage, std::byte* record) const;
+
+    std::unique_ptr<const Program> program_;
+    Evaluator evaluator_;
+    std::size_t state_size_, action_size_, observation_size_, scratch_size_;
+};
+
+}  // namespace rddlc::ir

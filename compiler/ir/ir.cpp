@@ -1,0 +1,18 @@
+#include "ir/ir.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace rddlc::ir {
+
+std::int64_t Buffer::count() const {
+    return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
+}
+
+bool Program::partially_observed() const {
+    return std::ranges::any_of(
+        buffers, [](const Buffer& buffer) { return buffer.storage == Storage::Observation; });
+}
+
+}  // namespace rddlc::ir

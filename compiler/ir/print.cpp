@@ -1,0 +1,350 @@
+#include "ir/print.hpp"
+
+#include "support/match.hpp"
+#include "support/writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+
+namespace rddlc::ir {
+namespace {
+
+constexpr std::size_t printed_values = 12;
+
+// How tightly an expression holds together, as in C++.
+enum Precedence {
+    or_level,
+    and_level,
+    equality_level,
+    order_level,
+    sum_level,
+    product_level,
+    unary_level,
+    primary_level
+};
+
+struct Infix {
+    std::string_view symbol;
+    Precedence level;
+};
+
+std::optional<Infix> infix_of(Operator op) {
+    switch (op) {
+        case Operator::Add:
+            return Infix{"+", sum_level};
+        case Operator::Subtract:
+            return Infix{"-", sum_level};
+        case Operator::Multiply:
+            return Infix{"*", product_level};
+        case Operator::Divide:
+            return Infix{"/", product_level};
+        case Operator::Equal:
+        case Operator::Equivalent:
+            return Infix{"==", equality_level};
+        case Operator::NotEqual:
+            return Infix{"!=", equality_level};
+        case Operator::Less:
+            return Infix{"<", order_level};
+        case Operator::LessEqual:
+            return Infix{"<=", order_level};
+        case Operator::Greater:
+            return Infix{">", order_level};
+        case Operator::GreaterEqual:
+            return Infix{">=", order_level};
+        case Operator::And:
+            return Infix{"&&", and_level};
+        case Operator::Or:
+            return Infix{"||", or_level};
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<std::string_view> prefix_of(Operator op) {
+    if (op == Operator::Not) return "!";
+    if (op == Operator::Negate) return "-";
+    return std::nullopt;
+}
+
+std::string_view name_of(Scalar scalar) {
+    constexpr std::string_view names[] = {"bool", "int", "real"};
+    return names[static_cast<std::size_t>(scalar)];
+}
+
+std::string_view name_of(Storage storage) {
+    constexpr std::string_view names[] = {"constant", "state", "action",
+                                          "scratch",  "next",  "observation"};
+    return names[static_cast<std::size_t>(storage)];
+}
+
+std::string text_of(const Value& value) {
+    return match(
+        value, [](bool v) { return std::string(v ? "true" : "false"); },
+        [](std::int64_t v) { return fmt::format("{}", v); },
+        [](double v) {
+            std::string text = fmt::format("{}", v);
+            const bool whole = text.find_first_not_of("-0123456789") == std::string::npos;
+            return whole ? text + ".0" : text;
+        });
+}
+
+std::string lower_case(std::string_view name) {
+    std::string text(name);
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+class Printer {
+  public:
+    explicit Printer(const Program& program) : program_(program) {}
+
+    std::string expression(NodeId id) const { return expression(id, or_level); }
+
+    std::string whole_program() && {
+        writer_.line(fmt::format("program {} {}", program_.domain_name, program_.instance_name));
+        types();
+        for (Storage storage : {Storage::Constant, Storage::State, Storage::Action,
+                                Storage::Scratch, Storage::Next, Storage::Observation}) {
+            buffers(storage);
+        }
+        bounds();
+        writer_.line().line("step").indent();
+        for (const Definition& definition : program_.step) block(definition.body);
+        writer_.dedent().line();
+        computation("reward", program_.reward);
+        conditions("precondition", program_.preconditions);
+        conditions("invariant", program_.invariants);
+        conditions("termination", program_.terminations);
+        sites();
+        return std::move(writer_).text();
+    }
+
+  private:
+    // ------------------------------------------------------------------------- tables
+
+    void types() {
+        if (program_.types.empty()) return;
+        writer_.line().line("types").indent();
+        for (const ObjectType& type : program_.types) {
+            writer_.line(fmt::format("{}: {}", type.name, shortened(type.objects)));
+        }
+        writer_.dedent();
+    }
+
+    static std::string shortened(const std::vector<std::string>& words) {
+        if (words.size() <= printed_values) return fmt::format("{}", fmt::join(words, " "));
+        const std::vector head(words.begin(), words.begin() + printed_values);
+        return fmt::format("{} ... ({})", fmt::join(head, " "), words.size());
+    }
+
+    void buffers(Storage storage) {
+        const auto belongs = [&](const Buffer& buffer) {
+            return buffer.storage == storage;
+        };
+        if (std::ranges::none_of(program_.buffers, belongs)) return;
+        writer_.line().line(name_of(storage)).indent();
+        for (const Buffer& buffer : program_.buffers) {
+            if (belongs(buffer)) writer_.line(declaration(buffer));
+        }
+        writer_.dedent();
+    }
+
+    std::string declaration(const Buffer& buffer) const {
+        std::string text = buffer.name;
+        if (!buffer.types.empty()) {
+            std::vector<std::string_view> names;
+            for (std::uint32_t type : buffer.types) names.push_back(program_.types[type].name);
+            text += fmt::format("[{}]", fmt::join(names, ", "));
+        }
+        text += fmt::format(": {}", name_of(buffer.scalar));
+        if (!buffer.values.empty()) text += " = " + values(buffer.values);
+        return text;
+    }
+
+    // One for all where they are equal.
+    static std::string values(const std::vector<Value>& values) {
+        std::vector<std::string> texts;
+        for (const Value& value : values) texts.push_back(text_of(value));
+        const bool uniform =
+            std::ranges::adjacent_find(texts, std::not_equal_to<>()) == texts.end();
+        return uniform ? texts.front() : fmt::format("{{{}}}", shortened(texts));
+    }
+
+    void bounds() {
+        const auto bounded = [](const Fluent& fluent) {
+            const auto finite = [](double bound) {
+                return bound - bound == 0;
+            };
+            return std::ranges::any_of(fluent.lower, finite) ||
+                   std::ranges::any_of(fluent.upper, finite);
+        };
+        if (std::ranges::none_of(program_.fluents, bounded)) return;
+        writer_.line().line("bounds").indent();
+        for (const Fluent& fluent : program_.fluents) {
+            if (!bounded(fluent)) continue;
+            writer_.line(fmt::format("{} in {} .. {}", fluent.name, limits(fluent.lower),
+                                     limits(fluent.upper)));
+        }
+        writer_.dedent();
+    }
+
+    static std::string limits(const std::vector<double>& limits) {
+        return values({limits.begin(), limits.end()});
+    }
+
+    void sites() {
+        if (program_.sites.empty()) return;
+        writer_.line().line("sites").indent();
+        for (std::size_t index = 0; index < program_.sites.size(); ++index) {
+            const Site& site = program_.sites[index];
+            std::vector<std::string> scope;
+            for (VariableId variable : site.scope) scope.push_back(binding(variable));
+            writer_.line(fmt::format("@{} {}{}{}", index, site.what, scope.empty() ? "" : " over ",
+                                     fmt::join(scope, ", ")));
+        }
+        writer_.dedent();
+    }
+
+    // --------------------------------------------------------------------- statements
+
+    void conditions(std::string_view name, const std::vector<Computation>& conditions) {
+        for (std::size_t index = 0; index < conditions.size(); ++index) {
+            computation(fmt::format("{} {}", name, index), conditions[index]);
+        }
+    }
+
+    void computation(const std::string& name, const Computation& computation) {
+        if (computation.body.empty()) {
+            writer_.line(name + " = " + expression(computation.value));
+            return;
+        }
+        writer_.line(name).indent();
+        block(computation.body);
+        writer_.line("= " + expression(computation.value)).dedent();
+    }
+
+    void block(const Block& statements) {
+        for (const Statement& statement : statements) {
+            match(statement.form, [&](const auto& form) { print(form); });
+        }
+    }
+
+    void print(const Let& let) {
+        writer_.line(fmt::format("let %{} = {}", let.local.index, expression(let.value)));
+    }
+    void print(const Store& store) {
+        writer_.line(element(store.target, store.indices) + " = " + expression(store.value));
+    }
+    void print(const Loop& loop) {
+        writer_.line(fmt::format("for {}", binding(loop.variable))).indent();
+        block(loop.body);
+        writer_.dedent();
+    }
+
+    // -------------------------------------------------------------------- expressions
+
+    std::string expression(NodeId id, Precedence context) const {
+        return match(program_[id].form,
+                     [&](const auto& form) { return text(form, program_[id].type, context); });
+    }
+
+    std::string list(const std::vector<NodeId>& ids) const {
+        std::vector<std::string> texts;
+        for (NodeId id : ids) texts.push_back(expression(id));
+        return fmt::format("{}", fmt::join(texts, ", "));
+    }
+
+    std::string binding(VariableId variable) const {
+        return fmt::format("{} in {}", program_[variable].name,
+                           program_.types[program_[variable].type].name);
+    }
+
+    std::string element(BufferId id, const std::vector<NodeId>& indices) const {
+        const Buffer& buffer = program_[id];
+        const bool bare = buffer.storage == Storage::Constant;
+        const std::string name =
+            bare ? buffer.name : fmt::format("{}.{}", name_of(buffer.storage), buffer.name);
+        return indices.empty() ? name : fmt::format("{}[{}]", name, list(indices));
+    }
+
+    std::string at(const Place& place) const {
+        return fmt::format("@{}[{}]", place.site.index, expression(place.index));
+    }
+
+    std::string text(const Constant& form, Scalar, Precedence) const { return text_of(form.value); }
+    std::string text(const Index& form, Scalar, Precedence) const {
+        return program_[form.variable].name;
+    }
+    std::string text(const Load& form, Scalar, Precedence) const {
+        return element(form.buffer, form.indices);
+    }
+    std::string text(const Local& form, Scalar, Precedence) const {
+        return fmt::format("%{}", form.local.index);
+    }
+    std::string text(const Convert& form, Scalar type, Precedence) const {
+        return fmt::format("{}({})", name_of(type), expression(form.operand));
+    }
+
+    std::string text(const Apply& form, Scalar, Precedence context) const {
+        if (const auto infix = infix_of(form.op)) return infix_text(form, *infix, context);
+        if (const auto prefix = prefix_of(form.op)) {
+            return fmt::format("{}{}", *prefix, expression(form.operands.front(), unary_level));
+        }
+        return fmt::format("{}{}({})", rddlc::name_of(form.op), form.place ? at(*form.place) : "",
+                           list(form.operands));
+    }
+
+    std::string infix_text(const Apply& form, Infix infix, Precedence context) const {
+        const auto next = static_cast<Precedence>(infix.level + 1);
+        const std::string text =
+            fmt::format("{} {} {}", expression(form.operands.front(), infix.level), infix.symbol,
+                        expression(form.operands.back(), next));
+        return infix.level < context ? "(" + text + ")" : text;
+    }
+
+    std::string text(const Select& form, Scalar, Precedence) const {
+        return fmt::format("select({})", list({form.condition, form.then_value, form.else_value}));
+    }
+    std::string text(const Reduce& form, Scalar, Precedence) const {
+        return fmt::format("{}[{}]({})", rddlc::name_of(form.op), binding(form.variable),
+                           expression(form.body));
+    }
+    std::string text(const Sample& form, Scalar, Precedence) const {
+        return fmt::format("sample {}{}({})", lower_case(rddlc::name_of(form.distribution)),
+                           at(form.place), list(form.parameters));
+    }
+    std::string text(const Discrete& form, Scalar, Precedence) const {
+        return fmt::format("sample {}{}({})", discrete_name(form.normalise), at(form.place),
+                           list(form.weights));
+    }
+    std::string text(const DiscreteOver& form, Scalar, Precedence) const {
+        return fmt::format("sample {}{}[{}]({})", discrete_name(form.normalise), at(form.place),
+                           binding(form.variable), expression(form.weight));
+    }
+    std::string text(const Fault& form, Scalar, Precedence) const {
+        return "fault" + at(form.place);
+    }
+
+    static std::string_view discrete_name(bool normalise) {
+        return normalise ? "unnormdiscrete" : "discrete";
+    }
+
+    const Program& program_;
+    Writer writer_;
+};
+
+}  // namespace
+
+std::string print(const Program& program) {
+    return Printer(program).whole_program();
+}
+
+std::string print(const Program& program, NodeId id) {
+    return Printer(program).expression(id);
+}
+
+}  // namespace rddlc::ir

@@ -1,0 +1,110 @@
+#include "ir/range.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace rddlc::ir {
+namespace {
+
+// The smallest range that holds all corners; none if one of them is nan.
+std::optional<Range> hull(std::initializer_list<double> corners) {
+    for (double corner : corners) {
+        if (std::isnan(corner)) return std::nullopt;
+    }
+    return Range{std::min(corners), std::max(corners)};
+}
+
+std::optional<Range> multiply(Range a, Range b) {
+    return hull({a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper});
+}
+
+// A zero in the divisor makes nan possible.
+std::optional<Range> divide(Range a, Range b) {
+    if (b.lower <= 0 && b.upper >= 0) return std::nullopt;
+    return hull({a.lower / b.lower, a.lower / b.upper, a.upper / b.lower, a.upper / b.upper});
+}
+
+bool is_finite(Range range) {
+    return std::isfinite(range.lower) && std::isfinite(range.upper);
+}
+bool is_probability(Range range) {
+    return range.lower >= 0 && range.upper <= 1;
+}
+bool is_positive(Range range) {
+    return range.lower > 0 && std::isfinite(range.upper);
+}
+
+}  // namespace
+
+Range join(Range a, Range b) {
+    return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
+
+std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>> operands) {
+    for (const std::optional<Range>& operand : operands) {
+        if (!operand || !is_finite(*operand)) return std::nullopt;
+    }
+    const Range a = *operands.front();
+    const Range b = *operands.back();
+    switch (op) {
+        case Operator::Add:
+            return hull({a.lower + b.lower, a.upper + b.upper});
+        case Operator::Subtract:
+            return hull({a.lower - b.upper, a.upper - b.lower});
+        case Operator::Multiply:
+            return multiply(a, b);
+        case Operator::Divide:
+            return divide(a, b);
+        case Operator::Negate:
+            return Range{-a.upper, -a.lower};
+        case Operator::Minimum:
+            return hull({std::min(a.lower, b.lower), std::min(a.upper, b.upper)});
+        case Operator::Maximum:
+            return hull({std::max(a.lower, b.lower), std::max(a.upper, b.upper)});
+        default:
+            return std::nullopt;
+    }
+}
+
+bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters) {
+    for (const std::optional<Range>& parameter : parameters) {
+        if (!parameter || !is_finite(*parameter)) return false;
+    }
+    const Range first = *parameters.front();
+    const Range last = *parameters.back();
+    switch (distribution) {
+        case Distribution::KronDelta:
+        case Distribution::DiracDelta:
+            return true;
+        case Distribution::Bernoulli:
+            return is_probability(first);
+        case Distribution::Uniform:
+            return first.upper <= last.lower && std::isfinite(last.upper - first.lower);
+        case Distribution::Normal:
+            return last.lower >= 0;
+        case Distribution::Gumbel:
+        case Distribution::Laplace:
+        case Distribution::Cauchy:
+            return is_positive(last);
+        case Distribution::Exponential:
+        case Distribution::Weibull:
+        case Distribution::Gamma:
+        case Distribution::Beta:
+        case Distribution::Pareto:
+        case Distribution::Student:
+        case Distribution::Gompertz:
+        case Distribution::ChiSquare:
+        case Distribution::Kumaraswamy:
+            return is_positive(first) && is_positive(last);
+        case Distribution::Geometric:
+            return is_probability(first) && first.lower > 0;
+        case Distribution::Poisson:
+        case Distribution::Binomial:
+        case Distribution::NegativeBinomial:
+            return false;  // their limits on large counts belong to the runtime
+    }
+    return false;
+}
+
+}  // namespace rddlc::ir

@@ -1,0 +1,26 @@
+// Intervals: within which a value lies for certain. They tell which draws cannot fault.
+#pragma once
+
+#include "model/vocabulary.hpp"
+
+#include <optional>
+#include <span>
+
+namespace rddlc::ir {
+
+// Closed, without nan; bounds may be infinite. Rounding is monotone, so the bounds of a sum are
+// the rounded sums of the bounds.
+struct Range {
+    double lower, upper;
+    bool operator==(const Range&) const = default;
+};
+
+Range join(Range a, Range b);
+
+// The range of `op` on reals, where it is known.
+std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>> operands);
+
+// True if parameters from these ranges are always in the distribution's domain: it cannot fault.
+bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters);
+
+}  // namespace rddlc::ir

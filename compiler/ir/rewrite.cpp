@@ -1,0 +1,98 @@
+#include "ir/rewrite.hpp"
+
+#include "ir/analysis.hpp"
+#include "support/match.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace rddlc::ir {
+namespace {
+
+void change_all(std::vector<NodeId>& ids, const Change& change) {
+    for (NodeId& id : ids) change(id);
+}
+
+void change_roots(Computation& computation, const Change& change) {
+    change_roots(computation.body, change);
+    change(computation.value);
+}
+
+}  // namespace
+
+void change_operands(Node& node, const Change& change) {
+    match(
+        node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {},
+        [&](Load& load) { change_all(load.indices, change); },
+        [&](Convert& convert) { change(convert.operand); },
+        [&](Apply& apply) {
+            change_all(apply.operands, change);
+            if (apply.place) change(apply.place->index);
+        },
+        [&](Select& select) {
+            change(select.condition);
+            change(select.then_value);
+            change(select.else_value);
+        },
+        [&](Reduce& reduce) { change(reduce.body); },
+        [&](Sample& sample) {
+            change_all(sample.parameters, change);
+            change(sample.place.index);
+        },
+        [&](Discrete& discrete) {
+            change_all(discrete.weights, change);
+            change(discrete.place.index);
+        },
+        [&](DiscreteOver& discrete) {
+            change(discrete.weight);
+            change(discrete.place.index);
+        },
+        [&](Fault& fault) { change(fault.place.index); });
+}
+
+void change_roots(Block& block, const Change& change) {
+    for (Statement& statement : block) {
+        match(
+            statement.form, [&](Let& let) { change(let.value); },
+            [&](Store& store) {
+                change_all(store.indices, change);
+                change(store.value);
+            },
+            [&](Loop& loop) { change_roots(loop.body, change); });
+    }
+}
+
+void change_roots(Program& program, const Change& change) {
+    for (Definition& definition : program.step) change_roots(definition.body, change);
+    change_roots(program.reward, change);
+    for (Computation& condition : program.preconditions) change_roots(condition, change);
+    for (Computation& condition : program.invariants) change_roots(condition, change);
+    for (Computation& condition : program.terminations) change_roots(condition, change);
+}
+
+Program rewrite(Program program, const Replace& replace) {
+    const std::vector<bool> reachable = reachable_nodes(program);
+    std::vector<Node> old_nodes = std::exchange(program.nodes, {});
+    std::vector<NodeId> new_ids(old_nodes.size());
+    const Change renew = [&](NodeId& id) {
+        id = new_ids[id.index];
+    };
+
+    Builder builder(program);
+    for (std::size_t index = 0; index < old_nodes.size(); ++index) {
+        if (!reachable[index]) continue;
+        Node& node = old_nodes[index];
+        change_operands(node, renew);
+        const auto replacement = replace(builder, node);
+        new_ids[index] = replacement ? *replacement : builder.rebuild(node);
+    }
+    change_roots(program, renew);
+    return program;
+}
+
+Program rewrite(Program program) {
+    return rewrite(std::move(program),
+                   [](Builder&, const Node&) { return std::optional<NodeId>(); });
+}
+
+}  // namespace rddlc::ir

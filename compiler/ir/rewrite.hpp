@@ -1,0 +1,28 @@
+// Rebuilding programs, for passes: every expression goes through a builder again, so that what a
+// replacement makes known is folded at once, and what nobody uses any more is gone.
+#pragma once
+
+#include "ir/builder.hpp"
+#include "ir/ir.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace rddlc::ir {
+
+// Given a node whose operands are rewritten already, what stands for it; none: itself.
+using Replace = std::function<std::optional<NodeId>(Builder&, const Node&)>;
+
+// The program with every reachable node replaced, operands first. Drops unreachable nodes.
+Program rewrite(Program program, const Replace& replace);
+// Just drops unreachable nodes.
+Program rewrite(Program program);
+
+// Call change(NodeId&) for all that a node, or the statements of a block, or the whole program
+// name; in the order of operands_of and roots_of.
+using Change = std::function<void(NodeId&)>;
+void change_operands(Node& node, const Change& change);
+void change_roots(Block& block, const Change& change);
+void change_roots(Program& program, const Change& change);
+
+}  // namespace rddlc::ir

@@ -1,0 +1,197 @@
+#include "ir/simplify.hpp"
+
+#include <bit>
+
+namespace rddlc::ir {
+namespace {
+
+class Simplifier {
+  public:
+    Simplifier(Builder& builder, Operator op, std::span<const NodeId> operands)
+        : builder_(builder), op_(op), a_(operands.front()), b_(operands.back()) {}
+
+    std::optional<NodeId> simplify() {
+        switch (op_) {
+            case Operator::Add:
+                return add();
+            case Operator::Subtract:
+                return is_zero(b_) ? std::optional(a_) : std::nullopt;
+            case Operator::Multiply:
+                return multiply();
+            case Operator::Divide:
+                return is(b_, 1.0) ? std::optional(a_) : std::nullopt;
+            case Operator::Negate:
+                return operand_of(a_, Operator::Negate);
+            case Operator::And:
+                return both();
+            case Operator::Or:
+                return either();
+            case Operator::Not:
+                return negation();
+            case Operator::Implies:
+                return implication();
+            case Operator::Equal:
+            case Operator::Equivalent:
+                return equality();
+            case Operator::NotEqual:
+                return inequality();
+            case Operator::Minimum:
+            case Operator::Maximum:
+                return a_ == b_ ? std::optional(a_) : std::nullopt;
+            default:
+                return std::nullopt;
+        }
+    }
+
+  private:
+    // Zeros of reals have a sign: only -0.0 is neutral.
+    std::optional<NodeId> add() {
+        if (is(a_, std::int64_t{0}) || is(a_, -0.0)) return b_;
+        if (is(b_, std::int64_t{0}) || is(b_, -0.0)) return a_;
+        return std::nullopt;
+    }
+
+    bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
+    bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
+
+    std::optional<NodeId> multiply() {
+        if (is_one(a_)) return b_;
+        if (is_one(b_)) return a_;
+        if (is(a_, std::int64_t{0}) && droppable(b_)) return a_;
+        if (is(b_, std::int64_t{0}) && droppable(a_)) return b_;
+        return std::nullopt;
+    }
+
+    std::optional<NodeId> both() {
+        if (is(a_, true) || a_ == b_) return b_;
+        if (is(b_, true)) return a_;
+        if (is(a_, false) && droppable(b_)) return a_;
+        if (is(b_, false) && droppable(a_)) return b_;
+        if (may_fault(b_)) return builder_.select(a_, b_, builder_.constant(false));
+        return std::nullopt;
+    }
+
+    std::optional<NodeId> either() {
+        if (is(a_, false) || a_ == b_) return b_;
+        if (is(b_, false)) return a_;
+        if (is(a_, true) && droppable(b_)) return a_;
+        if (is(b_, true) && droppable(a_)) return b_;
+        if (may_fault(b_)) return builder_.select(a_, builder_.constant(true), b_);
+        return std::nullopt;
+    }
+
+    std::optional<NodeId> implication() {
+        return builder_.apply(Operator::Or, {builder_.apply(Operator::Not, {a_}), b_});
+    }
+
+    std::optional<NodeId> negation() {
+        if (const auto inner = operand_of(a_, Operator::Not)) return inner;
+        const auto* apply = std::get_if<Apply>(&node(a_).form);
+        if (!apply) return std::nullopt;
+        const bool reals = node(apply->operands.front()).type == Scalar::Real;
+        const auto opposite = opposite_of(apply->op, reals);
+        if (!opposite) return std::nullopt;
+        return builder_.apply(*opposite, std::vector(apply->operands));
+    }
+
+    // nan compares false with everything, so orders of reals have no opposite.
+    static std::optional<Operator> opposite_of(Operator op, bool reals) {
+        if (op == Operator::Equal) return Operator::NotEqual;
+        if (op == Operator::NotEqual) return Operator::Equal;
+        if (reals) return std::nullopt;
+        switch (op) {
+            case Operator::Less:
+                return Operator::GreaterEqual;
+            case Operator::LessEqual:
+                return Operator::Greater;
+            case Operator::Greater:
+                return Operator::LessEqual;
+            case Operator::GreaterEqual:
+                return Operator::Less;
+            default:
+                return std::nullopt;
+        }
+    }
+
+    std::optional<NodeId> equality() {
+        if (is(a_, true)) return b_;
+        if (is(b_, true)) return a_;
+        if (is(a_, false)) return builder_.apply(Operator::Not, {b_});
+        if (is(b_, false)) return builder_.apply(Operator::Not, {a_});
+        if (same_discrete()) return builder_.constant(true);
+        return std::nullopt;
+    }
+
+    std::optional<NodeId> inequality() {
+        if (is(a_, false)) return b_;
+        if (is(b_, false)) return a_;
+        if (is(a_, true)) return builder_.apply(Operator::Not, {b_});
+        if (is(b_, true)) return builder_.apply(Operator::Not, {a_});
+        if (same_discrete()) return builder_.constant(false);
+        return std::nullopt;
+    }
+
+    // nan differs from itself.
+    bool same_discrete() const {
+        return a_ == b_ && node(a_).type != Scalar::Real && droppable(a_);
+    }
+
+    std::optional<NodeId> operand_of(NodeId id, Operator op) const {
+        const auto* apply = std::get_if<Apply>(&node(id).form);
+        if (!apply || apply->op != op) return std::nullopt;
+        return apply->operands.front();
+    }
+
+    template <class T>
+    bool is(NodeId id, T expected) const {
+        const auto* constant = std::get_if<Constant>(&node(id).form);
+        const T* value = constant ? std::get_if<T>(&constant->value) : nullptr;
+        if (!value) return false;
+        if constexpr (std::is_same_v<T, double>) {
+            return std::bit_cast<std::uint64_t>(*value) == std::bit_cast<std::uint64_t>(expected);
+        } else {
+            return *value == expected;
+        }
+    }
+
+    const Node& node(NodeId id) const { return builder_.program()[id]; }
+    bool may_fault(NodeId id) const { return builder_.facts(id).may_fault; }
+    bool droppable(NodeId id) const { return is_droppable(builder_.facts(id)); }
+
+    Builder& builder_;
+    Operator op_;
+    NodeId a_;  // by value: building nodes moves the pool
+    NodeId b_;
+};
+
+std::optional<bool> known_bool(const Program& program, NodeId id) {
+    const auto* constant = std::get_if<Constant>(&program[id].form);
+    const bool* value = constant ? std::get_if<bool>(&constant->value) : nullptr;
+    return value ? std::optional(*value) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<NodeId> simplify(Builder& builder, Operator op, std::span<const NodeId> operands) {
+    return Simplifier(builder, op, operands).simplify();
+}
+
+std::optional<NodeId> simplify_select(Builder& builder, NodeId condition, NodeId then_value,
+                                      NodeId else_value) {
+    const Program& program = builder.program();
+    if (const auto known = known_bool(program, condition)) return *known ? then_value : else_value;
+    if (then_value == else_value && is_droppable(builder.facts(condition))) return then_value;
+
+    const auto a = known_bool(program, then_value);
+    const auto b = known_bool(program, else_value);
+    if (a && b && *a && !*b) return condition;
+    if (a && b && !*a && *b) return builder.apply(Operator::Not, {condition});
+
+    const auto* apply = std::get_if<Apply>(&program[condition].form);
+    if (apply && apply->op == Operator::Not) {
+        return builder.select(apply->operands.front(), else_value, then_value);
+    }
+    return std::nullopt;
+}
+
+}  // namespace rddlc::ir

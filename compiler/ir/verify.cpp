@@ -1,0 +1,451 @@
+#include "ir/verify.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/print.hpp"
+#include "support/match.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+namespace rddlc::ir {
+namespace {
+
+using StorageSet = std::set<Storage>;
+
+class Verifier {
+  public:
+    explicit Verifier(const Program& program) : program_(program) {}
+
+    std::vector<std::string> complaints() && {
+        buffers();
+        if (pool_is_sound()) {
+            facts_ = all_facts(program_);
+            nodes();
+            step();
+            conditions();
+        }
+        return std::move(complaints_);
+    }
+
+  private:
+    template <class... Arguments>
+    void require(bool ok, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        if (ok) return;
+        complaints_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
+    }
+
+    // ------------------------------------------------------------------------ buffers
+
+    void buffers() {
+        for (const Buffer& buffer : program_.buffers) {
+            require(buffer.shape.size() == buffer.types.size(), "'{}' has {} axes of {} types",
+                    buffer.name, buffer.shape.size(), buffer.types.size());
+            values(buffer);
+        }
+        for (const Buffer& buffer : program_.buffers) {
+            if (buffer.storage != Storage::State) continue;
+            require(count_like(buffer, Storage::Next) == 1, "'{}' has no next state", buffer.name);
+        }
+        for (const Fluent& fluent : program_.fluents) {
+            require(!fluent.buffer || fluent.buffer->index < program_.buffers.size(),
+                    "'{}' has no such buffer", fluent.name);
+        }
+    }
+
+    void values(const Buffer& buffer) {
+        const bool has_values = buffer.storage == Storage::Constant ||
+                                buffer.storage == Storage::State ||
+                                buffer.storage == Storage::Action;
+        const std::size_t expected = has_values ? static_cast<std::size_t>(buffer.count()) : 0;
+        require(buffer.values.size() == expected, "'{}' has {} values instead of {}", buffer.name,
+                buffer.values.size(), expected);
+        const auto typed = [&](const Value& value) {
+            return value.index() == static_cast<std::size_t>(buffer.scalar);
+        };
+        require(std::ranges::all_of(buffer.values, typed), "'{}' has values of another type",
+                buffer.name);
+    }
+
+    std::ptrdiff_t count_like(const Buffer& model, Storage storage) const {
+        return std::ranges::count_if(program_.buffers, [&](const Buffer& buffer) {
+            return buffer.storage == storage && buffer.name == model.name &&
+                   buffer.shape == model.shape && buffer.scalar == model.scalar;
+        });
+    }
+
+    // -------------------------------------------------------------------------- nodes
+
+    // Ids are within their tables, and operands come first: the rest may follow them.
+    bool pool_is_sound() {
+        const std::size_t before = complaints_.size();
+        for (std::uint32_t index = 0; index < program_.nodes.size(); ++index) {
+            for (NodeId operand : operands_of(program_.nodes[index])) {
+                require(operand.index < index, "node {} uses node {}, which is not before it",
+                        index, operand.index);
+            }
+            ids_are_known(program_.nodes[index]);
+        }
+        for (NodeId root : roots_of(program_)) {
+            require(root.index < program_.nodes.size(), "there is no node {}", root.index);
+        }
+        return complaints_.size() == before;
+    }
+
+    void ids_are_known(const Node& node) {
+        if (const auto* load = std::get_if<Load>(&node.form)) {
+            require(load->buffer.index < program_.buffers.size(), "there is no buffer {}",
+                    load->buffer.index);
+        }
+        if (const auto* local = std::get_if<Local>(&node.form)) {
+            require(local->local.index < program_.local_count, "there is no local {}",
+                    local->local.index);
+        }
+        if (const auto* index = std::get_if<Index>(&node.form)) {
+            require(index->variable.index < program_.variables.size(), "there is no variable {}",
+                    index->variable.index);
+        }
+        if (const auto variable = bound_variable(node)) {
+            require(variable->index < program_.variables.size(), "there is no variable {}",
+                    variable->index);
+        }
+        if (const auto place = place_of(node)) {
+            require(place->site.index < program_.sites.size(), "there is no site {}",
+                    place->site.index);
+        }
+    }
+
+    void nodes() {
+        const std::vector<bool> reachable = reachable_nodes(program_);
+        std::vector<int> site_uses(program_.sites.size());
+        for (std::uint32_t index = 0; index < program_.nodes.size(); ++index) {
+            if (!reachable[index]) continue;
+            const Node& node = program_.nodes[index];
+            const bool typed =
+                match(node.form, [&](const auto& form) { return fits(form, node.type); });
+            require(typed, "types do not fit in '{}'", print(program_, NodeId{index}));
+            not_bound_inside_itself(NodeId{index});
+            const auto place = place_of(node);
+            if (!place) continue;
+            require(type(place->index) == Scalar::Int, "the place of '{}' is not an int",
+                    print(program_, NodeId{index}));
+            ++site_uses[place->site.index];
+        }
+        for (std::size_t site = 0; site < site_uses.size(); ++site) {
+            require(site_uses[site] <= 1, "site {} is used {} times", site, site_uses[site]);
+        }
+    }
+
+    void not_bound_inside_itself(NodeId binder) {
+        const auto variable = bound_variable(program_[binder]);
+        if (!variable) return;
+        for (NodeId id : below(operands_of(program_[binder]).front())) {
+            require(bound_variable(program_[id]) != variable, "'{}' is bound inside itself",
+                    program_[*variable].name);
+        }
+    }
+
+    bool fits(const Constant& form, Scalar type) const {
+        return form.value.index() == static_cast<std::size_t>(type);
+    }
+    bool fits(const Index&, Scalar type) const { return type == Scalar::Int; }
+    bool fits(const Load& form, Scalar type) const {
+        const Buffer& buffer = program_[form.buffer];
+        return type == buffer.scalar && are_indices(buffer, form.indices);
+    }
+    bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
+    bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }
+    bool fits(const Select& form, Scalar result) const {
+        return type(form.condition) == Scalar::Bool && type(form.then_value) == result &&
+               type(form.else_value) == result;
+    }
+    bool fits(const Apply& form, Scalar result) const {
+        if (form.operands.size() != static_cast<std::size_t>(arity_of(form.op))) return false;
+        const Scalar operand = type(form.operands.front());
+        if (type(form.operands.back()) != operand) return false;
+        if (form.place.has_value() != may_fault(form.op, operand == Scalar::Int)) return false;
+        return fits(form.op, operand, result) && right_operand_is_lazy_enough(form);
+    }
+    // C++ spells these && and ||, which would hide a fault of the right operand.
+    bool right_operand_is_lazy_enough(const Apply& form) const {
+        const bool connective =
+            form.op == Operator::And || form.op == Operator::Or || form.op == Operator::Implies;
+        return !connective || !facts_[form.operands.back().index].may_fault;
+    }
+    static bool fits(Operator op, Scalar operand, Scalar result) {
+        const bool is_bool = operand == Scalar::Bool;
+        switch (op) {
+            case Operator::Equal:
+            case Operator::NotEqual:
+                return result == Scalar::Bool;
+            case Operator::Less:
+            case Operator::LessEqual:
+            case Operator::Greater:
+            case Operator::GreaterEqual:
+                return !is_bool && result == Scalar::Bool;
+            case Operator::And:
+            case Operator::Or:
+            case Operator::Not:
+            case Operator::Implies:
+            case Operator::Equivalent:
+                return is_bool && result == Scalar::Bool;
+            case Operator::FloorDivide:
+            case Operator::FloorModulo:
+                return operand == Scalar::Int && result == Scalar::Int;
+            case Operator::Sign:
+                return !is_bool && result == Scalar::Int;
+            case Operator::Round:
+            case Operator::Floor:
+            case Operator::Ceil:
+                return operand == Scalar::Real && result == Scalar::Int;
+            case Operator::Add:
+            case Operator::Subtract:
+            case Operator::Multiply:
+            case Operator::Negate:
+            case Operator::Abs:
+            case Operator::Minimum:
+            case Operator::Maximum:
+            case Operator::Power:
+                return !is_bool && result == operand;
+            default:
+                return operand == Scalar::Real && result == Scalar::Real;
+        }
+    }
+    bool fits(const Reduce& form, Scalar result) const {
+        const Scalar body = type(form.body);
+        const bool empty = program_[form.variable].size == 0;
+        switch (form.op) {
+            case Reduction::ForAll:
+            case Reduction::Exists:
+                return body == Scalar::Bool && result == Scalar::Bool;
+            case Reduction::Sum:
+            case Reduction::Product:
+                return body != Scalar::Bool && result == body;
+            case Reduction::Minimum:
+            case Reduction::Maximum:
+                return body != Scalar::Bool && result == body && !empty;
+            case Reduction::ArgMin:
+            case Reduction::ArgMax:
+                return body != Scalar::Bool && result == Scalar::Int && !empty;
+            case Reduction::Average:
+                return false;
+        }
+        return false;
+    }
+    bool fits(const Sample& form, Scalar result) const {
+        if (form.parameters.size() != static_cast<std::size_t>(arity_of(form.distribution))) {
+            return false;
+        }
+        const bool counted = form.distribution == Distribution::Binomial;
+        if (type(form.parameters.front()) != (counted ? Scalar::Int : Scalar::Real)) return false;
+        const bool plural = form.parameters.size() > 1;
+        if (plural && type(form.parameters.back()) != Scalar::Real) return false;
+        return drawn(form.distribution) == result;
+    }
+    static std::optional<Scalar> drawn(Distribution distribution) {
+        switch (distribution) {
+            case Distribution::KronDelta:
+            case Distribution::DiracDelta:
+                return std::nullopt;
+            case Distribution::Bernoulli:
+                return Scalar::Bool;
+            case Distribution::Poisson:
+            case Distribution::Binomial:
+            case Distribution::NegativeBinomial:
+            case Distribution::Geometric:
+                return Scalar::Int;
+            default:
+                return Scalar::Real;
+        }
+    }
+    bool fits(const Discrete& form, Scalar result) const {
+        const auto is_real = [&](NodeId id) {
+            return type(id) == Scalar::Real;
+        };
+        return result == Scalar::Int && !form.weights.empty() &&
+               std::ranges::all_of(form.weights, is_real);
+    }
+    bool fits(const DiscreteOver& form, Scalar result) const {
+        return result == Scalar::Int && type(form.weight) == Scalar::Real &&
+               program_[form.variable].size > 0;
+    }
+    bool fits(const Fault&, Scalar) const { return true; }
+
+    bool are_indices(const Buffer& buffer, const std::vector<NodeId>& indices) const {
+        const auto is_int = [&](NodeId id) {
+            return type(id) == Scalar::Int;
+        };
+        return indices.size() == buffer.shape.size() && std::ranges::all_of(indices, is_int);
+    }
+
+    Scalar type(NodeId id) const { return program_[id].type; }
+
+    // --------------------------------------------------------------------- statements
+
+    // What is known where a statement stands.
+    struct Scope {
+        std::set<VariableId> variables;
+        std::set<LocalId> locals;
+    };
+
+    void step() {
+        const StorageSet readable = {Storage::Constant, Storage::State, Storage::Action,
+                                     Storage::Scratch, Storage::Next};
+        for (const Definition& definition : program_.step) {
+            block(definition.body, {}, readable);
+            std::set<BufferId> targets;
+            for_each_store(definition.body,
+                           [&](const Store& store) { targets.insert(store.target); });
+            for (BufferId target : targets) complete(target);
+        }
+        for (std::uint32_t index = 0; index < program_.buffers.size(); ++index) {
+            const Buffer& buffer = program_.buffers[index];
+            const bool filled =
+                buffer.storage == Storage::Next || buffer.storage == Storage::Observation;
+            require(!filled || defined_.contains(BufferId{index}), "nothing computes '{}'",
+                    buffer.name);
+        }
+        computation("reward", program_.reward, Scalar::Real, readable);
+    }
+
+    void conditions() {
+        const StorageSet of_state = {Storage::Constant, Storage::State};
+        const StorageSet of_action = {Storage::Constant, Storage::State, Storage::Action};
+        for (const Computation& condition : program_.preconditions) {
+            computation("precondition", condition, Scalar::Bool, of_action);
+        }
+        for (const Computation& condition : program_.invariants) {
+            computation("invariant", condition, Scalar::Bool, of_state);
+        }
+        for (const Computation& condition : program_.terminations) {
+            computation("termination", condition, Scalar::Bool, of_state);
+        }
+    }
+
+    template <class Visit>
+    void for_each_store(const Block& statements, const Visit& visit) const {
+        for (const Statement& statement : statements) {
+            if (const auto* store = std::get_if<Store>(&statement.form)) visit(*store);
+            if (const auto* loop = std::get_if<Loop>(&statement.form)) {
+                for_each_store(loop->body, visit);
+            }
+        }
+    }
+
+    void complete(BufferId target) {
+        require(defined_.insert(target).second, "'{}' is computed twice", program_[target].name);
+    }
+
+    void computation(std::string_view name, const Computation& computation, Scalar expected,
+                     const StorageSet& readable) {
+        const Scope scope = block(computation.body, {}, readable);
+        use(computation.value, scope, readable);
+        require(type(computation.value) == expected, "the type of a {} is wrong", name);
+    }
+
+    // The scope behind the statements.
+    Scope block(const Block& statements, Scope scope, const StorageSet& readable) {
+        for (const Statement& statement : statements) {
+            match(
+                statement.form, [&](const Let& form) { let(form, scope, readable); },
+                [&](const Store& form) { store(form, scope, readable); },
+                [&](const Loop& form) { loop(form, scope, readable); });
+        }
+        return scope;
+    }
+
+    void let(const Let& form, Scope& scope, const StorageSet& readable) {
+        use(form.value, scope, readable);
+        require(form.local.index < program_.local_count, "there is no local {}", form.local.index);
+        require(let_types_.emplace(form.local, type(form.value)).second,
+                "local {} is defined twice", form.local.index);
+        scope.locals.insert(form.local);
+    }
+
+    void store(const Store& form, const Scope& scope, const StorageSet& readable) {
+        const Buffer& buffer = program_[form.target];
+        const bool writable = buffer.storage == Storage::Scratch ||
+                              buffer.storage == Storage::Next ||
+                              buffer.storage == Storage::Observation;
+        require(writable, "'{}' is read only", buffer.name);
+        require(are_indices(buffer, form.indices), "the indices of '{}' do not fit", buffer.name);
+        require(type(form.value) == buffer.scalar, "the type stored to '{}' is wrong", buffer.name);
+        for (NodeId index : form.indices) use(index, scope, readable);
+        use(form.value, scope, readable);
+    }
+
+    void loop(const Loop& form, Scope scope, const StorageSet& readable) {
+        require(scope.variables.insert(form.variable).second, "'{}' is bound inside itself",
+                program_[form.variable].name);
+        block(form.body, std::move(scope), readable);
+    }
+
+    // Everything below `root` may be evaluated here.
+    void use(NodeId root, const Scope& scope, const StorageSet& readable) {
+        const auto known = [&](VariableId id) {
+            return scope.variables.contains(id);
+        };
+        require(std::ranges::all_of(facts_[root.index].free_variables, known),
+                "a variable of '{}' is not bound", print(program_, root));
+        for (NodeId id : below(root)) {
+            const Node& node = program_[id];
+            if (const auto* load = std::get_if<Load>(&node.form)) readable_now(*load, readable);
+            if (const auto* local = std::get_if<Local>(&node.form)) {
+                require(
+                    scope.locals.contains(local->local) && let_types_.at(local->local) == node.type,
+                    "local {} is not defined here", local->local.index);
+            }
+            if (const auto variable = bound_variable(node)) {
+                require(!known(*variable), "'{}' is bound inside itself", program_[*variable].name);
+            }
+        }
+    }
+
+    void readable_now(const Load& load, const StorageSet& readable) {
+        const Buffer& buffer = program_[load.buffer];
+        require(readable.contains(buffer.storage), "'{}' must not be read here", buffer.name);
+        const bool computed = buffer.storage == Storage::Scratch || buffer.storage == Storage::Next;
+        require(!computed || defined_.contains(load.buffer), "'{}' is read before it is computed",
+                buffer.name);
+    }
+
+    std::vector<NodeId> below(NodeId root) const {
+        std::set<NodeId> found = {root};
+        std::vector<NodeId> waiting = {root};
+        while (!waiting.empty()) {
+            const NodeId id = waiting.back();
+            waiting.pop_back();
+            for (NodeId operand : operands_of(program_[id])) {
+                if (found.insert(operand).second) waiting.push_back(operand);
+            }
+        }
+        return {found.begin(), found.end()};
+    }
+
+    const Program& program_;
+    std::vector<Facts> facts_;
+    std::set<BufferId> defined_;
+    std::map<LocalId, Scalar> let_types_;
+    std::vector<std::string> complaints_;
+};
+
+}  // namespace
+
+std::vector<std::string> verify(const Program& program) {
+    return Verifier(program).complaints();
+}
+
+void expect_valid(const Program& program, const char* stage) {
+    const std::vector<std::string> complaints = verify(program);
+    if (complaints.empty()) return;
+    fmt::print(stderr, "rddlc: internal error: the program is malformed after {}:\n{}\n", stage,
+               fmt::join(complaints, "\n"));
+    std::abort();
+}
+
+}  // namespace rddlc::ir
