@@ -1,0 +1,102 @@
+"""Our side: the same steps through `rddl replay`, one process an instance and engine."""
+
+import json
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from model import REWARD, TERMINATED, TRUNCATED, Columns, DrawPoint, Problem, Transitions, Values
+from problems import Case
+
+
+class ReplayFailure(Exception):
+    """`rddl replay` failed, or refused a line."""
+
+
+@dataclass
+class Replayed:
+    transitions: Columns
+    draws: list[Columns]  # one for each draw point
+    text: bytes  # the whole output, to compare engines
+
+
+def replay(
+    rddl: Path,
+    case: Case,
+    problem: Problem,
+    walk: Transitions,
+    points: list[DrawPoint],
+    engine: str,
+) -> Replayed:
+    """All transitions and draws of one instance. The horizon is off: lines are independent steps."""
+    with tempfile.TemporaryDirectory(prefix="conformance-") as folder:
+        asked, answered = Path(folder, "input.jsonl"), Path(folder, "output.jsonl")
+        asked.write_text("".join(request_lines(problem, walk, points)))
+        command = [rddl, "replay", case.domain_path, case.instance_path]
+        command += ["--input", asked, "--output", answered]
+        command += ["--seed", "1", "--horizon", "0", f"--engine={engine}"]
+        result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if result.returncode != 0:
+            raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")
+        text = answered.read_bytes()
+    answers = [json.loads(line) for line in text.splitlines()]
+    if len(answers) != len(walk) + len(points):
+        raise ReplayFailure(f"{len(walk) + len(points)} lines asked, {len(answers)} answered")
+    for number, answer in enumerate(answers):
+        if "error" in answer:
+            raise ReplayFailure(f"line {number + 1} refused: {answer['error']}")
+    return Replayed(
+        transitions=outcome_columns(problem, answers[: len(walk)]),
+        draws=[outcome_columns(problem, answer["samples"]) for answer in answers[len(walk) :]],
+        text=text,
+    )
+
+
+def request_lines(problem: Problem, walk: Transitions, points: list[DrawPoint]):
+    for row in range(len(walk)):
+        state = {fluent.name: walk.states[fluent.name][row] for fluent in problem.states}
+        action = {fluent.name: walk.actions[fluent.name][row] for fluent in problem.actions}
+        yield request_line(problem, state, action)
+    for point in points:
+        yield request_line(problem, point.state, point.action, repeat=point.count())
+
+
+def request_line(problem: Problem, state: Values, action: Values, **more) -> str:
+    request = {
+        "state": encode(problem.states, state),
+        "action": encode(problem.actions, action),
+        **more,
+    }
+    return json.dumps(request) + "\n"
+
+
+def encode(fluents, values: Values) -> dict:
+    """Values by grounded name."""
+    return {
+        name: value
+        for fluent in fluents
+        for name, value in fluent.encode(values[fluent.name]).items()
+    }
+
+
+def outcome_columns(problem: Problem, answers: list[dict]) -> Columns:
+    for answer in answers:
+        if "fault" in answer:
+            raise ReplayFailure(f"faulted: {answer['fault']}")
+    states = [answer["state"] for answer in answers]
+    observations = [answer["observation"] for answer in answers]
+    columns = {fluent.name: fluent.decode(states) for fluent in problem.states}
+    columns |= {fluent.name: fluent.decode(observations) for fluent in problem.observations}
+    rewards = [float(answer["reward"]) for answer in answers]  # "nan" and "inf" are in quotes
+    columns[REWARD] = np.array(rewards, dtype=np.float64).reshape(-1, 1)
+    for name, member in ((TERMINATED, "terminated"), (TRUNCATED, "truncated")):
+        columns[name] = np.array([answer[member] for answer in answers], dtype=np.bool_)
+        columns[name] = columns[name].reshape(-1, 1)
+    return columns
+
+
+def last_lines(text: str, count: int = 6) -> str:
+    return "\n".join(text.strip().splitlines()[-count:])

@@ -1,0 +1,71 @@
+"""Which problems are compared: rddlrepository's by name, and the project's own examples."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from rddlrepository.core.manager import RDDLRepoManager
+
+ROOT = Path(__file__).resolve().parents[2]
+
+CORE = (
+    "MountainCar_ippc2023",
+    "MountainCar_Continuous_gym",
+    "MountainCar_Discrete_gym",
+    "CartPole_Continuous_gym",
+    "CartPole_Discrete_gym",
+    "Pendulum_gym",
+    "Reservoir_ippc2023",
+    "HVAC_ippc2023",
+    "PowerGen_ippc2023",
+    "SysAdmin_MDP_ippc2011",
+    "GameOfLife_MDP_ippc2011",
+    "Wildfire_MDP_ippc2014",
+    "Elevators_POMDP_ippc2011",
+    "Navigation_MDP_ippc2011",
+)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One instance of one problem."""
+
+    problem: str
+    instance: str
+    domain_path: Path
+    instance_path: Path
+
+    @property
+    def label(self) -> str:
+        return f"{self.problem} {self.instance}"
+
+
+def repository_cases(problem: str) -> list[Case]:
+    """All instances of a problem of rddlrepository, in order of their numbers."""
+    info = RDDLRepoManager().get_problem(problem)
+    names = sorted(map(str, info.list_instances()), key=lambda name: (len(name), name))
+    return [
+        Case(problem, name, Path(info.get_domain()), Path(info.get_instance(name)))
+        for name in names
+    ]
+
+
+def example_cases() -> list[Case]:
+    """The problems of examples/."""
+    cases = []
+    for domain in sorted((ROOT / "examples").glob("*/domain.rddl")):
+        for instance in sorted(domain.parent.glob("instance*.rddl")):
+            number = instance.stem.removeprefix("instance") or "1"
+            cases.append(Case(domain.parent.name, number, domain, instance))
+    return cases
+
+
+def all_problems() -> list[str]:
+    """The names of all problems of rddlrepository."""
+    return sorted(map(str, RDDLRepoManager().list_problems()))
+
+
+def smallest_median_largest(cases: list[Case]) -> list[Case]:
+    """Up to three instances of one problem, by the size of their text."""
+    by_size = sorted(cases, key=lambda case: (case.instance_path.stat().st_size, case.instance))
+    picked = {0, len(by_size) // 2, len(by_size) - 1}
+    return [by_size[index] for index in sorted(picked)]

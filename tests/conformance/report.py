@@ -1,0 +1,63 @@
+"""The table of a run, for the terminal and for docs/conformance.md."""
+
+from importlib.metadata import version
+
+from problems import ROOT
+
+DOCUMENT = ROOT / "docs/conformance.md"
+BEGIN, END = "<!-- begin of the table -->", "<!-- end of the table -->"
+MOST_FAILURES = 8
+
+HEAD = ("instance", "steps", "values", "worst difference", "draws", "tests", "least p", "result")
+WIDTHS = (34, 5, 7, 16, 8, 6, 8, 10)
+
+
+def cells(report) -> tuple[str, ...]:
+    findings = list(report.findings.values())
+    values = max((f.exact_values for f in findings), default=0)
+    worst = max((f.worst_difference for f in findings), default=0.0)
+    tests = max((len(f.tests) for f in findings), default=0)
+    least = min((p for f in findings for p, _ in f.tests), default=1.0)
+    return (
+        report.case.label,
+        str(report.transitions),
+        str(values),
+        f"{worst:.1e}" if worst else "0",
+        f"{report.draw_points} x {report.draws}" if report.draw_points else "-",
+        str(tests) if tests else "-",
+        f"{least:.0e}" if tests else "-",
+        "DISAGREES" if report.failures else "agrees",
+    )
+
+
+def line(texts) -> str:
+    first, *others = (text for text in texts)
+    padded = [first.ljust(WIDTHS[0])]
+    padded += [text.rjust(width) for text, width in zip(others, WIDTHS[1:])]
+    return "  ".join(padded)
+
+
+def table_head() -> str:
+    return line(HEAD)
+
+
+def row_text(report) -> str:
+    return line(cells(report)) + f"  {report.seconds:.1f} s"
+
+
+def failure_text(report) -> str:
+    shown = report.failures[:MOST_FAILURES]
+    if len(report.failures) > len(shown):
+        shown = [*shown, f"and {len(report.failures) - len(shown)} more"]
+    return "".join(f"    {failure}\n" for failure in shown)
+
+
+def write_document(reports) -> None:
+    rows = [HEAD, ("---",) * len(HEAD), *(cells(report) for report in reports)]
+    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    versions = ", ".join(f"{name} {version(name)}" for name in ("pyRDDLGym", "rddlrepository"))
+    text = DOCUMENT.read_text()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    DOCUMENT.write_text(f"{before}{BEGIN}\n\n{versions}:\n\n{table}\n\n{END}{after}")
+    print(f"written: {DOCUMENT}")

@@ -1,0 +1,140 @@
+"""Compares our simulators with the real pyRDDLGym, instance by instance.
+
+    .venv/bin/python tests/conformance/run.py                          the problems of every test run
+    .venv/bin/python tests/conformance/run.py --all                    all of rddlrepository
+    .venv/bin/python tests/conformance/run.py Wildfire_MDP_ippc2014    some problems
+    .venv/bin/python tests/conformance/run.py --write                  and docs/conformance.md
+
+docs/conformance.md says what is compared and how. Exit status: 0 if all agree, else 1.
+"""
+
+import argparse
+import multiprocessing
+import os
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from compare import Findings, compare_draws, compare_transitions, judge_draws
+from ours import Replayed, ReplayFailure, replay
+from problems import CORE, ROOT, Case, all_problems, example_cases, repository_cases
+from problems import smallest_median_largest
+from recordings import recording_of
+from reference import Plan
+from report import failure_text, row_text, table_head, write_document
+
+FALSE_ALARM_RATE = 1e-6  # of the whole run
+ENGINES = ("interpreter", "compiled")
+
+
+@dataclass
+class Report:
+    """One instance: what every engine gave, and what went wrong."""
+
+    case: Case
+    transitions: int = 0
+    draw_points: int = 0
+    draws: int = 0  # at each point
+    findings: dict[str, Findings] = field(default_factory=dict)  # by engine
+    failures: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+
+
+def compare_case(task: tuple[Case, argparse.Namespace, float]) -> Report:
+    case, options, false_alarm_rate = task
+    report = Report(case)
+    begin = time.perf_counter()
+    try:
+        compare_engines(report, options, false_alarm_rate)
+    except Exception as error:  # one instance must not end the others
+        report.failures.append(f"{type(error).__name__}: {error}")
+    report.seconds = time.perf_counter() - begin
+    return report
+
+
+def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
+    plan = Plan(draws=options.draws, draw_points=options.draw_points, seconds=options.seconds)
+    recording = recording_of(report.case, plan, options.cache)
+    problem, walk, points = recording.problem, recording.walk, recording.points
+    report.transitions, report.draw_points = len(walk), len(points)
+    report.draws = plan.draws if not points else points[0].count()
+    replayed: dict[str, Replayed] = {}
+    for engine in options.engine:
+        try:
+            found = replay(options.rddl, report.case, problem, walk, points, engine)
+        except ReplayFailure as failure:
+            report.failures.append(f"{engine}: {failure}")
+            continue
+        findings = report.findings[engine] = Findings()
+        compare_transitions(problem, walk, found.transitions, findings)
+        for point, draws in zip(points, found.draws):
+            compare_draws(problem, point, draws, findings)
+        judge_draws(findings, false_alarm_rate)
+        report.failures += [f"{engine}: {text}" for text in findings.disagreements]
+        replayed[engine] = found
+    if len({found.text for found in replayed.values()}) > 1:
+        report.failures.append("interpreter and compiled do not agree bit for bit")
+
+
+def chosen_cases(options) -> list[Case]:
+    if options.examples:
+        return example_cases()
+    problems = options.problems or (all_problems() if options.all else CORE)
+    by_problem = [repository_cases(problem) for problem in problems]
+    if options.smallest_median_largest:
+        by_problem = [smallest_median_largest(cases) for cases in by_problem]
+    return [case for cases in by_problem for case in cases]
+
+
+def parse_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
+    parser.add_argument("--all", action="store_true", help="all problems of rddlrepository")
+    parser.add_argument("--examples", action="store_true", help="the problems of examples/")
+    parser.add_argument(
+        "--smallest-median-largest", action="store_true", help="up to three instances a problem"
+    )
+    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
+    parser.add_argument("--engine", action="append", choices=ENGINES, help="default: both")
+    parser.add_argument("--draws", type=int, default=Plan.draws, help="of each state and action")
+    parser.add_argument("--draw-points", type=int, default=Plan.draw_points, help="an instance")
+    parser.add_argument(
+        "--seconds", type=float, default=Plan.seconds, help="of the reference, an instance"
+    )
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument(
+        "--cache", type=Path, default=ROOT / "build/conformance", help="recordings of the reference"
+    )
+    parser.add_argument(
+        "--write", action="store_true", help="write the table into docs/conformance.md"
+    )
+    options = parser.parse_args()
+    options.engine = tuple(options.engine or ENGINES)
+    if not options.rddl.exists():
+        parser.error(f"{options.rddl} is not there: build it, or give its place by --rddl")
+    return options
+
+
+def main() -> int:
+    options = parse_arguments()
+    cases = chosen_cases(options)
+    rate = FALSE_ALARM_RATE / (len(cases) * len(options.engine))
+    begin = time.perf_counter()
+    print(table_head())
+    reports = []
+    with multiprocessing.get_context("spawn").Pool(options.workers) as pool:
+        for report in pool.imap(compare_case, [(case, options, rate) for case in cases]):
+            reports.append(report)
+            print(row_text(report), flush=True)
+            print(failure_text(report), end="", flush=True)
+    failed = [report for report in reports if report.failures]
+    seconds = time.perf_counter() - begin
+    print(f"\n{len(cases)} instances, {len(failed)} of them disagree; {seconds:.0f} s")
+    if options.write:
+        write_document(reports)
+    return 1 if failed or not cases else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
