@@ -11,7 +11,9 @@ Interpreter::Interpreter(Program program)
       evaluator_(*program_),
       state_size_(record_layout(*program_, Storage::State).size),
       action_size_(record_layout(*program_, Storage::Action).size),
-      observation_size_(record_layout(*program_, Storage::Observation).size),
+      observation_size_(program_->partially_observed()
+                            ? record_layout(*program_, Storage::Observation).size
+                            : state_size_),
       scratch_size_(record_layout(*program_, Storage::Scratch).size) {}
 
 void Interpreter::reset(std::byte* state) const {
