@@ -1,0 +1,150 @@
+#include "parse/hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace rddlc {
+
+namespace {
+
+constexpr std::array<std::string_view, 25> functions = {
+    "abs",   "sgn",  "round", "floor", "ceil", "cos", "sin", "tan",  "acos",
+    "asin",  "atan", "cosh",  "sinh",  "tanh", "exp", "ln",  "sqrt", "lngamma",
+    "gamma", "div",  "mod",   "fmod",  "min",  "max", "pow"};
+constexpr std::array<std::string_view, 8> aggregations = {"sum", "prod",   "avg",    "min",
+                                                          "max", "forall", "exists", "argmax"};
+
+template <std::size_t n>
+bool contains(const std::array<std::string_view, n>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is(const Token* token, std::size_t type) {
+    return token != nullptr && token->getType() == type;
+}
+
+bool inside(const SyntaxError& error, std::size_t rule) {
+    const antlr4::tree::ParseTree* context = error.context;
+    for (; context != nullptr; context = context->parent)
+        if (static_cast<const antlr4::RuleContext*>(context)->getRuleIndex() == rule) return true;
+    return false;
+}
+
+// f(x + 1): the parentheses were read as those of a fluent.
+std::string round_brackets_of_a_function(const SyntaxError& error) {
+    const auto open = innermost_open(error.tokens, error.index);
+    if (!open || *open == 0 || !is(error.tokens[*open], Parser::OPEN_ROUND)) return "";
+    const Token& name = *error.tokens[*open - 1];
+    if (!is(&name, Parser::ID) || error.context->getRuleIndex() == Parser::RuleExpr) return "";
+    if (contains(functions, name.getText()))
+        return fmt::format("functions take square brackets: {}[...]", name.getText());
+    if (inside(error, Parser::RuleSymbols) || inside(error, Parser::RulePvariable)) return "";
+    if (inside(error, Parser::RuleSimpleTerm))
+        return fmt::format(
+            "'{}(...)' is a fluent, and the arguments of a fluent are variables, "
+            "@values and fluents, not expressions",
+            name.getText());
+    return "";
+}
+
+std::string square_brackets_of_a_distribution(const SyntaxError& error) {
+    const bool distribution =
+        is(error.before(1), Parser::DISTRIBUTION) || is(error.before(1), Parser::DISCRETE);
+    if (!distribution || !is(&error.found(), Parser::OPEN_SQUARE)) return "";
+    return fmt::format("distributions take round brackets: {}(...)", error.before(1)->getText());
+}
+
+std::string binder_form(const SyntaxError& error) {
+    const Token* before = error.before(1);
+    const bool aggregates = before != nullptr && contains(aggregations, before->getText());
+    const bool wrong = is(&error.found(), Parser::OPEN_CURLY) || is(before, Parser::QUANTIFIER) ||
+                       is(before, Parser::ARGUMENT_OF);
+    if (!aggregates || !wrong) return "";
+    return fmt::format("write the variables and their types as in {}_{{?x : type}} ...",
+                       before->getText());
+}
+
+std::string single_or_double_equals(const SyntaxError& error) {
+    if (is(&error.found(), Parser::ASSIGN) && inside(error, Parser::RuleCpf))
+        return "'equal' is written '=='";
+    if (is(&error.found(), Parser::EQUAL) && error.expects(Parser::ASSIGN))
+        return "a definition is written with a single '='";
+    return "";
+}
+
+std::string parentheses_of_if(const SyntaxError& error) {
+    const bool after = is(error.before(1), Parser::IF) || is(error.before(1), Parser::SWITCH);
+    const bool before_then = is(&error.found(), Parser::THEN);
+    return after || before_then ? "the condition stands in parentheses: if (c) then a else b" : "";
+}
+
+std::string else_is_compulsory(const SyntaxError& error) {
+    return error.expects(Parser::ELSE) ? "an 'if' always needs both: if (c) then a else b" : "";
+}
+
+std::string random_vector_is_whole(const SyntaxError& error) {
+    if (!is(&error.found(), Parser::RANDOM_VECTOR)) return "";
+    return fmt::format("'{}' can only be the whole right-hand side of a definition",
+                       error.found().getText());
+}
+
+std::string words_of_logic(const SyntaxError& error) {
+    const std::string word = error.found().getText();
+    const std::string before = error.before(1) != nullptr ? error.before(1)->getText() : "";
+    if (word == "and") return "'and' is written '^'";
+    if (word == "or") return "'or' is written '|'";
+    if (before == "not") return "'not' is written '~'";
+    return "";
+}
+
+std::string cpf_parameters(const SyntaxError& error) {
+    if (error.context->getRuleIndex() != Parser::RuleCpf || !error.expects(Parser::VAR)) return "";
+    return "a definition is for all objects, so its parameters are variables; distinguish objects "
+           "on the right-hand side: if (?x == @a) then ...";
+}
+
+std::string separators(const SyntaxError& error) {
+    if (is(&error.found(), Parser::CASE) || is(&error.found(), Parser::DEFAULT))
+        if (error.expects(Parser::COMMA)) return "the cases of a switch are separated by commas";
+    if (is(&error.found(), Parser::COLON) && error.expects(Parser::ASSIGN))
+        return "values are given with '='";
+    if (is(&error.found(), Parser::ASSIGN) && error.expects(Parser::COLON))
+        return "declarations are written with ':'";
+    return "";
+}
+
+std::string otherwise(const SyntaxError& error) {
+    const bool found = error.found().getText() == "otherwise";
+    return found ? "'otherwise' has no meaning: give every value its probability" : "";
+}
+
+std::string fluent_kind(const SyntaxError& error) {
+    if (!error.expects(Parser::FLUENT_KIND)) return "";
+    return "write the declaration as in p(t) : { state-fluent, bool, default = false };";
+}
+
+}  // namespace
+
+std::string hint_for(const SyntaxError& error) {
+    constexpr std::array guesses = {
+        round_brackets_of_a_function,
+        square_brackets_of_a_distribution,
+        binder_form,
+        single_or_double_equals,
+        else_is_compulsory,
+        parentheses_of_if,
+        random_vector_is_whole,
+        words_of_logic,
+        cpf_parameters,
+        separators,
+        otherwise,
+        fluent_kind,
+    };
+    for (const auto guess : guesses)
+        if (std::string hint = guess(error); !hint.empty()) return hint;
+    return "";
+}
+
+}  // namespace rddlc

@@ -1,0 +1,99 @@
+#include "parse/parse.hpp"
+
+#include "parse/codes.hpp"
+#include "parse/convert.hpp"
+#include "parse/limits.hpp"
+#include "parse/recovery.hpp"
+
+#include <fmt/format.h>
+
+namespace rddlc {
+
+namespace {
+
+constexpr std::size_t max_errors_per_file = 25;
+
+// NUL bytes never occur in text: one message instead of one for each garbled word.
+bool is_text(FileId file, const Source& source, Diagnostics& diagnostics) {
+    const std::size_t nul = source.text().find('\0');
+    if (nul == std::string::npos) return true;
+    const auto at = static_cast<std::uint32_t>(nul);
+    diagnostics.report(
+        {not_utf8_text, Span{file, at, at + 1}, "this is not a text file: it has a NUL byte"});
+    return false;
+}
+
+bool has_content(FileId file, TokenizedFile& tokens, Diagnostics& diagnostics) {
+    if (tokens.tokens().size() > 1) return true;
+    diagnostics.report(
+        Diagnostic{empty_file, Span{file, 0, 0}, "the file has no RDDL block"}.with_hint(
+            "a problem consists of a domain, non-fluents and an "
+            "instance block"));
+    return false;
+}
+
+void use_prediction(Parser& parser, antlr4::atn::PredictionMode mode) {
+    parser.getInterpreter<antlr4::atn::ParserATNSimulator>()->setPredictionMode(mode);
+}
+
+// SLL prediction is fast and, where it succeeds, right.
+Parser::TextContext* parse_fast(Parser& parser) {
+    use_prediction(parser, antlr4::atn::PredictionMode::SLL);
+    parser.setErrorHandler(std::make_shared<antlr4::BailErrorStrategy>());
+    try {
+        return parser.text();
+    } catch (const antlr4::ParseCancellationException&) {
+        return nullptr;
+    }
+}
+
+// LL prediction decides whether the text is wrong, and reports why.
+Parser::TextContext* parse_thoroughly(Parser& parser, FileId file, TokenizedFile& tokens,
+                                      Diagnostics& diagnostics) {
+    parser.reset();
+    use_prediction(parser, antlr4::atn::PredictionMode::LL);
+    parser.setErrorHandler(
+        std::make_shared<ErrorStrategy>(file, tokens.tokens(), max_errors_per_file, diagnostics));
+    try {
+        return parser.text();
+    } catch (const antlr4::ParseCancellationException&) {
+        return nullptr;
+    }
+}
+
+ast::Block to_block(const Conversion& conversion, Parser::BlockContext& context) {
+    if (context.domain()) return to_domain(conversion, *context.domain());
+    if (context.instance()) return to_instance(conversion, *context.instance());
+    if (context.nonFluents()) return to_non_fluents(conversion, *context.nonFluents());
+    return to_policy(conversion, *context.policy());
+}
+
+void parse_file(FileId file, const Source& source, ast::Program& program,
+                Diagnostics& diagnostics) {
+    if (!is_text(file, source, diagnostics)) return;
+    if (!within_limits(file, source, diagnostics)) return;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenizedFile tokens(file, source, diagnostics);
+    if (!has_content(file, tokens, diagnostics)) return;
+
+    Parser parser(&tokens.stream());
+    parser.removeErrorListeners();
+    Parser::TextContext* text = parse_fast(parser);
+    if (text == nullptr) text = parse_thoroughly(parser, file, tokens, diagnostics);
+    if (diagnostics.error_count() > errors_before) return;
+
+    const Conversion conversion{file, diagnostics};
+    for (Parser::BlockContext* block : text->block())
+        program.blocks.push_back(to_block(conversion, *block));
+}
+
+}  // namespace
+
+ast::Program parse(const Sources& sources, std::span<const FileId> files,
+                   Diagnostics& diagnostics) {
+    ast::Program program;
+    for (const FileId file : files) parse_file(file, sources[file], program, diagnostics);
+    return program;
+}
+
+}  // namespace rddlc
