@@ -55,6 +55,16 @@ def replay(
     )
 
 
+def trace(rddl: Path, case: Case, engine: str, episodes: int = 3) -> list[str]:
+    """The steps of some episodes of random actions, as lines of a trace without its header."""
+    command = [rddl, "run", case.domain_path, case.instance_path, f"--engine={engine}", "--quiet"]
+    command += ["--episodes", episodes, "--seed", 1, "--threads", 1, "--trace", "-"]
+    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if result.returncode != 0:
+        raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")
+    return result.stdout.splitlines()[1:]  # the header names the engine
+
+
 def request_lines(problem: Problem, walk: Transitions, points: list[DrawPoint]):
     for row in range(len(walk)):
         state = {fluent.name: walk.states[fluent.name][row] for fluent in problem.states}

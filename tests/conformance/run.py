@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from compare import Findings, compare_draws, compare_transitions, judge_draws
-from ours import Replayed, ReplayFailure, replay
+from ours import Replayed, ReplayFailure, replay, trace
 from problems import CORE, ROOT, Case, all_problems, example_cases, repository_cases
 from problems import smallest_median_largest
 from recordings import recording_of
@@ -73,8 +73,19 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
         judge_draws(findings, false_alarm_rate)
         report.failures += [f"{engine}: {text}" for text in findings.disagreements]
         replayed[engine] = found
-    if len({found.text for found in replayed.values()}) > 1:
-        report.failures.append("interpreter and compiled do not agree bit for bit")
+    if len(replayed) == len(ENGINES):
+        compare_bit_for_bit(report, replayed, options)
+
+
+def compare_bit_for_bit(report: Report, replayed: dict[str, Replayed], options) -> None:
+    """Both engines, the same seed and actions: the same text, here and over whole episodes."""
+    outputs = [replayed[engine].text.decode().splitlines() for engine in ENGINES]
+    traces = [trace(options.rddl, report.case, engine) for engine in ENGINES]
+    for what, (first, second) in {"replay": outputs, "run": traces}.items():
+        different = [number for number, pair in enumerate(zip(first, second)) if len(set(pair)) > 1]
+        if different or len(first) != len(second):
+            place = f"from line {different[0] + 1}" if different else "in length"
+            report.failures.append(f"interpreter and compiled differ bit for bit: {what}, {place}")
 
 
 def chosen_cases(options) -> list[Case]:

@@ -1,0 +1,93 @@
+"""The comparison itself: pyRDDLGym agrees with itself, and not with a changed problem."""
+
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from compare import Findings, compare_draws, compare_transitions, judge_draws
+from model import stack
+from problems import Case, example_cases
+from reference import Plan, Recording, Reference, record
+
+PLAN = Plan(transitions=20, stride=5, draw_points=2)
+
+
+def example(name: str) -> Case:
+    return next(case for case in example_cases() if case.problem == name)
+
+
+def findings_against(recording: Recording, other: Case) -> Findings:
+    """Compares with what pyRDDLGym makes of the other case under other random numbers."""
+    reference = Reference(other)
+    reference.simulator.seed(12345)
+    walk, problem = recording.walk, recording.problem
+
+    def row(columns, number):
+        return {name: values[number] for name, values in columns.items()}
+
+    found = [
+        reference.step(row(walk.states, i), row(walk.actions, i)) for i in range(len(walk))
+    ]
+    findings = Findings()
+    compare_transitions(problem, walk, stack(found), findings)
+    for point in recording.points:
+        draws = reference.draw(point.state, point.action, point.count())
+        compare_draws(problem, point, draws.outcomes, findings)
+    judge_draws(findings, 1e-6)
+    return findings
+
+
+class CompareTest(unittest.TestCase):
+    def assert_agrees(self, name: str):
+        case = example(name)
+        findings = findings_against(record(case, PLAN), case)
+        self.assertEqual(findings.disagreements, [])
+        self.assertGreater(findings.exact_values + len(findings.tests), 30)
+
+    def assert_disagrees(self, name: str, old: str, new: str, where: str):
+        """After `old` is replaced by `new` in the domain, `where` is in what is found."""
+        case = example(name)
+        text = case.domain_path.read_text()
+        self.assertIn(old, text)
+        with tempfile.TemporaryDirectory() as folder:
+            changed = Path(folder, "domain.rddl")
+            changed.write_text(text.replace(old, new))
+            findings = findings_against(record(case, PLAN), replace(case, domain_path=changed))
+        self.assertTrue(any(where in text for text in findings.disagreements), findings.disagreements)
+
+    def test_agrees_with_itself(self):
+        for name in ("mountain_car", "network", "robot", "delivery"):
+            with self.subTest(name):
+                self.assert_agrees(name)
+
+    def test_finds_a_wrong_reward(self):
+        self.assert_disagrees("network", "REBOOT-COST * (", "1.000001 * REBOOT-COST * (", "reward")
+
+    def test_finds_a_wrong_state(self):
+        self.assert_disagrees("cart_pole", "4.0 / 3.0", "4.00000001 / 3.0", "angle-change")
+
+    def test_finds_a_wrong_chance(self):
+        self.assert_disagrees("network", "REPAIR    : { non-fluent, real, default = 0.05 }",
+                              "REPAIR    : { non-fluent, real, default = 0.15 }", "running")
+
+    def test_finds_a_deviation_taken_for_a_variance(self):
+        self.assert_disagrees("robot", "TURN-VARIANCE * abs[turn]", "pow[TURN-VARIANCE, 2]",
+                              "heading")
+
+    def test_finds_draws_that_should_be_shared(self):
+        # Each value by itself stays the same; they no longer come together.
+        self.assert_disagrees("robot", "echo(?b)  = answers(?b);",
+                              "echo(?b)  = Bernoulli(exp[-range-to(?b) / REACH]);", "joint")
+
+    def test_a_walk_is_the_same_every_time(self):
+        case = example("delivery")
+        first, second = (Reference(case).walk(10, 3) for _ in range(2))
+        for name, values in first.outcomes.items():
+            np.testing.assert_array_equal(values, second.outcomes[name])
+
+
+if __name__ == "__main__":
+    unittest.main()
