@@ -1,0 +1,11 @@
+#pragma once
+
+#include "support/diagnostic.hpp"
+
+namespace rddlc::grounding {
+
+inline constexpr Code not_supported_yet{'E', 601};
+inline constexpr Code contradictory_bounds{'E', 602};
+inline constexpr Code too_many_groundings{'E', 603};
+
+}  // namespace rddlc::grounding

@@ -1,0 +1,108 @@
+#include "ground/declare.hpp"
+
+#include <utility>
+
+namespace rddlc::grounding {
+namespace {
+
+ir::Storage storage_of(Role role) {
+    switch (role) {
+        case Role::NonFluent:
+            return ir::Storage::Constant;
+        case Role::State:
+            return ir::Storage::State;
+        case Role::Action:
+            return ir::Storage::Action;
+        case Role::Interm:
+        case Role::Derived:
+            return ir::Storage::Scratch;
+        case Role::Observ:
+            return ir::Storage::Observation;
+    }
+    return ir::Storage::Scratch;
+}
+
+bool is_object(model::ValueType type) {
+    return type.kind == model::ValueType::Kind::Object;
+}
+
+ir::BufferId add_buffer(ir::Program& program, ir::Buffer buffer) {
+    program.buffers.push_back(std::move(buffer));
+    return {static_cast<std::uint32_t>(program.buffers.size() - 1)};
+}
+
+ir::Buffer buffer_of(const model::Model& model, model::FluentId id) {
+    const model::Fluent& fluent = model.fluents[id];
+    ir::Buffer buffer{.name = fluent.name,
+                      .storage = storage_of(fluent.role),
+                      .scalar = scalar_of(fluent.range),
+                      .shape = {},
+                      .types = fluent.parameters,
+                      .fluent = id,
+                      .values = fluent.values,
+                      .span = fluent.span};
+    for (model::TypeId type : fluent.parameters) {
+        buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
+    }
+    return buffer;
+}
+
+ir::Buffer next_of(ir::Buffer state) {
+    state.storage = ir::Storage::Next;
+    state.values.clear();
+    return state;
+}
+
+ir::Fluent description_of(const model::Fluent& fluent, ir::BufferId buffer) {
+    return {
+        .name = fluent.name,
+        .role = fluent.role,
+        .scalar = scalar_of(fluent.range),
+        .object_type = is_object(fluent.range) ? std::optional(fluent.range.type) : std::nullopt,
+        .parameter_types = fluent.parameters,
+        .buffer = buffer,
+        .span = fluent.span,
+        .lower = {},
+        .upper = {}};
+}
+
+}  // namespace
+
+ir::Scalar scalar_of(model::ValueType type) {
+    switch (type.kind) {
+        case model::ValueType::Kind::Bool:
+            return ir::Scalar::Bool;
+        case model::ValueType::Kind::Int:
+            return ir::Scalar::Int;
+        case model::ValueType::Kind::Real:
+            return ir::Scalar::Real;
+        case model::ValueType::Kind::Object:
+            return ir::Scalar::Int;
+    }
+    return ir::Scalar::Int;
+}
+
+Declarations declare(const model::Model& model) {
+    Declarations result;
+    ir::Program& program = result.program;
+    program.domain_name = model.domain_name;
+    program.instance_name = model.instance_name;
+    program.horizon = model.horizon;
+    program.discount = model.discount;
+    program.max_nondef_actions = model.max_nondef_actions;
+    for (const model::Type& type : model.types) {
+        program.types.push_back({type.name, type.enumerated, type.objects});
+    }
+    for (model::FluentId id = 0; id < model.fluents.size(); ++id) {
+        const model::Fluent& fluent = model.fluents[id];
+        FluentBuffers buffers{add_buffer(program, buffer_of(model, id)), std::nullopt};
+        if (fluent.role == Role::State) {
+            buffers.next = add_buffer(program, next_of(buffer_of(model, id)));
+        }
+        program.fluents.push_back(description_of(fluent, buffers.current));
+        result.buffers.push_back(buffers);
+    }
+    return result;
+}
+
+}  // namespace rddlc::grounding

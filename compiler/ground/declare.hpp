@@ -1,0 +1,27 @@
+// Types, fluents and their buffers: everything of the program that is not computed.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "model/model.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace rddlc::grounding {
+
+// Where a fluent is read from, and, for a state-fluent, where its next value is.
+struct FluentBuffers {
+    ir::BufferId current;
+    std::optional<ir::BufferId> next;
+};
+
+struct Declarations {
+    ir::Program program;
+    std::vector<FluentBuffers> buffers;  // by model::FluentId
+};
+
+Declarations declare(const model::Model& model);
+
+ir::Scalar scalar_of(model::ValueType type);
+
+}  // namespace rddlc::grounding

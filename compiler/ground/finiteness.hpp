@@ -1,0 +1,30 @@
+// Which real values stay finite as long as no sum or product overflows.
+//
+// RDDL's `0 * x` is 0 even where x is inf or nan (docs/semantics: multiplication), so a product
+// needs a test for zero only where its other factor may be neither.
+#pragma once
+
+#include "model/model.hpp"
+
+#include <vector>
+
+namespace rddlc::grounding {
+
+class Finiteness {
+  public:
+    // Finds the fluents that may become inf or nan. Action-fluents are taken to be finite.
+    explicit Finiteness(const model::Model& model);
+
+    bool is_finite(const model::Expr& expr) const;
+
+  private:
+    bool is_finite(const model::Apply& form) const;
+    bool is_finite(const model::Aggregate& form) const;
+    bool is_never_zero(const model::Expr& expr) const;
+    bool all_finite(const model::Expr& expr) const;
+
+    const model::Model& model_;
+    std::vector<bool> fluent_is_finite_;  // by model::FluentId
+};
+
+}  // namespace rddlc::grounding

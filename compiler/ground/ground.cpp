@@ -1,0 +1,52 @@
+#include "ground/ground.hpp"
+
+#include "ground/bounds.hpp"
+#include "ground/declare.hpp"
+#include "ground/finiteness.hpp"
+#include "ground/lowering.hpp"
+#include "ground/unsupported.hpp"
+#include "ir/builder.hpp"
+#include "ir/verify.hpp"
+
+#include <utility>
+
+namespace rddlc {
+namespace {
+
+std::vector<ir::Computation> lower_all(const std::vector<model::Expr>& conditions,
+                                       grounding::Lowering& lowering) {
+    std::vector<ir::Computation> lowered;
+    for (const model::Expr& condition : conditions) lowered.push_back(lowering.value_of(condition));
+    return lowered;
+}
+
+}  // namespace
+
+std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics) {
+    const std::size_t errors_before = diagnostics.error_count();
+    grounding::report_unsupported(model, diagnostics);
+    if (diagnostics.error_count() > errors_before) return std::nullopt;
+
+    grounding::Declarations declarations = grounding::declare(model);
+    ir::Program& program = declarations.program;
+    const grounding::Finiteness finiteness(model);
+    {
+        ir::Builder builder(program);
+        grounding::Lowering lowering(model, declarations.buffers, finiteness, program, builder,
+                                     diagnostics);
+        for (const model::Cpf& cpf : model.cpfs)
+            program.step.push_back(lowering.definition_of(cpf));
+        program.reward = lowering.value_of(model.reward);
+        program.preconditions = lower_all(model.action_preconditions, lowering);
+        program.invariants = lower_all(model.state_invariants, lowering);
+        program.terminations = lower_all(model.terminations, lowering);
+    }
+    grounding::find_bounds(model, declarations.buffers, program, diagnostics);
+    if (diagnostics.error_count() > errors_before) return std::nullopt;
+#ifndef NDEBUG
+    ir::expect_valid(program, "ground");
+#endif
+    return std::move(program);
+}
+
+}  // namespace rddlc

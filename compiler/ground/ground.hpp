@@ -1,0 +1,17 @@
+// Model -> IR: objects become integers, non-fluents constant tables, CPFs loops around stores.
+// Expressions are not copied for each grounding, so the IR does not grow with the objects.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "model/model.hpp"
+#include "support/diagnostic.hpp"
+
+#include <optional>
+
+namespace rddlc {
+
+// Nothing if the model uses what is not supported yet (E0601) or has errors that only its values
+// show (E0602, E0603).
+std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics);
+
+}  // namespace rddlc

@@ -1,0 +1,288 @@
+#include "ground/lowering.hpp"
+
+#include "ground/codes.hpp"
+#include "support/match.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace rddlc::grounding {
+namespace {
+
+// What pyRDDLGym evaluates first when it is the right operand of * ^ |.
+bool is_simple(const model::Expr& expr) {
+    if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
+        return is_simple(*convert->operand);
+    }
+    return std::holds_alternative<model::Constant>(expr.node) ||
+           std::holds_alternative<model::Reference>(expr.node);
+}
+
+bool needs_an_object(Reduction op) {
+    return op == Reduction::Minimum || op == Reduction::Maximum || op == Reduction::ArgMin ||
+           op == Reduction::ArgMax;
+}
+
+}  // namespace
+
+Lowering::Lowering(const model::Model& model, const std::vector<FluentBuffers>& buffers,
+                   const Finiteness& finiteness, ir::Program& program, ir::Builder& builder,
+                   Diagnostics& diagnostics)
+    : model_(model),
+      buffers_(buffers),
+      finiteness_(finiteness),
+      program_(program),
+      builder_(builder),
+      diagnostics_(diagnostics) {}
+
+// --------------------------------------------------------------------- definitions and values
+
+// Loops over the parameters, outermost first, around one store. A parameter over a single object
+// needs no loop: its index is 0.
+ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
+    enter(cpf.parameters);
+    const FluentBuffers& buffers = buffers_[cpf.fluent];
+    ir::Store store{.target = buffers.next.value_or(buffers.current), .indices = {}, .value = {}};
+    for (ir::VariableId parameter : scope_) store.indices.push_back(builder_.index(parameter));
+    store.value = lower_as(cpf.body, scalar_of(model_.fluents[cpf.fluent].range));
+
+    ir::Block body;
+    body.push_back({store});
+    for (auto parameter = scope_.rbegin(); parameter != scope_.rend(); ++parameter) {
+        if (program_[*parameter].size == 1) continue;
+        ir::Loop loop{*parameter, std::move(body)};
+        body.clear();
+        body.push_back({std::move(loop)});
+    }
+    leave(cpf.parameters.size());
+    return {store.target, std::move(body), cpf.span};
+}
+
+ir::Computation Lowering::value_of(const model::Expr& expr) {
+    return {{}, lower(expr), expr.span};
+}
+
+// --------------------------------------------------------------------------- scope and places
+
+void Lowering::enter(std::span<const model::VariableId> variables) {
+    for (model::VariableId variable : variables) scope_.push_back(variable_of(variable));
+}
+
+void Lowering::leave(std::size_t count) {
+    scope_.resize(scope_.size() - count);
+}
+
+ir::VariableId Lowering::variable_of(model::VariableId id) {
+    const model::Variable& variable = model_.variables[id];
+    const ir::VariableId next{static_cast<std::uint32_t>(program_.variables.size())};
+    const auto [entry, is_new] = variables_.try_emplace({variable.name, variable.type}, next);
+    if (is_new) program_.variables.push_back({variable.name, variable.type, size_of(id)});
+    return entry->second;
+}
+
+std::int64_t Lowering::size_of(model::VariableId id) const {
+    return static_cast<std::int64_t>(model_.type_of(model_.variables[id]).objects.size());
+}
+
+ir::NodeId Lowering::row_major_index(std::span<const ir::VariableId> variables) {
+    ir::NodeId index = integer(0);
+    for (ir::VariableId variable : variables) {
+        const ir::NodeId size = integer(program_[variable].size);
+        const ir::NodeId row = builder_.apply(Operator::Multiply, {index, size});
+        index = builder_.apply(Operator::Add, {row, builder_.index(variable)});
+    }
+    return index;
+}
+
+ir::Place Lowering::new_place(const model::Expr& expr, std::string what) {
+    constexpr double largest = std::numeric_limits<std::uint32_t>::max();
+    double count = 1;
+    for (ir::VariableId variable : scope_) count *= static_cast<double>(program_[variable].size);
+    if (count > largest) {
+        diagnostics_.report(
+            {too_many_groundings, expr.span,
+             fmt::format("'{}' has {:.0f} groundings, more than {:.0f}", what, count, largest)});
+    }
+    program_.sites.push_back({expr.span, scope_, std::move(what)});
+    const auto site = static_cast<std::uint32_t>(program_.sites.size() - 1);
+    return {ir::SiteId{site}, row_major_index(scope_)};
+}
+
+// -------------------------------------------------------------------------------- expressions
+
+ir::NodeId Lowering::lower(const model::Expr& expr) {
+    return match(expr.node, [&](const auto& form) { return lower(form, expr); });
+}
+
+ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
+    return builder_.convert(lower(expr), type);
+}
+
+std::vector<ir::NodeId> Lowering::lower_all(const std::vector<model::Expr>& exprs) {
+    std::vector<ir::NodeId> nodes;
+    for (const model::Expr& expr : exprs) nodes.push_back(lower(expr));
+    return nodes;
+}
+
+ir::NodeId Lowering::lower(const model::Constant& form, const model::Expr&) {
+    return builder_.constant(form.value);
+}
+
+ir::NodeId Lowering::lower(const model::VariableValue& form, const model::Expr&) {
+    return builder_.index(variable_of(form.variable));
+}
+
+ir::NodeId Lowering::lower(const model::Reference& form, const model::Expr&) {
+    const FluentBuffers& buffers = buffers_[form.fluent];
+    return builder_.load(form.next ? *buffers.next : buffers.current, lower_all(form.arguments));
+}
+
+ir::NodeId Lowering::lower(const model::Convert& form, const model::Expr& expr) {
+    return lower_as(*form.operand, scalar_of(expr.type));
+}
+
+ir::NodeId Lowering::lower(const model::TypeFault& form, const model::Expr& expr) {
+    return builder_.fault(scalar_of(expr.type), new_place(expr, form.message));
+}
+
+ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
+    std::vector<ir::NodeId> operands = lower_all(form.operands);
+    switch (form.op) {
+        case Operator::Multiply:
+            return product(form, operands.front(), operands.back());
+        case Operator::Equivalent:
+            return builder_.apply(Operator::Equal, std::move(operands));
+        case Operator::And:
+        case Operator::Or:
+            // The simple operand decides first whether the other one is evaluated.
+            if (is_simple(form.operands.back()) && builder_.facts(operands.front()).may_fault) {
+                std::swap(operands.front(), operands.back());
+            }
+            return builder_.apply(form.op, std::move(operands));
+        default:
+            break;
+    }
+    const bool on_integers = program_[operands.front()].type == ir::Scalar::Int;
+    std::optional<ir::Place> place;
+    if (may_fault(form.op, on_integers)) {
+        place = new_place(expr, std::string(source_name_of(form.op)));
+    }
+    return builder_.apply(form.op, std::move(operands), place);
+}
+
+// Outside of any scope, 0 * x is 0 whatever x is, and x is not evaluated. In a scope that depends
+// on the other objects in pyRDDLGym; there it is an ordinary product here.
+ir::NodeId Lowering::product(const model::Apply& form, ir::NodeId left, ir::NodeId right) {
+    const ir::NodeId whole = builder_.apply(Operator::Multiply, {left, right});
+    if (!scope_.empty()) return whole;
+    const bool right_first = is_simple(form.operands.back());
+    const ir::NodeId first = right_first ? right : left;
+    const ir::NodeId other = right_first ? left : right;
+    const model::Expr& other_expr = right_first ? form.operands.front() : form.operands.back();
+    if (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault) return whole;
+    const ir::NodeId zero = builder_.convert(builder_.constant(false), program_[first].type);
+    return builder_.select(builder_.apply(Operator::Equal, {first, zero}), first, whole);
+}
+
+ir::NodeId Lowering::lower(const model::If& form, const model::Expr&) {
+    const ir::NodeId condition = lower(*form.condition);
+    const ir::NodeId then_value = lower(*form.then_branch);
+    return builder_.select(condition, then_value, lower(*form.else_branch));
+}
+
+// A chain of selects, the default (or the last case) at its end.
+ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
+    const ir::NodeId subject = lower(*form.subject);
+    std::optional<ir::NodeId> rest;
+    if (form.default_case) rest = lower(**form.default_case);
+    for (std::size_t member = form.cases.size(); member-- > 0;) {
+        if (!form.cases[member]) continue;
+        const ir::NodeId value = lower(**form.cases[member]);
+        const ir::NodeId label = integer(static_cast<std::int64_t>(member));
+        const ir::NodeId test = builder_.apply(Operator::Equal, {subject, label});
+        rest = rest ? builder_.select(test, value, *rest) : value;
+    }
+    return *rest;
+}
+
+ir::NodeId Lowering::lower(const model::Aggregate& form, const model::Expr& expr) {
+    const auto is_empty = [&](model::VariableId id) {
+        return size_of(id) == 0;
+    };
+    if (needs_an_object(form.op) && std::ranges::any_of(form.variables, is_empty)) {
+        const std::string what = fmt::format("{} over no objects", name_of(form.op));
+        return builder_.fault(scalar_of(expr.type), new_place(expr, what));
+    }
+    enter(form.variables);
+    const ir::NodeId body = lower(*form.body);
+    leave(form.variables.size());
+    if (form.op != Reduction::Average) return loops_over(form, form.op, body);
+
+    const ir::NodeId total =
+        loops_over(form, Reduction::Sum, builder_.convert(body, ir::Scalar::Real));
+    double count = 1;
+    for (model::VariableId variable : form.variables) {
+        count *= static_cast<double>(size_of(variable));
+    }
+    return builder_.apply(Operator::Divide, {total, builder_.constant(count)});
+}
+
+// One reduction for each variable, the last one innermost. Bools are counted as 0 and 1.
+ir::NodeId Lowering::loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body) {
+    const bool of_bools = op == Reduction::ForAll || op == Reduction::Exists;
+    if (!of_bools && program_[body].type == ir::Scalar::Bool) {
+        body = builder_.convert(body, ir::Scalar::Int);
+    }
+    for (auto variable = form.variables.rbegin(); variable != form.variables.rend(); ++variable) {
+        body = builder_.reduce(op, variable_of(*variable), body);
+    }
+    return body;
+}
+
+// -------------------------------------------------------------------------------------- draws
+
+ir::NodeId Lowering::lower(const model::Sample& form, const model::Expr& expr) {
+    if (form.distribution == Distribution::KronDelta ||
+        form.distribution == Distribution::DiracDelta) {
+        return lower_as(form.parameters.front(), scalar_of(expr.type));
+    }
+    const bool counted = form.distribution == Distribution::Binomial;
+    std::vector<ir::NodeId> parameters;
+    for (const model::Expr& parameter : form.parameters) {
+        const bool is_count = counted && parameters.empty();
+        parameters.push_back(lower_as(parameter, is_count ? ir::Scalar::Int : ir::Scalar::Real));
+    }
+    const ir::Place place = new_place(expr, std::string(name_of(form.distribution)));
+    return builder_.sample(scalar_of(expr.type), form.distribution, place, std::move(parameters));
+}
+
+ir::NodeId Lowering::lower(const model::Discrete& form, const model::Expr& expr) {
+    std::vector<ir::NodeId> weights;
+    for (const model::Expr& weight : form.weights) {
+        weights.push_back(lower_as(weight, ir::Scalar::Real));
+    }
+    const std::string what = form.normalise ? "UnnormDiscrete" : "Discrete";
+    const ir::Place place = new_place(expr, what);
+    if (weights.empty()) return builder_.fault(ir::Scalar::Int, place);
+    return builder_.discrete(form.normalise, place, std::move(weights));
+}
+
+ir::NodeId Lowering::lower(const model::DiscreteOver& form, const model::Expr& expr) {
+    const std::string what = form.normalise ? "UnnormDiscrete" : "Discrete";
+    const ir::Place place = new_place(expr, what);
+    if (size_of(form.variable) == 0) return builder_.fault(ir::Scalar::Int, place);
+    enter(std::span(&form.variable, 1));
+    const ir::NodeId weight = lower_as(*form.weight, ir::Scalar::Real);
+    leave(1);
+    return builder_.discrete_over(form.normalise, place, variable_of(form.variable), weight);
+}
+
+// report_unsupported() has refused these.
+template <class Unsupported>
+ir::NodeId Lowering::lower(const Unsupported&, const model::Expr& expr) {
+    return builder_.fault(scalar_of(expr.type), new_place(expr, "not supported yet"));
+}
+
+}  // namespace rddlc::grounding

@@ -1,0 +1,74 @@
+// Model expressions -> IR nodes, one CPF or condition at a time.
+#pragma once
+
+#include "ground/declare.hpp"
+#include "ground/finiteness.hpp"
+#include "ir/builder.hpp"
+#include "ir/ir.hpp"
+#include "model/model.hpp"
+#include "support/diagnostic.hpp"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::grounding {
+
+class Lowering {
+  public:
+    // All must outlive it. Variables and sites are added to the program, nodes through the builder.
+    Lowering(const model::Model& model, const std::vector<FluentBuffers>& buffers,
+             const Finiteness& finiteness, ir::Program& program, ir::Builder& builder,
+             Diagnostics& diagnostics);
+
+    ir::Definition definition_of(const model::Cpf& cpf);
+    // Of an expression outside of any CPF: reward and conditions.
+    ir::Computation value_of(const model::Expr& expr);
+
+    // Brings variables into scope, outermost first; the innermost ones leave it again.
+    void enter(std::span<const model::VariableId> variables);
+    void leave(std::size_t count);
+    ir::VariableId variable_of(model::VariableId id);
+
+    ir::NodeId lower(const model::Expr& expr);
+
+  private:
+    ir::NodeId lower(const model::Constant& form, const model::Expr& expr);
+    ir::NodeId lower(const model::VariableValue& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Reference& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Convert& form, const model::Expr& expr);
+    ir::NodeId lower(const model::TypeFault& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Apply& form, const model::Expr& expr);
+    ir::NodeId lower(const model::If& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Switch& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Aggregate& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Sample& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Discrete& form, const model::Expr& expr);
+    ir::NodeId lower(const model::DiscreteOver& form, const model::Expr& expr);
+    template <class Unsupported>
+    ir::NodeId lower(const Unsupported& form, const model::Expr& expr);
+
+    ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
+    std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
+    ir::NodeId product(const model::Apply& form, ir::NodeId left, ir::NodeId right);
+    ir::NodeId loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body);
+    ir::NodeId row_major_index(std::span<const ir::VariableId> variables);
+    ir::Place new_place(const model::Expr& expr, std::string what);
+    ir::NodeId integer(std::int64_t value) { return builder_.constant(value); }
+    std::int64_t size_of(model::VariableId id) const;
+
+    const model::Model& model_;
+    const std::vector<FluentBuffers>& buffers_;
+    const Finiteness& finiteness_;
+    ir::Program& program_;
+    ir::Builder& builder_;
+    Diagnostics& diagnostics_;
+    std::vector<ir::VariableId> scope_;  // outermost first
+    // Binders of equal name and type share a variable, so that equal expressions get equal ids.
+    std::map<std::pair<std::string, model::TypeId>, ir::VariableId> variables_;
+};
+
+}  // namespace rddlc::grounding
