@@ -3,6 +3,7 @@
 #include "ir/analysis.hpp"
 #include "support/match.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,14 @@ void change_all(std::vector<NodeId>& ids, const Change& change) {
 void change_roots(Computation& computation, const Change& change) {
     change_roots(computation.body, change);
     change(computation.value);
+}
+
+void change_targets(Block& block, const std::function<void(BufferId&)>& change) {
+    for (Statement& statement : block) {
+        match(
+            statement.form, [](Let&) {}, [&](Store& store) { change(store.target); },
+            [&](Loop& loop) { change_targets(loop.body, change); });
+    }
 }
 
 }  // namespace
@@ -70,6 +79,16 @@ void change_roots(Program& program, const Change& change) {
     for (Computation& condition : program.terminations) change_roots(condition, change);
 }
 
+void change_buffers(Program& program, const std::function<void(BufferId&)>& change) {
+    for (Node& node : program.nodes) {
+        if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
+    }
+    for (Definition& definition : program.step) {
+        change(definition.target);
+        change_targets(definition.body, change);
+    }
+}
+
 Program rewrite(Program program, const Replace& replace) {
     const std::vector<bool> reachable = reachable_nodes(program);
     std::vector<Node> old_nodes = std::exchange(program.nodes, {});
@@ -83,16 +102,23 @@ Program rewrite(Program program, const Replace& replace) {
         if (!reachable[index]) continue;
         Node& node = old_nodes[index];
         change_operands(node, renew);
-        const auto replacement = replace(builder, node);
+        const auto replacement = replace(builder, NodeId{static_cast<std::uint32_t>(index)}, node);
         new_ids[index] = replacement ? *replacement : builder.rebuild(node);
     }
     change_roots(program, renew);
     return program;
 }
 
-Program rewrite(Program program) {
-    return rewrite(std::move(program),
-                   [](Builder&, const Node&) { return std::optional<NodeId>(); });
+Program collect_garbage(Program program) {
+    const auto is_clean = [&] {
+        const std::vector<bool> reachable = reachable_nodes(program);
+        return std::ranges::find(reachable, false) == reachable.end();
+    };
+    while (!is_clean()) {
+        program = rewrite(std::move(program),
+                          [](Builder&, NodeId, const Node&) { return std::optional<NodeId>(); });
+    }
+    return program;
 }
 
 }  // namespace rddlc::ir

@@ -10,13 +10,14 @@
 
 namespace rddlc::ir {
 
-// Given a node whose operands are rewritten already, what stands for it; none: itself.
-using Replace = std::function<std::optional<NodeId>(Builder&, const Node&)>;
+// Given a node's old id, and the node with its operands rewritten already: what stands for it;
+// none: itself.
+using Replace = std::function<std::optional<NodeId>(Builder&, NodeId, const Node&)>;
 
-// The program with every reachable node replaced, operands first. Drops unreachable nodes.
+// The program with every reachable node replaced, operands first.
 Program rewrite(Program program, const Replace& replace);
-// Just drops unreachable nodes.
-Program rewrite(Program program);
+// Drops unreachable nodes.
+Program collect_garbage(Program program);
 
 // Call change(NodeId&) for all that a node, or the statements of a block, or the whole program
 // name; in the order of operands_of and roots_of.
@@ -24,5 +25,8 @@ using Change = std::function<void(NodeId&)>;
 void change_operands(Node& node, const Change& change);
 void change_roots(Block& block, const Change& change);
 void change_roots(Program& program, const Change& change);
+
+// The same for all buffers that nodes load from, statements store to, and definitions fill.
+void change_buffers(Program& program, const std::function<void(BufferId&)>& change);
 
 }  // namespace rddlc::ir

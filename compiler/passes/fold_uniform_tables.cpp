@@ -1,0 +1,46 @@
+#include "passes/fold_uniform_tables.hpp"
+
+#include "ir/rewrite.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// Reals by their bits: nan equals itself, and zeros have a sign.
+bool same(const ir::Value& a, const ir::Value& b) {
+    const auto* x = std::get_if<double>(&a);
+    const auto* y = std::get_if<double>(&b);
+    if (!x || !y) return a == b;
+    return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(*y);
+}
+
+bool is_uniform_table(const ir::Buffer& buffer) {
+    return buffer.storage == ir::Storage::Constant && !buffer.values.empty() &&
+           std::ranges::all_of(buffer.values, [&](const ir::Value& value) {
+               return same(value, buffer.values.front());
+           });
+}
+
+}  // namespace
+
+ir::Program fold_uniform_tables(ir::Program program) {
+    std::vector<bool> is_uniform;
+    for (const ir::Buffer& buffer : program.buffers) is_uniform.push_back(is_uniform_table(buffer));
+
+    return ir::rewrite(
+        std::move(program),
+        [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
+            const auto* load = std::get_if<ir::Load>(&node.form);
+            if (!load || !is_uniform[load->buffer.index]) return std::nullopt;
+            const auto droppable = [&](ir::NodeId index) {
+                return ir::is_droppable(builder.facts(index));
+            };
+            if (!std::ranges::all_of(load->indices, droppable)) return std::nullopt;
+            return builder.constant(builder.program()[load->buffer].values.front());
+        });
+}
+
+}  // namespace rddlc::passes

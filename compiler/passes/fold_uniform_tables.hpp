@@ -1,0 +1,16 @@
+// A constant table whose entries are all equal becomes that value where it is read.
+//
+//     CAPACITY[res]: real = 10.0                 CAPACITY[res]: real = 10.0
+//     next.level[r] = min(level[r], CAPACITY[r])  =>  next.level[r] = min(level[r], 10.0)
+//
+// The table itself goes when remove_unused_buffers finds that nobody reads it. An index that draws
+// or may fault keeps the table.
+#pragma once
+
+#include "ir/ir.hpp"
+
+namespace rddlc::passes {
+
+ir::Program fold_uniform_tables(ir::Program program);
+
+}  // namespace rddlc::passes

@@ -1,0 +1,88 @@
+#include "passes/remove_unused_buffers.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/rewrite.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+bool may_fault(const ir::Definition& definition, const std::vector<ir::Facts>& facts) {
+    return std::ranges::any_of(ir::roots_of(definition.body),
+                               [&](ir::NodeId root) { return facts[root.index].may_fault; });
+}
+
+void mark_stores(const ir::Block& block, std::vector<bool>& used) {
+    for (const ir::Statement& statement : block) {
+        match(
+            statement.form, [](const ir::Let&) {},
+            [&](const ir::Store& store) { used[store.target.index] = true; },
+            [&](const ir::Loop& loop) { mark_stores(loop.body, used); });
+    }
+}
+
+// Loaded by something that the program evaluates, or part of a record that others see.
+std::vector<bool> used_buffers(const ir::Program& program) {
+    std::vector<bool> used(program.buffers.size());
+    for (std::size_t index = 0; index < used.size(); ++index) {
+        const ir::Storage storage = program.buffers[index].storage;
+        used[index] = storage != ir::Storage::Constant && storage != ir::Storage::Scratch;
+    }
+    const std::vector<bool> reachable = ir::reachable_nodes(program);
+    for (std::size_t index = 0; index < program.nodes.size(); ++index) {
+        const auto* load = std::get_if<ir::Load>(&program.nodes[index].form);
+        if (load && reachable[index]) used[load->buffer.index] = true;
+    }
+    return used;
+}
+
+// Drops the last definition that nobody needs; false if there is none. Backwards, because what
+// only it read is not needed then either.
+bool drop_a_definition(ir::Program& program, const std::vector<ir::Facts>& facts) {
+    const std::vector<bool> used = used_buffers(program);
+    const auto is_needed = [&](const ir::Definition& definition) {
+        return used[definition.target.index] || may_fault(definition, facts);
+    };
+    const auto last = std::find_if_not(program.step.rbegin(), program.step.rend(), is_needed);
+    if (last == program.step.rend()) return false;
+    program.step.erase(std::prev(last.base()));
+    return true;
+}
+
+// Removes buffers that are neither read nor written and renumbers the others.
+void drop_buffers(ir::Program& program) {
+    std::vector<bool> used = used_buffers(program);
+    for (const ir::Definition& definition : program.step) mark_stores(definition.body, used);
+    std::vector<ir::BufferId> renumbered(used.size());
+    std::vector<ir::Buffer> kept;
+    for (std::size_t index = 0; index < used.size(); ++index) {
+        renumbered[index] = {static_cast<std::uint32_t>(kept.size())};
+        if (used[index]) kept.push_back(std::move(program.buffers[index]));
+    }
+    program.buffers = std::move(kept);
+
+    for (ir::Fluent& fluent : program.fluents) {
+        if (!fluent.buffer) continue;
+        const ir::BufferId old = *fluent.buffer;
+        fluent.buffer.reset();
+        if (used[old.index]) fluent.buffer = renumbered[old.index];
+    }
+    ir::change_buffers(program, [&](ir::BufferId& id) { id = renumbered[id.index]; });
+}
+
+}  // namespace
+
+ir::Program remove_unused_buffers(ir::Program program) {
+    program = ir::collect_garbage(std::move(program));
+    const std::vector<ir::Facts> facts = ir::all_facts(program);
+    while (drop_a_definition(program, facts)) {
+    }
+    program = ir::collect_garbage(std::move(program));
+    drop_buffers(program);
+    return program;
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,236 @@
+#include "passes/share_subexpressions.hpp"
+
+#include "ir/rewrite.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations. What leaves a loop is a function or an aggregation, not a sum of two.
+constexpr double worth_sharing = 6;
+constexpr double worth_hoisting = 12;
+
+std::set<ir::BufferId> stored_buffers(const ir::Block& block) {
+    std::set<ir::BufferId> stored;
+    for (const ir::Statement& statement : block) {
+        match(
+            statement.form, [](const ir::Let&) {},
+            [&](const ir::Store& store) { stored.insert(store.target); },
+            [&](const ir::Loop& loop) { stored.merge(stored_buffers(loop.body)); });
+    }
+    return stored;
+}
+
+// How the nodes below a statement are used. All vectors are by NodeId::index.
+struct Uses {
+    explicit Uses(std::size_t node_count)
+        : is_root(node_count),
+          reached(node_count),
+          always(node_count),
+          repeated(node_count),
+          count(node_count) {}
+
+    std::vector<bool> is_root;
+    std::vector<bool> reached;
+    std::vector<bool> always;    // evaluated whenever the statement is
+    std::vector<bool> repeated;  // below a loop of the statement, or a reduction
+    std::vector<int> count;      // by different nodes, or twice by one
+};
+
+class Sharing {
+  public:
+    explicit Sharing(ir::Program program) : program_(std::move(program)), builder_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition& definition : program_.step) {
+            const bool runs = program_[definition.target].count() > 0;
+            if (runs) share_in(definition.body);
+        }
+        share_in(program_.reward);
+        for (auto* conditions :
+             {&program_.preconditions, &program_.invariants, &program_.terminations}) {
+            for (ir::Computation& condition : *conditions) share_in(condition);
+        }
+        return std::move(program_);
+    }
+
+  private:
+    void share_in(ir::Block& block) {
+        bound_.clear();
+        share_below(block);
+    }
+
+    // The value is one more statement of the block.
+    void share_in(ir::Computation& computation) {
+        bound_.clear();
+        share_below(computation.body);
+        Uses uses(program_.nodes.size());
+        use(uses, computation.value, false);
+        ir::Block lets =
+            replace_shared(uses, {}, [&](const ir::Change& change) { change(computation.value); });
+        std::ranges::move(lets, std::back_inserter(computation.body));
+    }
+
+    // Each statement by itself: between two there may be a store to what the second one loads.
+    void share_below(ir::Block& block) {
+        ir::Block result;
+        for (ir::Statement& statement : block) {
+            ir::Block single;
+            single.push_back(std::move(statement));
+            std::ranges::move(lets_before(single), std::back_inserter(result));
+            if (auto* loop = std::get_if<ir::Loop>(&single.front().form)) {
+                bound_.insert(loop->variable);
+                share_below(loop->body);
+                bound_.erase(loop->variable);
+            }
+            result.push_back(std::move(single.front()));
+        }
+        block = std::move(result);
+    }
+
+    ir::Block lets_before(ir::Block& single) {
+        Uses uses(program_.nodes.size());
+        const bool is_loop = std::holds_alternative<ir::Loop>(single.front().form);
+        for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop);
+        return replace_shared(uses, stored_buffers(single),
+                              [&](const ir::Change& change) { ir::change_roots(single, change); });
+    }
+
+    // ---------------------------------------------------------------------------- uses
+
+    static void use(Uses& uses, ir::NodeId root, bool repeated) {
+        uses.is_root[root.index] = true;
+        uses.reached[root.index] = true;
+        uses.always[root.index] = true;
+        uses.repeated[root.index] = uses.repeated[root.index] || repeated;
+        ++uses.count[root.index];
+    }
+
+    // From the roots down: users come behind their operands in the pool.
+    void spread(Uses& uses) const {
+        for (std::size_t index = uses.reached.size(); index-- > 0;) {
+            if (!uses.reached[index]) continue;
+            const ir::Node& node = program_.nodes[index];
+            for (ir::NodeId operand : ir::operands_of(node)) {
+                uses.reached[operand.index] = true;
+                ++uses.count[operand.index];
+                if (uses.repeated[index] || is_body(node, operand)) {
+                    uses.repeated[operand.index] = true;
+                }
+                if (uses.always[index] && !is_lazy(node, operand)) {
+                    uses.always[operand.index] = true;
+                }
+            }
+        }
+    }
+
+    static bool is_lazy(const ir::Node& node, ir::NodeId operand) {
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        return select && operand != select->condition;
+    }
+
+    static bool is_body(const ir::Node& node, ir::NodeId operand) {
+        return ir::bound_variable(node) && operand == ir::operands_of(node).front();
+    }
+
+    // ------------------------------------------------------------------------ choosing
+
+    // Makes a Let of each node worth it and puts its Local in its place below the statement, whose
+    // roots `change_roots` changes. Returns the Lets.
+    template <class ChangeRoots>
+    ir::Block replace_shared(Uses& uses, const std::set<ir::BufferId>& stored,
+                             const ChangeRoots& change_roots) {
+        spread(uses);
+        const std::vector<ir::NodeId> shared = choose(uses, stored);
+        if (shared.empty()) return {};
+        std::map<ir::NodeId, ir::NodeId> replaced;
+        ir::Block lets;
+        for (ir::NodeId id : shared) {
+            const ir::NodeId value = rebuild(id, replaced);
+            const ir::LocalId local{program_.local_count++};
+            lets.push_back({ir::Let{local, value}});
+            replaced[id] = builder_.local(local, program_[id].type);
+        }
+        change_roots([&](ir::NodeId& root) { root = rebuild(root, replaced); });
+        return lets;
+    }
+
+    // In the order of the pool, so that each may use those before it.
+    std::vector<ir::NodeId> choose(const Uses& uses, const std::set<ir::BufferId>& stored) const {
+        const std::vector<bool> fixed = fixed_nodes(uses, stored);
+        const std::vector<bool> exposed = exposed_nodes(uses, fixed);
+        std::vector<ir::NodeId> chosen;
+        for (std::uint32_t index = 0; index < fixed.size(); ++index) {
+            if (!fixed[index] || !uses.always[index] || is_plain_index({index})) continue;
+            const double cost = builder_.facts({index}).cost;
+            const bool shared = uses.count[index] > 1 && cost >= worth_sharing;
+            const bool hoisted = uses.repeated[index] && exposed[index] && cost >= worth_hoisting;
+            if (shared || hoisted) chosen.push_back({index});
+        }
+        return chosen;
+    }
+
+    // Neither the loops nor the stores of the statement change the node's value.
+    std::vector<bool> fixed_nodes(const Uses& uses, const std::set<ir::BufferId>& stored) const {
+        const auto is_bound = [&](ir::VariableId id) {
+            return bound_.contains(id);
+        };
+        std::vector<bool> reads_stored(uses.reached.size());
+        std::vector<bool> fixed(uses.reached.size());
+        for (std::uint32_t index = 0; index < fixed.size(); ++index) {
+            const ir::Node& node = program_.nodes[index];
+            const auto* load = std::get_if<ir::Load>(&node.form);
+            const auto reads = [&](ir::NodeId operand) {
+                return reads_stored[operand.index];
+            };
+            reads_stored[index] = (load && stored.contains(load->buffer)) ||
+                                  std::ranges::any_of(ir::operands_of(node), reads);
+            fixed[index] = uses.reached[index] && !reads_stored[index] &&
+                           std::ranges::all_of(builder_.facts({index}).free_variables, is_bound);
+        }
+        return fixed;
+    }
+
+    // Used by something that is not fixed. What is used by fixed nodes alone goes with them.
+    std::vector<bool> exposed_nodes(const Uses& uses, const std::vector<bool>& fixed) const {
+        std::vector<bool> exposed = uses.is_root;
+        for (std::size_t index = 0; index < fixed.size(); ++index) {
+            if (!uses.reached[index] || fixed[index]) continue;
+            for (ir::NodeId operand : ir::operands_of(program_.nodes[index])) {
+                exposed[operand.index] = true;
+            }
+        }
+        return exposed;
+    }
+
+    // An index made of loop indices and constants stays one: it is the same in all lanes.
+    bool is_plain_index(ir::NodeId id) const {
+        return program_[id].type == ir::Scalar::Int && builder_.facts(id).uniform;
+    }
+
+    // The node with what is below it replaced.
+    ir::NodeId rebuild(ir::NodeId id, std::map<ir::NodeId, ir::NodeId>& replaced) {
+        if (const auto known = replaced.find(id); known != replaced.end()) return known->second;
+        ir::Node node = program_[id];
+        ir::change_operands(node,
+                            [&](ir::NodeId& operand) { operand = rebuild(operand, replaced); });
+        return replaced[id] = builder_.rebuild(node);
+    }
+
+    ir::Program program_;
+    ir::Builder builder_;
+    std::set<ir::VariableId> bound_;  // by the loops around the current block
+};
+
+}  // namespace
+
+ir::Program share_subexpressions(ir::Program program) {
+    return ir::collect_garbage(Sharing(std::move(program)).run());
+}
+
+}  // namespace rddlc::passes
