@@ -11,6 +11,7 @@
 #include <rddl/reductions.hpp>
 #include <rddl/simulator.h>
 #include <rddl/sites.hpp>
+#include <rddl/tables.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,0 +1,312 @@
+#include "emit/about.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "emit/functions.hpp"
+#include "emit/layout.hpp"
+#include "emit/literals.hpp"
+#include "emit/tables.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+const std::vector<std::string> about_words = {"types",       "fluents",        "preconditions",
+                                              "invariants",  "terminations",   "problem",
+                                              "sites",       "default_action", "simulator"};
+
+std::string role_constant(Role role) {
+    switch (role) {
+        case Role::NonFluent:
+            return "RDDL_NON_FLUENT";
+        case Role::State:
+            return "RDDL_STATE";
+        case Role::Action:
+            return "RDDL_ACTION";
+        case Role::Interm:
+            return "RDDL_INTERM";
+        case Role::Derived:
+            return "RDDL_DERIVED";
+        case Role::Observ:
+            break;
+    }
+    return "RDDL_OBSERVATION";
+}
+
+std::string scalar_constant(ir::Scalar scalar) {
+    switch (scalar) {
+        case ir::Scalar::Bool:
+            return "RDDL_BOOL";
+        case ir::Scalar::Int:
+            return "RDDL_INT";
+        case ir::Scalar::Real:
+            break;
+    }
+    return "RDDL_REAL";
+}
+
+// The record that a role's fluents lie in; empty if in none.
+std::string record_of(Role role) {
+    switch (role) {
+        case Role::State:
+            return "State";
+        case Role::Action:
+            return "Action";
+        case Role::Observ:
+            return "Observation";
+        default:
+            return "";
+    }
+}
+
+// Writes one table after the other; equal small tables are shared.
+class Describer {
+  public:
+    explicit Describer(const Unit& unit) : unit_(unit), scope_(&unit.names.file, about_words) {}
+
+    std::string describe() {
+        files();
+        types();
+        fluents();
+        const ir::Program& program = unit_.program;
+        conditions("preconditions", program.preconditions);
+        conditions("invariants", program.invariants);
+        conditions("terminations", program.terminations);
+        default_action();
+        problem();
+        sites();
+        return std::move(text_);
+    }
+
+  private:
+    void add(const std::string& definition) {
+        text_ += (text_.empty() ? "" : "\n") + definition;
+    }
+
+    std::string source(Span span) const {
+        const Position position = unit_.sources.position(span);
+        return "{" + files_.at(span.file) + ", " + std::to_string(position.line) + ", " +
+               std::to_string(position.column) + "}";
+    }
+
+    // `name[] = { rows };`, and a pointer to it with its length for the problem.
+    void rows(const std::string& type, const std::string& name,
+              const std::vector<std::vector<std::string>>& rows) {
+        if (rows.empty()) return;
+        std::string text = "inline constexpr " + type + " " + name + "[] = {\n";
+        for (const auto& row : rows) {
+            for (const std::string& line : fill_call("{", row, "},", indentation)) {
+                text += std::string(indentation, ' ') + line + "\n";
+            }
+        }
+        add("// clang-format off\n" + text + "};\n// clang-format on\n");
+    }
+
+    void files() {
+        std::string text;
+        for (FileId file = 0; file < unit_.sources.size(); ++file) {
+            files_[file] = scope_.claim(file == 0 ? "domain_file" : "instance_file");
+            text += "inline constexpr const char* " + files_[file] + " = " +
+                    literal(std::string_view(unit_.sources[file].path())) + ";\n";
+        }
+        add(text);
+    }
+
+    void types() {
+        std::vector<std::vector<std::string>> table;
+        for (std::size_t index = 0; index < unit_.program.types.size(); ++index) {
+            const ir::ObjectType& type = unit_.program.types[index];
+            std::string objects = "nullptr";
+            if (!type.objects.empty()) {
+                objects = scope_.claim(type.name + "_objects");
+                std::vector<std::string> names;
+                for (const std::string& name : type.objects) {
+                    names.push_back(literal(std::string_view(name)));
+                }
+                add(list("inline constexpr const char* " + objects + "[]", names));
+            }
+            table.push_back({literal(std::string_view(type.name)), objects,
+                             unit_.names.counts[index], type.enumerated ? "1" : "0"});
+        }
+        rows("rddl_type", "types", table);
+    }
+
+    // The table of a fluent's parameter types.
+    std::string parameter_types(const ir::Fluent& fluent) {
+        if (fluent.parameter_types.empty()) return "nullptr";
+        std::string& name = parameter_types_[fluent.parameter_types];
+        if (!name.empty()) return name;
+        std::string wish = "of";
+        std::vector<std::string> numbers;
+        for (std::uint32_t type : fluent.parameter_types) {
+            wish += "_" + unit_.program.types[type].name;
+            numbers.push_back(std::to_string(type));
+        }
+        name = scope_.claim(wish);
+        add(list("inline constexpr std::int32_t " + name + "[]", numbers));
+        return name;
+    }
+
+    // nullptr where nothing bounds the fluent.
+    std::string bounds(const ir::Fluent& fluent, const std::string& which,
+                       const std::vector<double>& values) {
+        const bool unbounded = std::ranges::all_of(values, [](double v) { return std::isinf(v); });
+        if (values.empty() || (unbounded && are_infinite(fluent))) return "nullptr";
+        const std::string name = scope_.claim(fluent.name + "_" + which);
+        const std::string type = "std::array<double, " + std::to_string(values.size()) + ">";
+        const std::vector<ir::Value> entries(values.begin(), values.end());
+        if (entries.size() > 1 && are_equal(entries)) {
+            add("inline constexpr " + type + " " + name + " =\n    rddl::repeated<" +
+                std::to_string(values.size()) + ">(" + literal(entries.front()) + ");\n");
+        } else {
+            const auto count = static_cast<std::int64_t>(values.size());
+            add(table("inline constexpr " + type + " " + name, std::span(&count, 1), entries));
+        }
+        return name + ".data()";
+    }
+
+    // Both bounds of all groundings: the fluent is not bounded at all.
+    static bool are_infinite(const ir::Fluent& fluent) {
+        const auto infinite = [](double v) { return std::isinf(v); };
+        return std::ranges::all_of(fluent.lower, infinite) &&
+               std::ranges::all_of(fluent.upper, infinite);
+    }
+
+    std::string offset(const ir::Fluent& fluent) const {
+        const std::string record = record_of(fluent.role);
+        if (record.empty() || !fluent.buffer) return "-1";
+        return "offsetof(" + record + "<rddl::Scalar>, " +
+               unit_.names.buffers[fluent.buffer->index] + ")";
+    }
+
+    void fluents() {
+        std::vector<std::vector<std::string>> table;
+        for (const ir::Fluent& fluent : unit_.program.fluents) {
+            std::int64_t count = 1;
+            for (std::uint32_t type : fluent.parameter_types) {
+                count *= static_cast<std::int64_t>(unit_.program.types[type].objects.size());
+            }
+            const int range = fluent.object_type ? static_cast<int>(*fluent.object_type) : -1;
+            table.push_back({".name = " + literal(std::string_view(fluent.name)),
+                             ".role = " + role_constant(fluent.role),
+                             ".scalar = " + scalar_constant(fluent.scalar),
+                             ".range_type = " + std::to_string(range),
+                             ".rank = " + std::to_string(fluent.parameter_types.size()),
+                             ".parameter_types = " + parameter_types(fluent),
+                             ".count = " + std::to_string(count), ".offset = " + offset(fluent),
+                             ".lower = " + bounds(fluent, "lower", fluent.lower),
+                             ".upper = " + bounds(fluent, "upper", fluent.upper),
+                             ".source = " + source(fluent.span)});
+        }
+        rows("rddl_fluent", "fluents", table);
+    }
+
+    void conditions(const std::string& name, const std::vector<ir::Computation>& conditions) {
+        std::vector<std::vector<std::string>> table;
+        for (const ir::Computation& condition : conditions) {
+            const std::string text = on_one_line(unit_.sources.text(condition.span));
+            table.push_back({literal(std::string_view(text)), source(condition.span)});
+        }
+        rows("rddl_condition", name, table);
+    }
+
+    bool has(ir::Storage storage) const {
+        return std::ranges::any_of(unit_.program.buffers, [&](const ir::Buffer& buffer) {
+            return buffer.storage == storage;
+        });
+    }
+
+    void default_action() {
+        if (!has(ir::Storage::Action)) return;
+        add("inline constexpr Action<rddl::Scalar> default_action = [] {\n"
+            "    Action<rddl::Scalar> action{};\n" +
+            assignments(unit_, ir::Storage::Action, "action", 1) +
+            "    return action;\n"
+            "}();\n");
+    }
+
+    std::string size_of(ir::Storage storage, const std::string& record) const {
+        return has(storage) ? "sizeof(" + record + "<rddl::Scalar>)" : "0";
+    }
+
+    void problem() {
+        const ir::Program& program = unit_.program;
+        const std::string state_size = size_of(ir::Storage::State, "State");
+        const bool partial = program.partially_observed();
+        std::string text = "inline constexpr rddl_problem problem = {\n";
+        const auto field = [&](const std::string& name, const std::string& value) {
+            text += "    ." + name + " = " + value + ",\n";
+        };
+        const auto table = [&](const std::string& name, const std::string& count_name,
+                               std::size_t count) {
+            field(name, count > 0 ? name : "nullptr");
+            field(count_name, std::to_string(count));
+        };
+        field("domain", literal(std::string_view(program.domain_name)));
+        field("instance", literal(std::string_view(program.instance_name)));
+        table("types", "type_count", program.types.size());
+        table("fluents", "fluent_count", program.fluents.size());
+        field("state_size", state_size);
+        field("action_size", size_of(ir::Storage::Action, "Action"));
+        field("observation_size",
+              partial ? size_of(ir::Storage::Observation, "Observation") : state_size);
+        field("partially_observed", partial ? "1" : "0");
+        field("stochastic", ir::is_stochastic(program) ? "1" : "0");
+        field("default_action", has(ir::Storage::Action) ? "&default_action" : "nullptr");
+        field("horizon", std::to_string(program.horizon));
+        field("discount", literal(program.discount));
+        field("max_nondef_actions", std::to_string(program.max_nondef_actions.value_or(-1)));
+        table("preconditions", "precondition_count", program.preconditions.size());
+        table("invariants", "invariant_count", program.invariants.size());
+        table("terminations", "termination_count", program.terminations.size());
+        add(text + "};\n");
+    }
+
+    // The table of the variables that are in scope at a site.
+    std::string scope_table(const ir::Site& site) {
+        if (site.scope.empty()) return "{}";
+        std::vector<std::string> variables;
+        std::string key;
+        for (ir::VariableId id : site.scope) {
+            const ir::Variable& variable = unit_.program[id];
+            variables.push_back("{" + literal(std::string_view(variable.name)) + ", &types[" +
+                                std::to_string(variable.type) + "]}");
+            key += variables.back();
+        }
+        std::string& name = scope_tables_[key];
+        if (!name.empty()) return name;
+        std::string wish = "scope";
+        for (ir::VariableId id : site.scope) wish += "_" + unit_.program[id].name;
+        name = scope_.claim(wish);
+        add(list("inline constexpr rddl::SiteVariable " + name + "[]", variables));
+        return name;
+    }
+
+    void sites() {
+        std::vector<std::vector<std::string>> table;
+        for (const ir::Site& site : unit_.program.sites) {
+            table.push_back(
+                {source(site.span), literal(std::string_view(site.what)), scope_table(site)});
+        }
+        rows("rddl::Site", "sites", table);
+    }
+
+    const Unit& unit_;
+    Scope scope_;
+    std::string text_;
+    std::map<FileId, std::string> files_;
+    std::map<std::vector<std::uint32_t>, std::string> parameter_types_;
+    std::map<std::string, std::string> scope_tables_;
+};
+
+}  // namespace
+
+std::string about(const Unit& unit) { return Describer(unit).describe(); }
+
+std::string sites_argument(const Unit& unit) {
+    return unit.program.sites.empty() ? "{}" : "about::sites";
+}
+
+}  // namespace rddlc::cpp

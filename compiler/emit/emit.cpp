@@ -1,0 +1,73 @@
+#include "emit/emit.hpp"
+
+#include "emit/about.hpp"
+#include "emit/functions.hpp"
+#include "emit/line_directives.hpp"
+#include "emit/literals.hpp"
+#include "emit/tables.hpp"
+#include "emit/templates.hpp"
+#include "emit/unit.hpp"
+#include "support/template_slots.hpp"
+
+namespace rddlc {
+namespace {
+
+using cpp::Unit;
+
+std::string about_file(const Unit& unit) {
+    const ir::Program& program = unit.program;
+    std::string text = "// A simulator of the RDDL problem " +
+                       cpp::comment_text(program.domain_name) + ", instance " +
+                       cpp::comment_text(program.instance_name) + ".\n//\n";
+    text += "// Made by rddlc " + unit.options.compiler_version + " from\n";
+    for (FileId file = 0; file < unit.sources.size(); ++file) {
+        text += "//     " + cpp::comment_text(unit.sources[file].path()) + "\n";
+    }
+    return text + "// Do not edit it: change those and compile them again.\n";
+}
+
+// Sections that turned out empty leave runs of blank lines.
+std::string without_double_blanks(const std::string& text) {
+    std::string result;
+    for (char c : text) {
+        const bool third = c == '\n' && result.ends_with("\n\n");
+        if (!third) result += c;
+    }
+    return result;
+}
+
+std::string simulator(const Unit& unit) {
+    const cpp::StepFunctions step = cpp::step_functions(unit);
+    return fill_slots(cpp::templates::simulator,
+                      {{"space", unit.names.space},
+                       {"objects", cpp::objects(unit)},
+                       {"tables", cpp::tables(unit)},
+                       {"records", cpp::records(unit)},
+                       {"partially_observed", unit.program.partially_observed() ? "true" : "false"},
+                       {"reset", cpp::reset_function(unit)},
+                       {"step", step.step},
+                       {"reward", cpp::reward_function(unit)},
+                       {"conditions", cpp::condition_functions(unit)},
+                       {"cpfs", step.cpfs},
+                       {"asserts", cpp::asserts(unit)},
+                       {"about", cpp::about(unit)},
+                       {"sites", cpp::sites_argument(unit)}});
+}
+
+std::string file(const Unit& unit) {
+    SlotValues values = {{"about_file", about_file(unit)},
+                         {"space", unit.names.space},
+                         {"simulator", simulator(unit)}};
+    if (unit.options.header) return fill_slots(cpp::templates::header, values);
+    values.emplace("entry", unit.names.entry);
+    return fill_slots(cpp::templates::source, values);
+}
+
+}  // namespace
+
+std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options) {
+    const Unit unit(program, sources, options);
+    return cpp::restore_lines(without_double_blanks(file(unit)), options.output_name);
+}
+
+}  // namespace rddlc

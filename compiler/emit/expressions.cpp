@@ -1,0 +1,261 @@
+#include "emit/expressions.hpp"
+
+#include <algorithm>
+
+#include "emit/literals.hpp"
+#include "emit/operators.hpp"
+#include "support/match.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+std::string operand_of(const OperatorSpelling& spelling, Level loosest, const Spelled& operand) {
+    const bool bare = operand.level >= loosest ||
+                      (spelling.associative && operand.level == spelling.level);
+    return bare ? operand.text : "(" + operand.text + ")";
+}
+
+Spelled binary(const OperatorSpelling& spelling, const Spelled& left, const Spelled& right) {
+    return {operand_of(spelling, spelling.left, left) + " " + spelling.word + " " +
+                operand_of(spelling, spelling.right, right),
+            spelling.level};
+}
+
+std::string comma_separated(const std::vector<std::string>& items) {
+    std::string text;
+    for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+    return text;
+}
+
+bool is_int_constant(const ir::Node& node) {
+    return node.type == ir::Scalar::Int && std::holds_alternative<ir::Constant>(node.form);
+}
+
+}  // namespace
+
+// -------------------------------------------------------------------------------- names
+
+std::string Expressions::enter(ir::VariableId variable) {
+    return variables_[variable] = scope_.claim(unit_.program[variable].name);
+}
+
+void Expressions::return_to(Mark mark) {
+    scope_.release(mark.scope);
+    named_ = std::move(mark.named);
+}
+
+std::string Expressions::type(ir::Scalar scalar) {
+    switch (scalar) {
+        case ir::Scalar::Bool:
+            uses_.bool_type = true;
+            return "Bool";
+        case ir::Scalar::Int:
+            uses_.int_type = true;
+            return "Int";
+        case ir::Scalar::Real:
+            break;
+    }
+    uses_.real_type = true;
+    return "Real";
+}
+
+// -------------------------------------------------------------------------- expressions
+
+Spelled Expressions::spell(ir::NodeId id) {
+    if (const auto named = named_.find(id); named != named_.end()) {
+        return {named->second, Level::Primary};
+    }
+    const ir::Node& node = unit_.program[id];
+    return match(node.form, [&](const auto& form) { return spell(node, form); });
+}
+
+std::string Expressions::result(ir::NodeId id) {
+    const ir::Node& node = unit_.program[id];
+    return is_int_constant(node) ? type(node.type) + "{" + text(id) + "}" : text(id);
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Constant& constant) {
+    const std::string text = literal(constant.value);
+    return {text, text.starts_with('-') ? Level::Unary : Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Index& index) {
+    return {variables_.at(index.variable), Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
+    return {locals_.at(local.local), Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node& node, const ir::Convert& convert) {
+    return {call(node.type == ir::Scalar::Int ? "to_int" : "to_real", {convert.operand}),
+            Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Apply& apply) {
+    const bool on_ints = unit_.program[apply.operands.front()].type == ir::Scalar::Int;
+    const OperatorSpelling spelling = spelling_of(apply.op, on_ints);
+    if (!spelling.is_infix) return {call(spelling.word, apply.operands, apply.place), Level::Primary};
+    const Spelled first = spell(apply.operands[0]);
+    if (apply.operands.size() == 1) {
+        return {spelling.word + operand_of(spelling, spelling.left, first), spelling.level};
+    }
+    Spelled whole = binary(spelling, first, spell(apply.operands[1]));
+    if (apply.op == Operator::Implies) whole.text.insert(0, "!");
+    return whole;
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Select& select) {
+    const bool constants = is_int_constant(unit_.program[select.then_value]) &&
+                           is_int_constant(unit_.program[select.else_value]);
+    const std::string then_value =
+        constants ? result(select.then_value) : text(select.then_value);
+    return {"rddl::select(" + text(select.condition) + ", " + then_value + ", " +
+                (constants ? result(select.else_value) : text(select.else_value)) + ")",
+            Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node& node, const ir::Reduce& reduce) {
+    return {lambda_call(node, reduce.variable, reduce.body), Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Sample& sample) {
+    const std::string function = "sample::" + function_of(sample.distribution);
+    return {call(function, sample.parameters, sample.place), Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node&, const ir::Discrete& discrete) {
+    const std::string weights = "std::array<" + type(ir::Scalar::Real) + ", " +
+                                std::to_string(discrete.weights.size()) + ">{" +
+                                arguments(discrete.weights) + "}";
+    return {discrete_call(discrete, weights), Level::Primary};
+}
+
+std::string Expressions::discrete_call(const ir::Discrete& discrete, const std::string& weights) {
+    const std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
+    return "rddl::sample::" + function + "(" + place(discrete.place) + ", " + weights + ")";
+}
+
+Spelled Expressions::spell(const ir::Node& node, const ir::DiscreteOver& discrete) {
+    return {lambda_call(node, discrete.variable, discrete.weight), Level::Primary};
+}
+
+Spelled Expressions::spell(const ir::Node& node, const ir::Fault& fault) {
+    return {"rddl::fault<" + type(node.type) + ">(" + place(fault.place) + ")", Level::Primary};
+}
+
+// -------------------------------------------------------------------------------- calls
+
+std::string Expressions::arguments(const std::vector<ir::NodeId>& operands) {
+    std::vector<std::string> texts;
+    for (ir::NodeId operand : operands) texts.push_back(text(operand));
+    return comma_separated(texts);
+}
+
+std::string Expressions::call(const std::string& function,
+                              const std::vector<ir::NodeId>& operands,
+                              const std::optional<ir::Place>& where) {
+    return "rddl::" + function + "(" + (where ? place(*where) + ", " : "") + arguments(operands) +
+           ")";
+}
+
+std::string Expressions::place(const ir::Place& place) {
+    uses_.context = true;
+    return "context, {" + std::to_string(place.site.index) + ", " + index(place.index).text + "}";
+}
+
+std::string Expressions::call_head(const ir::Node& binder) {
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
+        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">(" +
+               unit_.size_of(unit_.program[reduce->variable]);
+    }
+    const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
+    const std::string function =
+        discrete.normalise ? "unnormalised_discrete_over" : "discrete_over";
+    return "rddl::sample::" + function + "(" + place(discrete.place) + ", " +
+           unit_.size_of(unit_.program[discrete.variable]);
+}
+
+std::string Expressions::lambda_head(ir::VariableId variable, ir::NodeId body) {
+    const auto& used = unit_.facts_of(body).free_variables;
+    const bool is_used = std::ranges::binary_search(used, variable);
+    return "[&](rddl::Index" + (is_used ? " " + variables_.at(variable) : "") + ")";
+}
+
+std::string Expressions::lambda_call(const ir::Node& node, ir::VariableId variable,
+                                     ir::NodeId body) {
+    const std::string head = call_head(node);
+    const Mark before = mark();
+    enter(variable);
+    const std::string lambda = lambda_head(variable, body) + " { return " + result(body) + "; }";
+    return_to(before);
+    return head + ", " + lambda + ")";
+}
+
+// ------------------------------------------------------------------------------ elements
+
+std::string Expressions::record(ir::BufferId id) {
+    const std::string& name = unit_.names.buffers[id.index];
+    switch (unit_.program[id].storage) {
+        case ir::Storage::Constant:
+            return name;
+        case ir::Storage::State:
+            uses_.state = true;
+            return "state." + name;
+        case ir::Storage::Action:
+            uses_.action = true;
+            return "action." + name;
+        case ir::Storage::Scratch:
+            uses_.scratch = true;
+            return "scratch." + name;
+        case ir::Storage::Next:
+            uses_.next = true;
+            return "next." + name;
+        case ir::Storage::Observation:
+            uses_.observation = true;
+            return "observation." + name;
+    }
+    return name;
+}
+
+std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) {
+    std::string text = record(buffer);
+    for (ir::NodeId id : indices) text += "[" + index(id).text + "]";
+    const ir::Storage storage = unit_.program[buffer].storage;
+    uses_.stores_scratch |= storage == ir::Storage::Scratch;
+    uses_.stores_next |= storage == ir::Storage::Next;
+    uses_.stores_observation |= storage == ir::Storage::Observation;
+    return text;
+}
+
+// Uniform indices first in brackets; from the first other one on, the lanes differ.
+Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
+    std::string text = record(load.buffer);
+    auto next = load.indices.begin();
+    for (; next != load.indices.end() && unit_.facts_of(*next).uniform; ++next) {
+        text += "[" + index(*next).text + "]";
+    }
+    if (next == load.indices.end()) return {text, Level::Primary};
+    return {"rddl::at(" + text + ", " + arguments({next, load.indices.end()}) + ")",
+            Level::Primary};
+}
+
+// Arithmetic of loop indices cannot overflow, so it needs no wrapping functions.
+bool Expressions::is_plain_index(ir::NodeId id) const {
+    const ir::Node& node = unit_.program[id];
+    if (named_.contains(id) || std::holds_alternative<ir::Index>(node.form)) return true;
+    if (std::holds_alternative<ir::Constant>(node.form)) return true;
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    return apply && (apply->op == Operator::Add || apply->op == Operator::Multiply) &&
+           std::ranges::all_of(apply->operands,
+                               [&](ir::NodeId operand) { return is_plain_index(operand); });
+}
+
+Spelled Expressions::index(ir::NodeId id) {
+    const auto* apply = std::get_if<ir::Apply>(&unit_.program[id].form);
+    if (!apply || is_named(id) || !is_plain_index(id)) return spell(id);
+    return binary(spelling_of(apply->op, false), index(apply->operands[0]),
+                  index(apply->operands[1]));
+}
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,113 @@
+// Expressions as C++ text on one line, with as few parentheses as a reader needs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emit/identifiers.hpp"
+#include "emit/unit.hpp"
+#include "ir/ir.hpp"
+
+namespace rddlc::cpp {
+
+// How tightly a text holds together, loosest first.
+enum class Level : std::uint8_t {
+    Or,
+    And,
+    Comparison,
+    Not,  // binds tighter in C++, but readers and compilers want (!a) == b
+    Additive,
+    Multiplicative,
+    Unary,
+    Primary,
+};
+
+struct Spelled {
+    std::string text;
+    Level level;
+};
+
+// The parameters and the type aliases that a function turns out to need.
+struct Uses {
+    bool state = false, action = false, scratch = false, next = false, observation = false;
+    bool stores_scratch = false, stores_next = false, stores_observation = false;
+    bool context = false;
+    bool bool_type = false, int_type = false, real_type = false;
+};
+
+// Spells the expressions of one function, by the names that are known at the current point.
+class Expressions {
+  public:
+    explicit Expressions(const Unit& unit) : unit_(unit), scope_(&unit.names.file) {}
+
+    Spelled spell(ir::NodeId id);
+    std::string text(ir::NodeId id) { return spell(id).text; }
+    // The alias of a type in the function: Bool, Int or Real.
+    std::string type(ir::Scalar scalar);
+    // An element to store into: next.x[i][j].
+    std::string target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices);
+    // The call of an aggregation or of a draw over objects, up to its lambda.
+    std::string call_head(const ir::Node& binder);
+    // "[&](rddl::Index r)"; without the name where the body does not use it.
+    std::string lambda_head(ir::VariableId variable, ir::NodeId body);
+    // What a lambda returns: an int constant must not be C++'s int.
+    std::string result(ir::NodeId id);
+    // One call of a draw from listed weights, given their array.
+    std::string discrete_call(const ir::Discrete& discrete, const std::string& weights);
+
+    // A named node is spelled by its name from then on.
+    void name(ir::NodeId id, const std::string& name) { named_[id] = name; }
+    void name(ir::LocalId local, const std::string& name) { locals_[local] = name; }
+    bool is_named(ir::NodeId id) const { return named_.contains(id); }
+    std::string enter(ir::VariableId variable);
+    std::string claim(std::string_view wish) { return scope_.claim(wish); }
+
+    // What was named since a mark is forgotten by returning to it.
+    struct Mark {
+        std::size_t scope;
+        std::map<ir::NodeId, std::string> named;
+    };
+    Mark mark() const { return {scope_.mark(), named_}; }
+    void return_to(Mark mark);
+    // The same, but the names stay taken.
+    void forget(Mark mark) { named_ = std::move(mark.named); }
+
+    Uses& uses() { return uses_; }
+    const Unit& unit() const { return unit_; }
+
+  private:
+    Spelled spell(const ir::Node& node, const ir::Constant& constant);
+    Spelled spell(const ir::Node& node, const ir::Index& index);
+    Spelled spell(const ir::Node& node, const ir::Load& load);
+    Spelled spell(const ir::Node& node, const ir::Local& local);
+    Spelled spell(const ir::Node& node, const ir::Convert& convert);
+    Spelled spell(const ir::Node& node, const ir::Apply& apply);
+    Spelled spell(const ir::Node& node, const ir::Select& select);
+    Spelled spell(const ir::Node& node, const ir::Reduce& reduce);
+    Spelled spell(const ir::Node& node, const ir::Sample& sample);
+    Spelled spell(const ir::Node& node, const ir::Discrete& discrete);
+    Spelled spell(const ir::Node& node, const ir::DiscreteOver& discrete);
+    Spelled spell(const ir::Node& node, const ir::Fault& fault);
+
+    std::string call(const std::string& function, const std::vector<ir::NodeId>& operands,
+                     const std::optional<ir::Place>& place = {});
+    std::string lambda_call(const ir::Node& node, ir::VariableId variable, ir::NodeId body);
+    std::string arguments(const std::vector<ir::NodeId>& operands);
+    std::string place(const ir::Place& place);
+    std::string record(ir::BufferId buffer);
+    Spelled index(ir::NodeId id);
+    bool is_plain_index(ir::NodeId id) const;
+
+    const Unit& unit_;
+    Scope scope_;
+    std::map<ir::NodeId, std::string> named_;
+    std::map<ir::VariableId, std::string> variables_;
+    std::map<ir::LocalId, std::string> locals_;
+    Uses uses_;
+};
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,367 @@
+#include "emit/function_body.hpp"
+
+#include <algorithm>
+
+#include "emit/layout.hpp"
+#include "emit/operators.hpp"
+#include "support/match.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+// Longer operands of a chain get a name of their own instead of a line of their own.
+constexpr std::size_t longest_operand = 45;
+// Shorter texts are not worth a name.
+constexpr std::size_t shortest_named = 12;
+
+bool is_binder(const ir::Node& node) { return ir::bound_variable(node).has_value(); }
+
+bool is_leaf(const ir::Node& node) {
+    return match(
+        node.form, [](const ir::Constant&) { return true; }, [](const ir::Index&) { return true; },
+        [](const ir::Local&) { return true; }, [](const ir::Load&) { return true; },
+        [](const auto&) { return false; });
+}
+
+// The operators that may follow each other in one chain with `op`; empty if it makes no chains.
+std::vector<std::string_view> chain_operators(const ir::Node& node) {
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (!apply || apply->operands.size() != 2 || node.type == ir::Scalar::Int) return {};
+    switch (apply->op) {
+        case Operator::Add:
+        case Operator::Subtract:
+            return {"+", "-"};
+        case Operator::Multiply:
+        case Operator::Divide:
+            return {"*", "/"};
+        case Operator::And:
+            return {"&&"};
+        case Operator::Or:
+            return {"||"};
+        default:
+            return {};
+    }
+}
+
+// What to call a value that needs a name.
+std::string_view wish_for(const ir::Node& node) {
+    if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
+        switch (reduce->op) {
+            case Reduction::Sum:
+                return "total";
+            case Reduction::Product:
+                return "product";
+            case Reduction::Minimum:
+                return "least";
+            case Reduction::Maximum:
+                return "greatest";
+            case Reduction::ForAll:
+                return "all";
+            case Reduction::Exists:
+                return "any";
+            default:
+                return "best";
+        }
+    }
+    const bool draws = std::holds_alternative<ir::Sample>(node.form) ||
+                       std::holds_alternative<ir::Discrete>(node.form) ||
+                       std::holds_alternative<ir::DiscreteOver>(node.form);
+    if (draws) return "draw";
+    switch (node.type) {
+        case ir::Scalar::Bool:
+            return "condition";
+        case ir::Scalar::Int:
+            return "number";
+        case ir::Scalar::Real:
+            break;
+    }
+    return "term";
+}
+
+}  // namespace
+
+// --------------------------------------------------------------------------- statements
+
+void FunctionBody::block(const ir::Block& block) {
+    for (const ir::Statement& each : block) {
+        match(each.form, [&](const auto& form) { statement(form); });
+    }
+}
+
+void FunctionBody::return_value(ir::NodeId id) { value("return ", id); }
+
+void FunctionBody::statement(const ir::Let& let) { expressions_.name(let.local, declare(let.value)); }
+
+void FunctionBody::statement(const ir::Store& store) {
+    const auto before = expressions_.mark();
+    value(expressions_.target(store.target, store.indices) + " = ", store.value);
+    // Values that were named on the way may change with the next store; their names stay taken.
+    expressions_.forget(before);
+}
+
+void FunctionBody::statement(const ir::Loop& loop) {
+    const auto before = expressions_.mark();
+    const std::string name = expressions_.enter(loop.variable);
+    const std::string size = expressions_.unit().size_of(program()[loop.variable]);
+    line("for (rddl::Index " + name + " = 0; " + name + " < " + size + "; ++" + name + ") {");
+    ++level_;
+    block(loop.body);
+    --level_;
+    line("}");
+    expressions_.return_to(before);
+}
+
+void FunctionBody::value(const std::string& lead, ir::NodeId id) {
+    prepare(lead.size(), id);
+    write(lead, id);
+}
+
+// --------------------------------------------------------------------------- preparation
+
+void FunctionBody::prepare(std::size_t lead_length, ir::NodeId id) {
+    name_blocks_within(id);
+    if (const ir::Select* select = lazy_select(id)) return prepare_branch(*select);
+    if (is_block(id)) return;
+    const ir::Node& node = program()[id];
+    do {
+        if (fits_on_one_line(lead_length, id) || fits_as_chain(lead_length, id)) return;
+        if (is_binder(node)) return;
+        if (const auto* discrete = std::get_if<ir::Discrete>(&node.form)) {
+            return prepare_discrete(*discrete);
+        }
+    } while (name_longest_part(id));
+}
+
+void FunctionBody::prepare_branch(const ir::Select& select) {
+    const bool is_long = expressions_.text(select.condition).size() > longest_operand;
+    if (is_long) name_value(select.condition);
+}
+
+void FunctionBody::prepare_discrete(const ir::Discrete& discrete) {
+    for (ir::NodeId weight : discrete.weights) {
+        if (!fits(expressions_.text(weight).size() + 1, 1)) name_value(weight);
+    }
+}
+
+// Gives names to the parts of `id` that are blocks, from the outside in.
+void FunctionBody::name_blocks_within(ir::NodeId id) {
+    for (ir::NodeId part : eager_parts(id)) {
+        if (!is_block(part)) continue;
+        if (lazy_select(part) || is_binder(program()[part])) {
+            name_value(part);
+        } else {
+            name_blocks_within(part);
+        }
+    }
+}
+
+// False if no part is worth a name.
+bool FunctionBody::name_longest_part(ir::NodeId id) {
+    std::vector<ir::NodeId> parts;
+    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, parts);
+    if (parts.empty()) parts = chain_parts(id);
+    if (parts.size() == 1) parts = eager_parts(id);
+
+    const ir::NodeId* longest = nullptr;
+    std::size_t length = shortest_named - 1;
+    for (const ir::NodeId& part : parts) {
+        if (expressions_.is_named(part) || is_leaf(program()[part])) continue;
+        const std::size_t part_length = expressions_.text(part).size();
+        if (part_length <= length) continue;
+        longest = &part;
+        length = part_length;
+    }
+    if (longest) name_value(*longest);
+    return longest != nullptr;
+}
+
+void FunctionBody::name_value(ir::NodeId id) {
+    if (!expressions_.is_named(id)) expressions_.name(id, declare(id));
+}
+
+// "const Real total = ...;"
+std::string FunctionBody::declare(ir::NodeId id) {
+    const ir::Node& node = program()[id];
+    const std::string_view wish = wish_for(node);
+    const std::string_view room_for_number = "_99";
+    prepare(sizeof "const Real  = " - 1 + wish.size() + room_for_number.size(), id);
+    const std::string name = expressions_.claim(wish);
+    write("const " + expressions_.type(node.type) + " " + name + " = ", id);
+    return name;
+}
+
+// -------------------------------------------------------------------------------- forms
+
+void FunctionBody::write(const std::string& lead, ir::NodeId id) {
+    const ir::Node& node = program()[id];
+    if (const ir::Select* select = lazy_select(id)) return write_branch(lead, *select);
+    if (is_block(id)) return write_lambda_call(lead, id);
+
+    const std::string text = lead == "return " ? expressions_.result(id) : expressions_.text(id);
+    if (fits(lead.size() + text.size() + 1)) return line(lead + text + ";");
+    if (lead.ends_with("= ") && fits(text.size() + 1, 1)) {
+        line(lead.substr(0, lead.size() - 1));
+        ++level_;
+        line(text + ";");
+        --level_;
+        return;
+    }
+    if (expressions_.is_named(id)) return line(lead + text + ";");
+    if (is_binder(node)) return write_lambda_call(lead, id);
+    if (const auto* discrete = std::get_if<ir::Discrete>(&node.form)) {
+        return write_discrete(lead, *discrete);
+    }
+    const auto column = static_cast<std::size_t>(level_ * indentation);
+    std::vector<std::string> lines = fill_chain(lead, text, chain_operators(node), column);
+    lines.back() += ';';
+    for (const std::string& each : lines) line(each);
+}
+
+void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
+    const ir::Node& node = program()[id];
+    const ir::VariableId variable = *ir::bound_variable(node);
+    const ir::NodeId body = ir::operands_of(node).front();
+    const std::string head = expressions_.call_head(node) + ",";
+
+    const auto before = expressions_.mark();
+    expressions_.enter(variable);
+    const std::string lambda = expressions_.lambda_head(variable, body);
+    if (!is_block(body)) {
+        const std::string whole = lambda + " { return " + expressions_.result(body) + "; });";
+        const std::size_t column = lead.size() + head.find('(') + 1;
+        const std::size_t arguments = head.size() - head.find('(') + whole.size();
+        if (fits(column + whole.size())) {
+            line(lead + head);
+            line(std::string(column, ' ') + whole);
+            return expressions_.return_to(before);
+        }
+        if (fits(arguments, 1)) {
+            line(lead + head.substr(0, head.find('(') + 1));
+            line(std::string(indentation, ' ') + head.substr(head.find('(') + 1) + " " + whole);
+            return expressions_.return_to(before);
+        }
+    }
+    line(lead + head + " " + lambda + " {");
+    write_lambda_body(body);
+    line("});");
+    expressions_.return_to(before);
+}
+
+void FunctionBody::write_branch(const std::string& lead, const ir::Select& select) {
+    expressions_.uses().context = true;
+    const std::string head = "rddl::branch(";
+    const std::string condition = "context, " + expressions_.text(select.condition) + ", ";
+    if (!is_block(select.then_value) && !is_block(select.else_value)) {
+        const std::string arguments =
+            condition + "[&] { return " + expressions_.result(select.then_value) +
+            "; }, [&] { return " + expressions_.result(select.else_value) + "; });";
+        if (fits(arguments.size(), 1)) {
+            line(lead + head);
+            ++level_;
+            line(arguments);
+            --level_;
+            return;
+        }
+    }
+    const std::string then_value = write_lambda("then_value", select.then_value);
+    const std::string else_value = write_lambda("else_value", select.else_value);
+    line(lead + head + condition + then_value + ", " + else_value + ");");
+}
+
+void FunctionBody::write_discrete(const std::string& lead, const ir::Discrete& discrete) {
+    const std::string name = expressions_.claim("weights");
+    line("const std::array<" + expressions_.type(ir::Scalar::Real) + ", " +
+         std::to_string(discrete.weights.size()) + "> " + name + " = {");
+    ++level_;
+    for (ir::NodeId weight : discrete.weights) line(expressions_.text(weight) + ",");
+    --level_;
+    line("};");
+    line(lead + expressions_.discrete_call(discrete, name) + ";");
+}
+
+// const auto then_value = [&] { ... };
+std::string FunctionBody::write_lambda(std::string_view wish, ir::NodeId body) {
+    const std::string name = expressions_.claim(wish);
+    line("const auto " + name + " = [&] {");
+    const auto before = expressions_.mark();
+    write_lambda_body(body);
+    expressions_.return_to(before);
+    line("};");
+    return name;
+}
+
+void FunctionBody::write_lambda_body(ir::NodeId body) {
+    ++level_;
+    value("return ", body);
+    --level_;
+}
+
+// ------------------------------------------------------------------------------ questions
+
+bool FunctionBody::fits(std::size_t length, int levels_deeper) const {
+    return static_cast<std::size_t>((level_ + levels_deeper) * indentation) + length <= line_width;
+}
+
+bool FunctionBody::fits_on_one_line(std::size_t lead_length, ir::NodeId id) {
+    return fits(lead_length + expressions_.text(id).size() + 1);
+}
+
+bool FunctionBody::fits_as_chain(std::size_t lead_length, ir::NodeId id) {
+    const std::vector<ir::NodeId> parts = chain_parts(id);
+    if (parts.size() < 2 || !fits(lead_length + longest_operand)) return false;
+    return std::ranges::all_of(parts, [&](ir::NodeId part) {
+        const std::string text = expressions_.text(part);
+        return text.size() <= longest_operand && text.find("[&]") == std::string::npos;
+    });
+}
+
+bool FunctionBody::is_block(ir::NodeId id) const {
+    if (expressions_.is_named(id) || !expressions_.unit().contains_branch[id.index]) return false;
+    if (lazy_select(id)) return true;
+    const auto operands = ir::operands_of(program()[id]);
+    return std::ranges::any_of(operands, [&](ir::NodeId operand) { return is_block(operand); });
+}
+
+const ir::Select* FunctionBody::lazy_select(ir::NodeId id) const {
+    if (expressions_.is_named(id)) return nullptr;
+    const auto* select = std::get_if<ir::Select>(&program()[id].form);
+    return select && expressions_.unit().is_lazy(*select) ? select : nullptr;
+}
+
+// a + b - c -> a, b, c
+std::vector<ir::NodeId> FunctionBody::chain_parts(ir::NodeId id) const {
+    const auto operators = chain_operators(program()[id]);
+    if (operators.empty() || expressions_.is_named(id)) return {id};
+    const auto& operands = std::get<ir::Apply>(program()[id].form).operands;
+    std::vector<ir::NodeId> parts;
+    if (chain_operators(program()[operands[0]]) == operators) {
+        parts = chain_parts(operands[0]);
+    } else {
+        parts = {operands[0]};
+    }
+    parts.push_back(operands[1]);
+    return parts;
+}
+
+// What is evaluated whenever `id` is, before it.
+std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
+    if (expressions_.is_named(id) || is_binder(program()[id])) return {};
+    if (const ir::Select* select = lazy_select(id)) return {select->condition};
+    return ir::operands_of(program()[id]);
+}
+
+// The outermost ones.
+void FunctionBody::collect_lambda_calls(ir::NodeId id, std::vector<ir::NodeId>& calls) const {
+    if (expressions_.is_named(id)) return;
+    if (is_binder(program()[id])) {
+        calls.push_back(id);
+        return;
+    }
+    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, calls);
+}
+
+void FunctionBody::line(const std::string& text) {
+    lines_.push_back(std::string(static_cast<std::size_t>(level_ * indentation), ' ') + text);
+}
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,266 @@
+#include "emit/functions.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "emit/function_body.hpp"
+#include "emit/layout.hpp"
+#include "emit/line_directives.hpp"
+#include "emit/literals.hpp"
+#include "emit/tables.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+constexpr int level = 1;  // of the members of Simulator
+
+std::string indented(const std::string& text, int levels) {
+    return std::string(static_cast<std::size_t>(levels * indentation), ' ') + text + "\n";
+}
+
+struct Parameter {
+    std::string type;
+    std::string name;
+    bool used;
+};
+
+std::string declaration(const Parameter& parameter) {
+    const std::string name = parameter.used ? parameter.name : "/*" + parameter.name + "*/";
+    return parameter.type + " " + name;
+}
+
+Parameter record_parameter(const std::string& type, const std::string& name, bool used,
+                           bool stored) {
+    return {(stored ? "" : "const ") + type + "<L>&", name, used};
+}
+
+Parameter context_parameter(const Uses& uses) {
+    return {"rddl::Context<L>&", "context", uses.context};
+}
+
+// All records that a function might take, in the order of every signature.
+std::vector<Parameter> record_parameters(const Uses& uses) {
+    return {record_parameter("State", "state", uses.state, false),
+            record_parameter("Action", "action", uses.action, false),
+            record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
+            record_parameter("State", "next", uses.next, uses.stores_next),
+            record_parameter("Observation", "observation", uses.observation,
+                             uses.stores_observation),
+            context_parameter(uses)};
+}
+
+std::vector<Parameter> only_used(std::vector<Parameter> parameters) {
+    std::erase_if(parameters, [](const Parameter& parameter) { return !parameter.used; });
+    return parameters;
+}
+
+std::string arguments(const std::vector<Parameter>& parameters) {
+    std::string text;
+    for (const Parameter& parameter : parameters) text += (text.empty() ? "" : ", ") + parameter.name;
+    return text;
+}
+
+std::string signature(const std::string& result, const std::string& name,
+                      const std::vector<Parameter>& parameters) {
+    std::vector<std::string> declarations;
+    for (const Parameter& parameter : parameters) declarations.push_back(declaration(parameter));
+    std::string text = indented("template <class L>", level);
+    const std::size_t column = level * indentation;
+    for (const std::string& line :
+         fill_call("static " + result + " " + name + "(", declarations, ") {", column)) {
+        text += indented(line, level);
+    }
+    return text;
+}
+
+std::string function(const std::string& result, const std::string& name,
+                     const std::vector<Parameter>& parameters, const std::string& body) {
+    std::string text = signature(result, name, parameters);
+    // An empty body stands on the last line of the signature.
+    if (body.empty()) return text.substr(0, text.size() - 1) + "}\n";
+    return text + body + indented("}", level);
+}
+
+std::string body_text(const Unit& unit, FunctionBody& body, Span span) {
+    const bool directives = unit.options.line_directives;
+    std::string text;
+    const Uses& uses = body.uses();
+    if (uses.bool_type) text += indented("using Bool = typename L::Bool;", level + 1);
+    if (uses.int_type) text += indented("using Int = typename L::Int;", level + 1);
+    if (uses.real_type) text += indented("using Real = typename L::Real;", level + 1);
+    for (const std::string& line : body.lines()) {
+        if (directives) text += line_directive(unit.sources, span);
+        text += line + "\n";
+    }
+    return text + std::string(directives ? line_restorer : "");
+}
+
+// One line of comment, cut to the width of the page.
+std::string comment(std::string text, const std::string& place) {
+    text = comment_text(text);
+    const std::string tail = place.empty() ? "" : "  (" + place + ")";
+    const std::size_t room = line_width - level * indentation - 3 - tail.size();
+    if (text.size() > room) {
+        std::size_t end = room - 3;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+        text = text.substr(0, end) + "...";
+    }
+    return indented("// " + text + tail, level);
+}
+
+// "rlevel'(?r)" of "rlevel'(?r) = ...;"
+std::string lifted_head(const Unit& unit, const ir::Definition& definition) {
+    const std::string text = on_one_line(unit.sources.text(definition.span));
+    std::string head = text.substr(0, text.find('='));
+    while (head.ends_with(' ')) head.pop_back();
+    return head;
+}
+
+std::string cpf_comment(const Unit& unit, const ir::Definition& definition) {
+    const std::string place = unit.where(definition.span);
+    const ir::Buffer& target = unit.program[definition.target];
+    if (target.fluent) return comment(lifted_head(unit, definition), place);
+    return comment("A table for " + lifted_head(unit, definition), place);
+}
+
+void unite(Uses& all, const Uses& some) {
+    all.state |= some.state;
+    all.action |= some.action;
+    all.scratch |= some.scratch;
+    all.next |= some.next;
+    all.observation |= some.observation;
+    all.context |= some.context;
+}
+
+std::string count_constant(const std::string& word, std::size_t count) {
+    return indented("static constexpr rddl::Index " + word + "_count = " + std::to_string(count) + ";",
+                    level);
+}
+
+std::string condition_switch(const std::vector<std::string>& calls, const char* otherwise) {
+    if (calls.empty()) return indented(std::string("return ") + otherwise + ";", level + 1);
+    std::string text = indented("switch (k) {", level + 1);
+    for (std::size_t k = 0; k < calls.size(); ++k) {
+        text += indented("case " + std::to_string(k) + ":", level + 2);
+        text += indented("return " + calls[k] + ";", level + 3);
+    }
+    text += indented("default:", level + 2);
+    text += indented(std::string("return ") + otherwise + ";", level + 3);
+    return text + indented("}", level + 1);
+}
+
+struct ConditionKind {
+    std::string word;  // "precondition"
+    std::string comment;
+    const char* otherwise;  // the value of a condition that does not exist
+    bool has_action;
+};
+
+std::string conditions(const Unit& unit, const ConditionKind& kind,
+                       const std::vector<ir::Computation>& computations,
+                       const std::vector<std::string>& names) {
+    Uses all;
+    std::vector<std::string> calls;
+    std::string functions;
+    for (std::size_t k = 0; k < computations.size(); ++k) {
+        const ir::Computation& computation = computations[k];
+        FunctionBody body(unit, level + 1);
+        body.block(computation.body);
+        body.return_value(computation.value);
+        unite(all, body.uses());
+        const std::vector<Parameter> parameters = only_used(record_parameters(body.uses()));
+        calls.push_back(names[k] + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")");
+        functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
+                                    unit.where(computation.span));
+        functions += function("typename L::Bool", names[k], parameters,
+                              body_text(unit, body, computation.span));
+    }
+    std::vector<Parameter> parameters = {{"rddl::Index", "k", !computations.empty()},
+                                         record_parameter("State", "state", all.state, false)};
+    if (kind.has_action) {
+        parameters.push_back(record_parameter("Action", "action", all.action, false));
+    }
+    parameters.push_back(context_parameter(all));
+    return indented("// " + kind.comment, level) + count_constant(kind.word, computations.size()) +
+           function("typename L::Bool", kind.word, parameters,
+                    condition_switch(calls, kind.otherwise)) +
+           functions;
+}
+
+}  // namespace
+
+std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
+                        int levels) {
+    std::string text;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        if (buffer.storage != storage || buffer.values.empty()) continue;
+        const std::string target = record + "." + unit.names.buffers[index];
+        const std::string& table = unit.names.initial[index];
+        const std::string value = table.empty() ? literal(buffer.values.front()) : table;
+        text += indented(buffer.shape.empty() ? target + " = " + value + ";"
+                                              : "rddl::assign(" + target + ", " + value + ");",
+                         levels);
+    }
+    return text;
+}
+
+std::string reset_function(const Unit& unit) {
+    const std::string body = assignments(unit, ir::Storage::State, "state", level + 1);
+    return function("void", "reset", {record_parameter("State", "state", !body.empty(), true)},
+                    body);
+}
+
+std::string reward_function(const Unit& unit) {
+    const ir::Computation& reward = unit.program.reward;
+    FunctionBody body(unit, level + 1);
+    body.block(reward.body);
+    body.return_value(reward.value);
+    const Uses& uses = body.uses();
+    return function("typename L::Real", "reward",
+                    {record_parameter("State", "state", uses.state, false),
+                     record_parameter("Action", "action", uses.action, false),
+                     record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
+                     record_parameter("State", "next", uses.next, false),
+                     context_parameter(uses)},
+                    body_text(unit, body, reward.span));
+}
+
+std::string condition_functions(const Unit& unit) {
+    const ir::Program& program = unit.program;
+    return conditions(unit,
+                      {"termination", "An episode ends where one of these holds.", "false", false},
+                      program.terminations, unit.names.terminations) +
+           "\n" +
+           conditions(unit, {"invariant", "Hold in every state that makes sense.", "true", false},
+                      program.invariants, unit.names.invariants) +
+           "\n" +
+           conditions(unit, {"precondition", "Hold for every action that is allowed.", "true", true},
+                      program.preconditions, unit.names.preconditions);
+}
+
+StepFunctions step_functions(const Unit& unit) {
+    Uses all;
+    StepFunctions result;
+    std::string calls;
+    for (std::size_t k = 0; k < unit.program.step.size(); ++k) {
+        const ir::Definition& definition = unit.program.step[k];
+        FunctionBody body(unit, level + 1);
+        body.block(definition.body);
+        const Uses& uses = body.uses();
+        unite(all, uses);
+        const std::string& name = unit.names.functions[k];
+        const std::vector<Parameter> parameters = only_used(record_parameters(uses));
+        for (const std::string& line :
+             fill_call(name + "(", {arguments(parameters)}, ");", level * indentation)) {
+            calls += indented(line, level + 1);
+        }
+        result.cpfs += (k > 0 ? "\n" : "") + cpf_comment(unit, definition) +
+                       function("void", name, parameters, body_text(unit, body, definition.span));
+    }
+    all.stores_scratch = all.stores_next = all.stores_observation = true;
+    result.step = function("void", "step", record_parameters(all), calls);
+    return result;
+}
+
+}  // namespace rddlc::cpp

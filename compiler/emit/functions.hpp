@@ -1,0 +1,26 @@
+// The functions of the struct Simulator, indented by one level.
+#pragma once
+
+#include <string>
+
+#include "emit/unit.hpp"
+
+namespace rddlc::cpp {
+
+std::string reset_function(const Unit& unit);
+std::string reward_function(const Unit& unit);
+// Terminations, invariants and preconditions: their numbers, a switch, and a function for each.
+std::string condition_functions(const Unit& unit);
+
+// A function for each CPF, and the step that calls them.
+struct StepFunctions {
+    std::string step;
+    std::string cpfs;
+};
+StepFunctions step_functions(const Unit& unit);
+
+// The assignments that fill a record with the initial or default values of its buffers.
+std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
+                        int level);
+
+}  // namespace rddlc::cpp

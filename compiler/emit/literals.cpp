@@ -1,0 +1,102 @@
+#include "emit/literals.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "support/match.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+// The shortest digits that read back exactly.
+std::string shortest(double value) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    return {buffer, end};
+}
+
+std::string non_finite(double value) {
+    const std::string limits = "std::numeric_limits<double>::";
+    if (std::isnan(value)) return limits + "quiet_NaN()";
+    return (value < 0 ? "-" : "") + limits + "infinity()";
+}
+
+std::string real(double value) {
+    if (!std::isfinite(value)) return non_finite(value);
+    const std::string digits = shortest(value);
+    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string integer(std::int64_t value) {
+    // C++ has no literal for it.
+    if (value == std::numeric_limits<std::int64_t>::min()) {
+        return "std::numeric_limits<std::int64_t>::min()";
+    }
+    return std::to_string(value);
+}
+
+}  // namespace
+
+std::string literal(const ir::Value& value) {
+    return match(
+        value, [](bool v) -> std::string { return v ? "true" : "false"; },
+        [](std::int64_t v) { return integer(v); }, [](double v) { return real(v); });
+}
+
+std::string table_entry(const ir::Value& value) {
+    return match(
+        value, [](bool v) -> std::string { return v ? "1" : "0"; },
+        [](std::int64_t v) { return integer(v); },
+        // An integer converts to double implicitly as long as it is exact; -0 would lose its sign.
+        [](double v) {
+            const bool is_short_integer = v == std::trunc(v) && std::fabs(v) < 1e9;
+            return is_short_integer && !(v == 0 && std::signbit(v)) ? shortest(v) : real(v);
+        });
+}
+
+std::string literal(std::string_view text) {
+    std::string result = "\"";
+    for (char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            result += {'\\', c};
+        } else if (byte < 0x20 || byte == 0x7f) {
+            // Three octal digits: a digit that follows is not read as part of the escape.
+            const auto digit = [&](int shift) { return static_cast<char>('0' + (byte >> shift & 7)); };
+            result += {'\\', digit(6), digit(3), digit(0)};
+        } else {
+            result += c;
+        }
+    }
+    return result + '"';
+}
+
+std::string comment_text(std::string_view text) {
+    std::string result;
+    for (char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+    }
+    while (!result.empty() && (result.back() == ' ' || result.back() == '\\')) result.pop_back();
+    return result;
+}
+
+std::string on_one_line(std::string_view rddl) {
+    std::string result;
+    for (std::size_t i = 0; i < rddl.size(); ++i) {
+        if (rddl.substr(i, 2) == "//") {
+            i = std::min(rddl.find('\n', i), rddl.size() - 1);
+        }
+        const bool blank = std::string_view(" \t\r\n").find(rddl[i]) != std::string_view::npos;
+        if (!blank) {
+            result += rddl[i];
+        } else if (!result.empty() && result.back() != ' ') {
+            result += ' ';
+        }
+    }
+    if (!result.empty() && result.back() == ' ') result.pop_back();
+    return result;
+}
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,27 @@
+// Values and texts as C++ writes them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "ir/ir.hpp"
+
+namespace rddlc::cpp {
+
+// Reads back as exactly the same value: true, 42, 0.1, -2.0, 1e+300.
+std::string literal(const ir::Value& value);
+
+// As an element of a table: bools are 0 and 1, reals drop ".0".
+std::string table_entry(const ir::Value& value);
+
+// In double quotes.
+std::string literal(std::string_view text);
+
+// Safe after "//": one line, no control characters, no line continuation.
+std::string comment_text(std::string_view text);
+
+// RDDL text without its comments and line breaks; blanks are single.
+std::string on_one_line(std::string_view rddl);
+
+}  // namespace rddlc::cpp

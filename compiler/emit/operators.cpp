@@ -1,0 +1,107 @@
+#include "emit/operators.hpp"
+
+#include <stdexcept>
+
+namespace rddlc::cpp {
+namespace {
+
+OperatorSpelling function(std::string word) {
+    return {std::move(word), false, Level::Primary, Level::Or, Level::Or, false};
+}
+
+OperatorSpelling infix(const char* word, Level level, Level left, Level right) {
+    return {word, true, level, left, right, false};
+}
+
+// Of the other connective among the operands, readers and -Wparentheses want to see parentheses.
+OperatorSpelling connective(const char* word, Level level) {
+    return {word, true, level, Level::Comparison, Level::Comparison, true};
+}
+
+// Comparisons inside comparisons always get parentheses.
+OperatorSpelling comparison(const char* word) {
+    return infix(word, Level::Comparison, Level::Additive, Level::Additive);
+}
+
+}  // namespace
+
+OperatorSpelling spelling_of(Operator op, bool on_ints) {
+    switch (op) {
+        case Operator::Add:
+            if (on_ints) return function("wrap_add");
+            return infix("+", Level::Additive, Level::Additive, Level::Multiplicative);
+        case Operator::Subtract:
+            if (on_ints) return function("wrap_sub");
+            return infix("-", Level::Additive, Level::Additive, Level::Multiplicative);
+        case Operator::Multiply:
+            if (on_ints) return function("wrap_mul");
+            return infix("*", Level::Multiplicative, Level::Multiplicative, Level::Unary);
+        case Operator::Divide:
+            return infix("/", Level::Multiplicative, Level::Multiplicative, Level::Unary);
+        case Operator::Negate:
+            if (on_ints) return function("wrap_neg");
+            return infix("-", Level::Unary, Level::Primary, Level::Primary);
+        case Operator::Equal:
+        case Operator::Equivalent:
+            return comparison("==");
+        case Operator::NotEqual:
+            return comparison("!=");
+        case Operator::Less:
+            return comparison("<");
+        case Operator::LessEqual:
+            return comparison("<=");
+        case Operator::Greater:
+            return comparison(">");
+        case Operator::GreaterEqual:
+            return comparison(">=");
+        case Operator::And:
+            return connective("&&", Level::And);
+        case Operator::Or:
+            return connective("||", Level::Or);
+        case Operator::Not:
+            return infix("!", Level::Not, Level::Primary, Level::Primary);
+        case Operator::Implies:
+            return infix("||", Level::Or, Level::Primary, Level::Comparison);
+        case Operator::FloorModuloReal:
+            return function("floor_mod");
+        default:
+            return function(std::string(name_of(op)));
+    }
+}
+
+std::string function_of(Reduction reduction) {
+    switch (reduction) {
+        case Reduction::Sum:
+            return "sum";
+        case Reduction::Product:
+            return "product";
+        case Reduction::Minimum:
+            return "minimum_over";
+        case Reduction::Maximum:
+            return "maximum_over";
+        case Reduction::ForAll:
+            return "for_all";
+        case Reduction::Exists:
+            return "exists";
+        case Reduction::ArgMin:
+            return "arg_min";
+        case Reduction::ArgMax:
+            return "arg_max";
+        case Reduction::Average:
+            break;
+    }
+    throw std::logic_error("an average reached the emitter");
+}
+
+// NegativeBinomial -> negative_binomial
+std::string function_of(Distribution distribution) {
+    std::string word;
+    for (char c : name_of(distribution)) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (upper && !word.empty()) word += '_';
+        word += upper ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return word;
+}
+
+}  // namespace rddlc::cpp

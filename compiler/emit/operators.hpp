@@ -1,0 +1,23 @@
+// How operators, aggregations and distributions are called in the runtime.
+#pragma once
+
+#include <string>
+
+#include "emit/expressions.hpp"
+#include "model/vocabulary.hpp"
+
+namespace rddlc::cpp {
+
+struct OperatorSpelling {
+    std::string word;  // the C++ operator, or the function in namespace rddl
+    bool is_infix;     // a C++ operator; the rest is for these
+    Level level;
+    Level left, right;  // operands that are looser need parentheses
+    bool associative;   // but not those of the same level
+};
+OperatorSpelling spelling_of(Operator op, bool on_ints);
+
+std::string function_of(Reduction reduction);
+std::string function_of(Distribution distribution);  // in rddl::sample
+
+}  // namespace rddlc::cpp

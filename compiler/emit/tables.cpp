@@ -1,0 +1,233 @@
+#include "emit/tables.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "emit/layout.hpp"
+#include "emit/literals.hpp"
+#include "ir/layout.hpp"
+#include "support/match.hpp"
+
+namespace rddlc::cpp {
+namespace {
+
+const std::string format_off = "// clang-format off\n";
+const std::string format_on = "// clang-format on\n";
+
+std::string indented(const std::string& text, std::size_t columns) {
+    return std::string(columns, ' ') + text;
+}
+
+std::vector<std::string> with_commas(std::vector<std::string> items) {
+    for (std::size_t i = 0; i + 1 < items.size(); ++i) items[i] += ',';
+    return items;
+}
+
+// The initialiser of a nested std::array: {{ {1, 2}, {3, 4} }}, without the blanks.
+class TableWriter {
+  public:
+    TableWriter(std::span<const std::int64_t> shape, std::span<const ir::Value> values)
+        : shape_(shape), values_(values) {}
+
+    std::string on_one_line(std::size_t dimension, std::size_t begin) const {
+        if (dimension == shape_.size()) return table_entry(values_[begin]);
+        const bool innermost = dimension + 1 == shape_.size();
+        std::string text = innermost ? "{" : "{{";
+        for (std::int64_t i = 0; i < shape_[dimension]; ++i) {
+            text += i > 0 ? ", " : "";
+            text += on_one_line(dimension + 1, begin + static_cast<std::size_t>(i) * stride(dimension));
+        }
+        return text + (innermost ? "}" : "}}");
+    }
+
+    // Begins behind `lead` at `column`; ends with `tail`.
+    std::string on_lines(const std::string& lead, std::size_t column, std::size_t dimension,
+                         std::size_t begin, const std::string& tail) const {
+        const bool innermost = dimension + 1 == shape_.size();
+        if (innermost) {
+            const std::string row = lead + on_one_line(dimension, begin) + tail;
+            if (column + row.size() <= line_width) return indented(row, column) + "\n";
+        }
+        std::string text = indented(lead + (innermost ? "{" : "{{") + "\n", column);
+        text += innermost ? wrapped_row(column + indentation, begin) : "";
+        for (std::int64_t i = 0; !innermost && i < shape_[dimension]; ++i) {
+            text += on_lines("", column + indentation, dimension + 1,
+                             begin + static_cast<std::size_t>(i) * stride(dimension), ",");
+        }
+        return text + indented((innermost ? "}" : "}}") + tail + "\n", column);
+    }
+
+  private:
+    std::size_t stride(std::size_t dimension) const {
+        std::size_t count = 1;
+        for (std::size_t d = dimension + 1; d < shape_.size(); ++d) {
+            count *= static_cast<std::size_t>(shape_[d]);
+        }
+        return count;
+    }
+
+    std::string wrapped_row(std::size_t column, std::size_t begin) const {
+        std::vector<std::string> entries;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(shape_.back()); ++i) {
+            entries.push_back(table_entry(values_[begin + i]));
+        }
+        std::string text;
+        for (const std::string& line : fill(with_commas(std::move(entries)), column, 1)) {
+            text += indented(line, column) + "\n";
+        }
+        return text;
+    }
+
+    std::span<const std::int64_t> shape_;
+    std::span<const ir::Value> values_;
+};
+
+std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
+    std::string members;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        if (buffer.storage != storage) continue;
+        const char* element = buffer.scalar == ir::Scalar::Bool   ? "typename L::Bool"
+                              : buffer.scalar == ir::Scalar::Int ? "typename L::Int"
+                                                                 : "typename L::Real";
+        const std::string member =
+            "    " + array_type(unit, buffer, element) + " " + unit.names.buffers[index] + ";";
+        const std::string place = "  // " + unit.where(buffer.span);
+        const bool fits = member.size() + place.size() <= line_width;
+        members += member + (fits ? place : "") + "\n";
+    }
+    const std::string head = "template <class L>\nstruct " + name + " {";
+    return head + (members.empty() ? "" : "\n" + members) + "};\n";
+}
+
+std::string size_assert(const Unit& unit, const std::string& name, ir::Storage storage) {
+    const ir::RecordLayout layout = ir::record_layout(unit.program, storage);
+    if (layout.fields.empty()) return "";
+    const std::string type = name + "<rddl::Scalar>";
+    std::string text = "static_assert(sizeof(" + type + ") == " + std::to_string(layout.size) + ");\n";
+    if (layout.fields.size() > 1) {
+        const ir::Field& last = layout.fields.back();
+        text += "static_assert(offsetof(" + type + ", " + unit.names.buffers[last.buffer.index] +
+                ") == " + std::to_string(last.offset) + ");\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string section(const std::string& title, const std::string& text) {
+    if (text.empty()) return "";
+    const std::size_t width = 92;
+    return "// " + std::string(width - 4 - title.size(), '-') + " " + title + "\n\n" + text;
+}
+
+std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::string& element) {
+    std::string type = element;
+    for (std::size_t d = buffer.shape.size(); d-- > 0;) {
+        const bool all_objects =
+            d < buffer.types.size() &&
+            static_cast<std::int64_t>(unit.program.types[buffer.types[d]].objects.size()) ==
+                buffer.shape[d];
+        const std::string extent =
+            all_objects ? unit.names.counts[buffer.types[d]] : std::to_string(buffer.shape[d]);
+        type = "std::array<" + type + ", " + extent + ">";
+    }
+    return type;
+}
+
+std::string table_type(ir::Scalar scalar) {
+    switch (scalar) {
+        case ir::Scalar::Bool:
+            return "bool";
+        case ir::Scalar::Int:
+            return "std::int64_t";
+        case ir::Scalar::Real:
+            break;
+    }
+    return "double";
+}
+
+bool is_zero(const ir::Value& value) {
+    return match(
+        value, [](bool v) { return !v; }, [](std::int64_t v) { return v == 0; },
+        [](double v) { return v == 0 && !std::signbit(v); });
+}
+
+// Bit by bit: 0 and -0 differ, nan equals itself.
+bool are_equal(std::span<const ir::Value> values) {
+    const auto equal = [](const ir::Value& a, const ir::Value& b) {
+        const auto* real_a = std::get_if<double>(&a);
+        const auto* real_b = std::get_if<double>(&b);
+        if (!real_a || !real_b) return a == b;
+        return std::bit_cast<std::uint64_t>(*real_a) == std::bit_cast<std::uint64_t>(*real_b);
+    };
+    return std::ranges::all_of(values, [&](const ir::Value& v) { return equal(v, values[0]); });
+}
+
+std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
+                  std::span<const ir::Value> values) {
+    const std::string lead = declaration + " = ";
+    const bool zero = std::ranges::all_of(values, is_zero);
+    if (zero && !shape.empty()) return lead + "{};\n";
+    const TableWriter writer(shape, values);
+    // Only tables that may fit are worth writing out on one line.
+    if (values.size() < line_width / 2) {
+        const std::string text = lead + writer.on_one_line(0, 0) + ";";
+        if (text.size() <= line_width) return text + "\n";
+    }
+    return format_off + writer.on_lines(lead, 0, 0, 0, ";") + format_on;
+}
+
+std::string list(const std::string& declaration, const std::vector<std::string>& items) {
+    std::string text;
+    for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+    const std::string whole = declaration + " = {" + text + "};";
+    if (whole.size() <= line_width) return whole + "\n";
+    std::string lines;
+    for (const std::string& line : fill(with_commas(items), indentation, 1)) {
+        lines += indented(line, indentation) + "\n";
+    }
+    return format_off + declaration + " = {\n" + lines + "};\n" + format_on;
+}
+
+std::string objects(const Unit& unit) {
+    std::string text;
+    for (std::size_t type = 0; type < unit.program.types.size(); ++type) {
+        text += "inline constexpr rddl::Index " + unit.names.counts[type] + " = " +
+                std::to_string(unit.program.types[type].objects.size()) + ";\n";
+    }
+    return section("objects", text);
+}
+
+std::string tables(const Unit& unit) {
+    std::string text;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        const std::string& initial = unit.names.initial[index];
+        if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
+        const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
+        const std::string type = array_type(unit, buffer, table_type(buffer.scalar));
+        text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +
+                unit.where(buffer.span) + "\n";
+        text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values);
+    }
+    return section("tables", text);
+}
+
+std::string records(const Unit& unit) {
+    return section("records", record(unit, "State", ir::Storage::State) + "\n" +
+                                  record(unit, "Action", ir::Storage::Action) + "\n" +
+                                  "// What the CPFs tell each other within a step.\n" +
+                                  record(unit, "Scratch", ir::Storage::Scratch) + "\n" +
+                                  record(unit, "Observation", ir::Storage::Observation));
+}
+
+// That the records are laid out as the interpreter's are; Compiled checks that copies are trivial.
+std::string asserts(const Unit& unit) {
+    return size_assert(unit, "State", ir::Storage::State) +
+           size_assert(unit, "Action", ir::Storage::Action) +
+           size_assert(unit, "Observation", ir::Storage::Observation);
+}
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,36 @@
+// Objects, constant tables and records: everything that stands before the functions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emit/unit.hpp"
+#include "ir/ir.hpp"
+
+namespace rddlc::cpp {
+
+// A comment line that begins a part of the file, and the part; nothing if that is empty.
+std::string section(const std::string& title, const std::string& text);
+
+// "std::array<std::array<double, 3>, robot_count>" for an element type and a buffer's shape.
+std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::string& element);
+// "double", "std::int64_t", "bool": what a table holds.
+std::string table_type(ir::Scalar scalar);
+
+bool is_zero(const ir::Value& value);
+bool are_equal(std::span<const ir::Value> values);
+
+// A definition with its initialiser, in lines of at most 100 columns. Tables that need several
+// lines keep their rows, out of clang-format's reach.
+std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
+                  std::span<const ir::Value> values);
+// `declaration = {item, ...};` of any items, in as many lines as it needs.
+std::string list(const std::string& declaration, const std::vector<std::string>& items);
+
+std::string objects(const Unit& unit);
+std::string tables(const Unit& unit);
+std::string records(const Unit& unit);
+std::string asserts(const Unit& unit);
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,12 @@
+// The skeletons in the folder templates/, built into the program.
+#pragma once
+
+#include <string_view>
+
+namespace rddlc::cpp::templates {
+
+extern const std::string_view source;     // a .cpp: the simulator and the exported C function
+extern const std::string_view header;     // a .hpp: the simulator alone
+extern const std::string_view simulator;  // what both contain
+
+}  // namespace rddlc::cpp::templates

@@ -1,0 +1,41 @@
+#include "emit/unit.hpp"
+
+#include <filesystem>
+
+#include "emit/literals.hpp"
+
+namespace rddlc::cpp {
+
+Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
+           const EmitOptions& the_options)
+    : program(the_program),
+      sources(the_sources),
+      options(the_options),
+      names(names_of(the_program)),
+      facts(ir::all_facts(the_program)),
+      contains_branch(the_program.nodes.size(), false) {
+    for (std::size_t index = 0; index < program.nodes.size(); ++index) {
+        const ir::Node& node = program.nodes[index];
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        contains_branch[index] = select && is_lazy(*select);
+        for (ir::NodeId operand : ir::operands_of(node)) {
+            if (contains_branch[operand.index]) contains_branch[index] = true;
+        }
+    }
+}
+
+bool Unit::is_lazy(const ir::Select& select) const {
+    return !ir::is_cheap(facts_of(select.then_value)) || !ir::is_cheap(facts_of(select.else_value));
+}
+
+std::string Unit::size_of(const ir::Variable& variable) const {
+    const auto all = static_cast<std::int64_t>(program.types[variable.type].objects.size());
+    return variable.size == all ? names.counts[variable.type] : std::to_string(variable.size);
+}
+
+std::string Unit::where(Span span) const {
+    const std::string file = std::filesystem::path(sources[span.file].path()).filename().string();
+    return comment_text(file) + ":" + std::to_string(sources.position(span).line);
+}
+
+}  // namespace rddlc::cpp
