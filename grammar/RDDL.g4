@@ -221,7 +221,7 @@ REAL : [0-9]* '.' [0-9]+ ;
 // place, so the grammar never sees one.
 EXPONENT_NUMBER : ([0-9]+ '.'? [0-9]* | '.' [0-9]+) [eE] [+-]? [0-9]+ ;
 POINT_WITHOUT_DIGITS : [0-9]+ '.' ;
-FOREIGN_OPERATOR : '!' | '!=' | '&&' | '||' | '%' | '**' | '<>' ;
+FOREIGN_OPERATOR : '!' | '!=' | '&&' | '||' | '%' | '**' | '<>' | '->' ;
 FOREIGN_COMMENT : '/*' .*? ('*/' | EOF) | '#' ~[\r\n]* ;
 LONE_PRIME : '\'' ;
 ILLEGAL : . ;

@@ -21,6 +21,13 @@ const std::vector<Group>& groups() {
           Parser::ENUM,         Parser::ID,       Parser::OPEN_ROUND, Parser::OPEN_SQUARE,
           Parser::DISTRIBUTION, Parser::DISCRETE, Parser::MATRIX,     Parser::NOT,
           Parser::MINUS,        Parser::PLUS,     Parser::IF,         Parser::QUANTIFIER,
+          Parser::ARGUMENT_OF,  Parser::SWITCH,   Parser::DET,        Parser::DOLLAR,
+          Parser::RANDOM_VECTOR},
+         "an expression"},
+        {{Parser::BOOLEAN,      Parser::INT,      Parser::REAL,       Parser::VAR,
+          Parser::ENUM,         Parser::ID,       Parser::OPEN_ROUND, Parser::OPEN_SQUARE,
+          Parser::DISTRIBUTION, Parser::DISCRETE, Parser::MATRIX,     Parser::NOT,
+          Parser::MINUS,        Parser::PLUS,     Parser::IF,         Parser::QUANTIFIER,
           Parser::ARGUMENT_OF,  Parser::SWITCH,   Parser::DET,        Parser::DOLLAR},
          "an expression"},
         {{Parser::TIMES, Parser::DIVIDE, Parser::PLUS, Parser::MINUS, Parser::EQUAL,
@@ -132,7 +139,7 @@ std::string describe_found(const Token& token) {
     if (token.getType() == Token::EOF) return "the end of the file";
     std::string text = token.getText();
     if (text.size() > longest) text = text.substr(0, longest) + "...";
-    return fmt::format("{}'{}'", is_reserved_word(token) ? "the reserved word " : "", text);
+    return fmt::format("'{}'", text);
 }
 
 }  // namespace rddlc

@@ -9,7 +9,7 @@ namespace rddlc {
 
 // "')' or an operator", "an expression", "';'"
 std::string describe_expected(const SyntaxError& error);
-// "'foo'", "the reserved word 'horizon'", "the end of the file"
+// "'foo'", "the end of the file"
 std::string describe_found(const Token& token);
 
 bool is_reserved_word(const Token& token);

@@ -57,13 +57,15 @@ std::string square_brackets_of_a_distribution(const SyntaxError& error) {
 }
 
 std::string binder_form(const SyntaxError& error) {
-    const Token* before = error.before(1);
-    const bool aggregates = before != nullptr && contains(aggregations, before->getText());
-    const bool wrong = is(&error.found(), Parser::OPEN_CURLY) || is(before, Parser::QUANTIFIER) ||
-                       is(before, Parser::ARGUMENT_OF);
-    if (!aggregates || !wrong) return "";
-    return fmt::format("write the variables and their types as in {}_{{?x : type}} ...",
-                       before->getText());
+    if (error.context->getRuleIndex() == Parser::RuleTypedVariable)
+        return "every variable needs its type, as in sum_{?x : type} ...";
+    const Token* name = error.before(is(error.before(1), Parser::UNDERSCORE) ? 2 : 1);
+    if (name == nullptr || !contains(aggregations, name->getText())) return "";
+    const bool wrong = is(&error.found(), Parser::OPEN_CURLY) ||
+                       error.expects(Parser::OPEN_CURLY) || error.expects(Parser::UNDERSCORE);
+    return wrong ? fmt::format("write the variables and their types as in {}_{{?x : type}} ...",
+                               name->getText())
+                 : "";
 }
 
 std::string single_or_double_equals(const SyntaxError& error) {
@@ -100,7 +102,8 @@ std::string words_of_logic(const SyntaxError& error) {
 }
 
 std::string cpf_parameters(const SyntaxError& error) {
-    if (error.context->getRuleIndex() != Parser::RuleCpf || !error.expects(Parser::VAR)) return "";
+    const bool parameter = error.expects(Parser::VAR) && !error.expects(Parser::INT);
+    if (error.context->getRuleIndex() != Parser::RuleCpf || !parameter) return "";
     return "a definition is for all objects, so its parameters are variables; distinguish objects "
            "on the right-hand side: if (?x == @a) then ...";
 }
@@ -125,6 +128,14 @@ std::string fluent_kind(const SyntaxError& error) {
     return "write the declaration as in p(t) : { state-fluent, bool, default = false };";
 }
 
+std::string type_form(const SyntaxError& error) {
+    if (error.expects(Parser::OBJECT)) return "a type is an 'object' or a list of values {@a, @b}";
+    const bool value = error.expects(Parser::ENUM) && !error.expects(Parser::ID);
+    return value && is(&error.found(), Parser::ID)
+               ? fmt::format("values are written with '@': @{}", error.found().getText())
+               : "";
+}
+
 }  // namespace
 
 std::string hint_for(const SyntaxError& error) {
@@ -141,6 +152,7 @@ std::string hint_for(const SyntaxError& error) {
         separators,
         otherwise,
         fluent_kind,
+        type_form,
     };
     for (const auto guess : guesses)
         if (std::string hint = guess(error); !hint.empty()) return hint;

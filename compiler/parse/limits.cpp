@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace rddlc {
@@ -15,16 +16,20 @@ namespace {
 // whose depth is at most that of all its operators in a row upon its deepest bracket.
 struct Level {
     std::size_t opened_at = 0;
-    std::size_t chunk_begin = 0;
+    std::size_t chunk_begin = 0;  // its first token
+    bool chunk_is_empty = true;
     std::size_t operators = 0;      // of the current chunk
     std::size_t deepest = 0;        // bracket of the current chunk
     std::size_t deepest_chunk = 0;  // of those that have ended
 
     std::size_t chunk_depth() const { return operators + deepest; }
-    void end_chunk(std::size_t next_begin) {
+    void token_at(std::size_t offset) {
+        if (std::exchange(chunk_is_empty, false)) chunk_begin = offset;
+    }
+    void end_chunk() {
         deepest_chunk = std::max(deepest_chunk, chunk_depth());
         operators = deepest = 0;
-        chunk_begin = next_begin;
+        chunk_is_empty = true;
     }
 };
 
@@ -67,11 +72,12 @@ class Scanner {
         }
         if (c == '/' && peek() == '/') return skip_comment();
         ++tokens_;
+        levels_.back().token_at(at_);
         if (is_letter(c) || c == '?' || c == '@') return word();
         if (is_digit(c)) return number();
         if (c == '(' || c == '[' || c == '{') open();
         if (c == ')' || c == ']' || c == '}') close();
-        if (c == ',' || c == ';') levels_.back().end_chunk(at_ + 1);
+        if (c == ',' || c == ';') levels_.back().end_chunk();
         if (is_operator(c)) ++levels_.back().operators;
         ++at_;
     }
@@ -99,11 +105,11 @@ class Scanner {
         return !continues && is_one_of(c, "^&|~+-*/=<>_");
     }
 
-    void open() { levels_.push_back({at_, at_ + 1}); }
+    void open() { levels_.push_back({.opened_at = at_}); }
 
     void close() {
         if (levels_.size() == 1) return;
-        levels_.back().end_chunk(at_);
+        levels_.back().end_chunk();
         const std::size_t depth = levels_.back().deepest_chunk + 1;
         levels_.pop_back();
         levels_.back().deepest = std::max(levels_.back().deepest, depth);
@@ -116,7 +122,7 @@ class Scanner {
                               fmt::format("more than {} brackets inside each other", max_nesting)};
         if (level.chunk_depth() > max_depth)
             return Diagnostic{
-                expression_too_long, span_at(first_token(level.chunk_begin)),
+                expression_too_long, span_at(level.chunk_begin),
                 fmt::format("this expression is more than {} operators and brackets deep",
                             max_depth)}
                 .with_hint("split it with interm-fluents, or write it as a sum_{...} over objects");
@@ -124,10 +130,6 @@ class Scanner {
             return Diagnostic{file_too_large, span_at(at_ - 1),
                               fmt::format("more than {} words and marks in one file", max_tokens)};
         return std::nullopt;
-    }
-
-    std::size_t first_token(std::size_t begin) const {
-        return std::min(text_.find_first_not_of(" \t\r\n", begin), text_.size());
     }
 
     Span span_at(std::size_t offset) const {

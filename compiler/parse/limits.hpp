@@ -14,7 +14,7 @@ inline constexpr std::size_t max_nesting = 256;
 // n terms is n deep.
 inline constexpr std::size_t max_depth = 1000;
 // Words, numbers and marks in one file.
-inline constexpr std::size_t max_tokens = 3'000'000;
+inline constexpr std::size_t max_tokens = 2'000'000;
 inline constexpr std::size_t max_bytes = 64 << 20;
 
 // Measures the raw text, before anything recurses on it; reports the first limit that is exceeded.

@@ -104,7 +104,8 @@ bool ErrorStrategy::follows_lexical_error(std::size_t index) const {
 
 // -------------------------------------------------------------------------- a token that lacks
 
-// A missing ';', bracket or the like is put in where what follows makes sense behind it.
+// A missing ';' or '}' is put in where an item, section or block clearly ends, and a missing name
+// before a block's '{'. Nothing else: one error an item is enough.
 Token* ErrorStrategy::recoverInline(antlr4::Parser* parser) {
     const TokenTypes expected = to_set(parser->getExpectedTokens());
     const Token& found = *parser->getCurrentToken();
@@ -123,8 +124,8 @@ bool ErrorStrategy::may_insert(antlr4::Parser& parser, std::size_t missing) cons
         return true;
     if (missing == Parser::SEMICOLON)
         return begins_line(tokens_, index) || type_at(index) == Parser::CLOSE_CURLY;
-    ATNState& behind = *current_state(parser).transitions[0]->target;
-    return parser.getATN().nextTokens(&behind, parser.getContext()).contains(type_at(index));
+    return missing == Parser::ID && type_at(index) == Parser::OPEN_CURLY &&
+           is_block(parser.getContext()->getRuleIndex());
 }
 
 Token* ErrorStrategy::conjure(std::size_t type, const Token& at) {
@@ -148,7 +149,10 @@ void ErrorStrategy::sync(antlr4::Parser* parser) {
     if (!is_loop(state, parser->getContext()->getRuleIndex()))
         throw antlr4::InputMismatchException(parser);
     const TokenTypes expected = to_set(next);
-    if (!recovering_) report(*parser, parser->getCurrentToken()->getTokenIndex(), expected);
+    // Behind an error, what stands between blocks may well belong to one that ended too early.
+    const bool doubtful = reported_ > 0 && parser->getContext()->getRuleIndex() == Parser::RuleText;
+    if (!recovering_ && !doubtful)
+        report(*parser, parser->getCurrentToken()->getTokenIndex(), expected);
     skip_to_loop(*parser, expected);
 }
 

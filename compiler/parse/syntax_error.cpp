@@ -67,16 +67,18 @@ std::optional<Diagnostic> lacking_semicolon(const SyntaxError& error) {
 }
 
 // What cannot stand inside a bracket, so that the bracket must have been forgotten before it.
-bool ends_bracket(const SyntaxError& error) {
+bool ends_bracket(const SyntaxError& error, std::size_t opener) {
     const std::size_t found = error.found().getType();
+    const bool next_line = begins_line(error.tokens, error.index);
     return found == Parser::SEMICOLON || found == Token::EOF || is_closer(found) ||
-           begins_line(error.tokens, error.index);
+           (next_line && (opener != Parser::OPEN_CURLY || is_reserved_word(error.found())));
 }
 
 std::optional<Diagnostic> unclosed_bracket(const SyntaxError& error) {
     const auto open = innermost_open(error.tokens, error.index);
-    if (!open || !ends_bracket(error)) return std::nullopt;
+    if (!open) return std::nullopt;
     const Token& opener = *error.tokens[*open];
+    if (!ends_bracket(error, opener.getType())) return std::nullopt;
     const bool at_end = error.found().getType() == Token::EOF;
     if (!error.expects(closer_of(opener.getType())) && !at_end) return std::nullopt;
     const std::string place =
@@ -91,11 +93,12 @@ std::optional<Diagnostic> surplus_bracket(const SyntaxError& error) {
     const std::size_t found = error.found().getType();
     if (!is_closer(found)) return std::nullopt;
     const auto open = innermost_open(error.tokens, error.index);
-    if (!open)
+    if (open && closer_of(error.tokens[*open]->getType()) == found) return std::nullopt;
+    // The '{' of a section or block is no business of a ')' or ']'.
+    if (!open || error.tokens[*open]->getType() == Parser::OPEN_CURLY)
         return Diagnostic{unbalanced_bracket, span_of_found(error),
                           fmt::format("'{}' closes nothing", error.found().getText())};
     const Token& opener = *error.tokens[*open];
-    if (closer_of(opener.getType()) == found) return std::nullopt;
     return Diagnostic{
         unbalanced_bracket, span_of_found(error),
         fmt::format("'{}' does not close '{}'", error.found().getText(), opener.getText())}

@@ -1,11 +1,8 @@
 #include "parse/tokens.hpp"
 
-#include "parse/codes.hpp"
-
-#include <fmt/format.h>
+#include "parse/spelling.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace rddlc {
 
@@ -24,189 +21,9 @@ std::string masked(std::string_view text) {
     return ascii;
 }
 
-bool is_valid_utf8(std::string_view text) {
-    while (!text.empty()) {
-        const auto first = static_cast<unsigned char>(text[0]);
-        const std::size_t length = first < 0x80                    ? 1
-                                   : first >= 0xC2 && first < 0xE0 ? 2
-                                   : first >= 0xE0 && first < 0xF0 ? 3
-                                   : first >= 0xF0 && first < 0xF5 ? 4
-                                                                   : 0;
-        if (length == 0 || length > text.size()) return false;
-        for (std::size_t i = 1; i < length; ++i)
-            if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-        text.remove_prefix(length);
-    }
-    return true;
-}
-
-// ------------------------------------------------------------------------ foreign spellings
-
-struct ForeignOperator {
-    std::string_view spelling;
-    std::size_t meant;  // token type; 0 if RDDL has none
-    std::string_view hint;
-};
-
-constexpr ForeignOperator foreign_operators[] = {
-    {"!", Parser::NOT, "'not' is written '~'"},
-    {"!=", Parser::NOT_EQUAL, "'not equal' is written '~='"},
-    {"<>", Parser::NOT_EQUAL, "'not equal' is written '~='"},
-    {"&&", Parser::AND, "'and' is written '^'"},
-    {"||", Parser::OR, "'or' is written '|'"},
-    {"%", Parser::DIVIDE, "the remainder is a function: mod[a, b]"},
-    {"**", Parser::TIMES, "a power is a function: pow[a, b]"},
-};
-
-const ForeignOperator& find_foreign(std::string_view spelling) {
-    return *std::find_if(std::begin(foreign_operators), std::end(foreign_operators),
-                         [&](const ForeignOperator& op) { return op.spelling == spelling; });
-}
-
-// A number with an exponent in the form that RDDL has, where that is of reasonable length.
-std::optional<std::string> without_exponent(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || value > 1e15 || (value < 1e-15 && value != 0)) return std::nullopt;
-    for (int digits = 1; digits <= 20; ++digits) {
-        std::string fixed = fmt::format("{:.{}f}", value, digits);
-        double again = 0;
-        std::from_chars(fixed.data(), fixed.data() + fixed.size(), again);
-        if (again == value) return fixed;
-    }
-    return std::nullopt;
-}
-
-// ------------------------------------------------------------------------------------ repair
-
-using TokenList = std::vector<std::unique_ptr<Token>>;
-
-class Repair {
-  public:
-    Repair(FileId file, const Source& source, Diagnostics& diagnostics)
-        : file_(file), text_(source.text()), diagnostics_(diagnostics) {}
-
-    // The tokens that the parser shall see.
-    TokenList operator()(TokenList tokens) {
-        TokenList kept;
-        for (std::unique_ptr<Token>& token : tokens)
-            if (keep(static_cast<antlr4::CommonToken&>(*token))) kept.push_back(std::move(token));
-        report_illegal();
-        return kept;
-    }
-
-  private:
-    bool keep(antlr4::CommonToken& token) {
-        switch (token.getType()) {
-            case Parser::EXPONENT_NUMBER:
-            case Parser::POINT_WITHOUT_DIGITS:
-                return repair_number(token);
-            case Parser::FOREIGN_OPERATOR:
-                return repair_operator(token);
-            case Parser::FOREIGN_COMMENT:
-                return drop_comment(token);
-            case Parser::LONE_PRIME:
-                return drop_prime(token);
-            case Parser::ILLEGAL:
-                return drop_illegal(token);
-            default:
-                return true;
-        }
-    }
-
-    bool repair_number(antlr4::CommonToken& token) {
-        const bool exponent = token.getType() == Parser::EXPONENT_NUMBER;
-        std::string hint = "write at least one digit behind the point: " + text(token) + "0";
-        if (exponent) {
-            const auto fixed = without_exponent(text(token));
-            hint = "write all digits" + (fixed ? ": " + *fixed : ", or use pow[10, n]");
-        }
-        report(foreign_number, token,
-               exponent ? "RDDL numbers have no exponent" : "a number cannot end in a point",
-               std::move(hint));
-        token.setType(Parser::REAL);
-        return true;
-    }
-
-    bool repair_operator(antlr4::CommonToken& token) {
-        const ForeignOperator& op = find_foreign(text(token));
-        report(foreign_operator, token, fmt::format("RDDL has no operator '{}'", op.spelling),
-               std::string(op.hint));
-        token.setType(op.meant);
-        return true;
-    }
-
-    bool drop_comment(const antlr4::CommonToken& token) {
-        Span span = span_of(file_, token);
-        span.end = std::min(span.end, span.begin + 2);
-        if (text_[span.begin] == '#') span.end = span.begin + 1;
-        diagnostics_.report(Diagnostic{foreign_comment, span,
-                                       fmt::format("'{}' does not begin a comment in RDDL",
-                                                   text_.substr(span.begin, span.end - span.begin))}
-                                .with_hint("comments begin with '//' and end with the line"));
-        return false;
-    }
-
-    bool drop_prime(const antlr4::CommonToken& token) {
-        report(misplaced_prime, token, "an apostrophe must follow a name at once",
-               "the next value of a fluent is written with the apostrophe before the "
-               "parentheses: p'(?x)");
-        return false;
-    }
-
-    // Neighbours are reported together.
-    bool drop_illegal(const antlr4::CommonToken& token) {
-        const Span span = span_of(file_, token);
-        if (illegal_ && illegal_->end == span.begin) {
-            illegal_->end = span.end;
-        } else {
-            report_illegal();
-            illegal_ = span;
-        }
-        return false;
-    }
-
-    void report_illegal() {
-        if (!illegal_) return;
-        const std::string_view found =
-            text_.substr(illegal_->begin, illegal_->end - illegal_->begin);
-        if (is_valid_utf8(found))
-            diagnostics_.report({illegal_character, *illegal_, illegal_message(found)});
-        else
-            diagnostics_.report(
-                Diagnostic{not_utf8_text, *illegal_, "these bytes are not UTF-8 text"}.with_hint(
-                    "outside comments RDDL is written in ASCII; save "
-                    "the file in UTF-8"));
-        illegal_.reset();
-    }
-
-    static std::string illegal_message(std::string_view found) {
-        constexpr std::size_t longest = 24;
-        const bool control = found.size() == 1 && static_cast<unsigned char>(found[0]) < 0x20;
-        if (control) return fmt::format("illegal character with code {}", int{found[0]});
-        if (found.size() > longest) return "characters that mean nothing in RDDL";
-        return fmt::format("'{}' means nothing in RDDL", found);
-    }
-
-    std::string text(const Token& token) const {
-        const Span span = span_of(file_, token);
-        return std::string(text_.substr(span.begin, span.end - span.begin));
-    }
-
-    void report(Code code, const Token& token, std::string message, std::string hint) {
-        diagnostics_.report(
-            Diagnostic{code, span_of(file_, token), std::move(message)}.with_hint(std::move(hint)));
-    }
-
-    FileId file_;
-    std::string_view text_;
-    Diagnostics& diagnostics_;
-    std::optional<Span> illegal_;
-};
-
-TokenList lex(antlr4::ANTLRInputStream& characters) {
+std::vector<std::unique_ptr<Token>> lex(antlr4::ANTLRInputStream& characters) {
     grammar::RDDLLexer lexer(&characters);
-    TokenList tokens;
+    std::vector<std::unique_ptr<Token>> tokens;
     do tokens.push_back(lexer.nextToken());
     while (tokens.back()->getType() != Token::EOF);
     return tokens;
@@ -217,7 +34,7 @@ TokenList lex(antlr4::ANTLRInputStream& characters) {
 TokenizedFile::TokenizedFile(FileId file, const Source& source, Diagnostics& diagnostics)
     : characters_(masked(source.text())),
       source_(std::make_unique<antlr4::ListTokenSource>(
-          Repair(file, source, diagnostics)(lex(characters_)))),
+          repair_spelling(file, source, lex(characters_), diagnostics))),
       stream_(std::make_unique<antlr4::CommonTokenStream>(source_.get())) {
     stream_->fill();
 }

@@ -1,5 +1,4 @@
-// One file as tokens. Spellings of other languages (1e-3, &&, /* */) are reported here and
-// replaced by what was meant, so that the parser goes on behind them.
+// One file as tokens. Spellings of other languages are already repaired (parse/spelling.hpp).
 #pragma once
 
 #include "grammar/RDDLLexer.h"

@@ -34,8 +34,7 @@ std::size_t utf8_length(std::string_view text) {
 
 // What a terminal shows for a piece of source, one element per column: tabs become blanks,
 // control characters and broken UTF-8 become a replacement character.
-std::vector<std::string> columns_of(std::string_view text) {
-    std::vector<std::string> columns;
+void append_columns(std::vector<std::string>& columns, std::string_view text) {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
         const bool control = static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F;
@@ -45,7 +44,6 @@ std::vector<std::string> columns_of(std::string_view text) {
             columns.emplace_back(length == 0 || control ? "\xEF\xBF\xBD" : text.substr(0, length));
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
-    return columns;
 }
 
 // A source line as shown, with the marked columns [begin, end).
@@ -55,33 +53,56 @@ struct Excerpt {
     std::size_t end;
 };
 
-// The first line of the span; a span over several lines is marked to the end of the first.
-Excerpt excerpt_of(const Source& source, Span span) {
-    const int number = source.position(span.begin).line;
-    const std::string_view line = source.line(number);
-    const std::size_t first =
-        std::min<std::size_t>(span.begin - source.line_begin(number), line.size());
-    const std::size_t last =
-        std::clamp<std::size_t>(span.end - source.line_begin(number), first, line.size());
-    const std::size_t begin = columns_of(line.substr(0, first)).size();
-    const std::size_t end = columns_of(line.substr(0, last)).size();
-    return {columns_of(line), begin, std::max(end, begin + 1)};
+// The part of a line around [first, last): enough bytes to fill a window, so that the cost does
+// not depend on how long the line is. Does not begin inside a UTF-8 sequence.
+struct Part {
+    std::string_view before, marked, after;
+    bool cut_left, cut_right;
+};
+
+Part part_of(std::string_view line, std::size_t first, std::size_t last) {
+    constexpr std::size_t reach = 4 * window_width;  // a code point has at most 4 bytes
+    std::size_t begin = first > reach ? first - reach : 0;
+    while (begin > 0 && begin < first && (line[begin] & 0xC0) == 0x80) ++begin;
+    const std::size_t end = std::min(line.size(), first + reach);
+    last = std::min(last, end);
+    return {line.substr(begin, first - begin), line.substr(first, last - first),
+            line.substr(last, end - last), begin > 0, end < line.size()};
 }
 
-Excerpt windowed(Excerpt excerpt) {
-    if (excerpt.columns.size() <= window_width) return excerpt;
+// The first line of the span; a span over several lines is marked to the end of the first.
+Part part_of(const Source& source, Span span) {
+    const int number = source.position(span.begin).line;
+    const std::string_view line = source.line(number);
+    const std::size_t line_begin = source.line_begin(number);
+    const std::size_t first = std::min(span.begin - line_begin, line.size());
+    return part_of(line, first, std::clamp(span.end - line_begin, first, line.size()));
+}
+
+// Cuts what does not fit into the window.
+Excerpt excerpt_of(const Part& part) {
+    std::vector<std::string> columns;
+    append_columns(columns, part.before);
+    const std::size_t begin = columns.size();
+    append_columns(columns, part.marked);
+    const std::size_t end = std::max(columns.size(), begin + 1);
+    append_columns(columns, part.after);
+    if (columns.size() <= window_width && !part.cut_left && !part.cut_right)
+        return {std::move(columns), begin, end};
+
     const std::size_t half = window_width / 2;
-    const std::size_t first = excerpt.begin > half ? excerpt.begin - half : 0;
-    const std::size_t last = std::min(first + window_width, excerpt.columns.size());
-    std::vector<std::string> shown(excerpt.columns.begin() + static_cast<std::ptrdiff_t>(first),
-                                   excerpt.columns.begin() + static_cast<std::ptrdiff_t>(last));
-    const std::size_t added = first > 0 ? 1 : 0;
-    if (first > 0) shown.emplace(shown.begin(), ellipsis);
-    if (last < excerpt.columns.size()) shown.emplace_back(ellipsis);
+    const std::size_t first = begin > half ? begin - half : 0;
+    const std::size_t last = std::min(first + window_width, columns.size());
+    const bool cut_left = part.cut_left || first > 0;
+    const bool cut_right = part.cut_right || last < columns.size();
+    std::vector<std::string> shown(columns.begin() + static_cast<std::ptrdiff_t>(first),
+                                   columns.begin() + static_cast<std::ptrdiff_t>(last));
+    if (cut_left) shown.emplace(shown.begin(), ellipsis);
+    if (cut_right) shown.emplace_back(ellipsis);
     // The leading ellipsis is one element, but as wide as its text.
-    const std::size_t shift = added * ellipsis.size();
-    return {std::move(shown), excerpt.begin - first + shift,
-            std::min(excerpt.end, last) - first + shift};
+    const std::size_t shift = cut_left ? ellipsis.size() : 0;
+    return {std::move(shown), begin - first + shift,
+            std::max(std::min(end, last) - first, begin - first + 1) + shift};
 }
 
 std::string joined(const std::vector<std::string>& columns) {
@@ -153,7 +174,7 @@ class TextRenderer {
 
     // The line of source and the caret line, with a remark beside the caret.
     std::string source_lines(Span span, const std::string& remark) const {
-        const Excerpt excerpt = windowed(excerpt_of(sources_[span.file], span));
+        const Excerpt excerpt = excerpt_of(part_of(sources_[span.file], span));
         const std::string source = joined(excerpt.columns);
         const std::string tildes(excerpt.end - excerpt.begin - 1, '~');
         return fmt::format("{:5} |{}{}\n", sources_.position(span).line, source.empty() ? "" : " ",

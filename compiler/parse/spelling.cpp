@@ -1,0 +1,230 @@
+#include "parse/spelling.hpp"
+
+#include "parse/codes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace rddlc {
+
+namespace {
+
+bool is_valid_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const auto first = static_cast<unsigned char>(text[0]);
+        const std::size_t length = first < 0x80                    ? 1
+                                   : first >= 0xC2 && first < 0xE0 ? 2
+                                   : first >= 0xE0 && first < 0xF0 ? 3
+                                   : first >= 0xF0 && first < 0xF5 ? 4
+                                                                   : 0;
+        if (length == 0 || length > text.size()) return false;
+        for (std::size_t i = 1; i < length; ++i)
+            if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+// ------------------------------------------------------------------------ foreign spellings
+
+struct ForeignOperator {
+    std::string_view spelling;
+    std::size_t meant;  // token type; where RDDL has none, one of similar use
+    std::string_view hint;
+};
+
+constexpr ForeignOperator foreign_operators[] = {
+    {"!", Parser::NOT, "'not' is written '~'"},
+    {"!=", Parser::NOT_EQUAL, "'not equal' is written '~='"},
+    {"<>", Parser::NOT_EQUAL, "'not equal' is written '~='"},
+    {"&&", Parser::AND, "'and' is written '^'"},
+    {"||", Parser::OR, "'or' is written '|'"},
+    {"%", Parser::DIVIDE, "the remainder is a function: mod[a, b]"},
+    {"**", Parser::TIMES, "a power is a function: pow[a, b]"},
+    {"->", Parser::IMPLIES, "'implies' is written '=>'"},
+};
+
+const ForeignOperator& find_foreign(std::string_view spelling) {
+    return *std::find_if(std::begin(foreign_operators), std::end(foreign_operators),
+                         [&](const ForeignOperator& op) { return op.spelling == spelling; });
+}
+
+struct CharacterHint {
+    std::string_view characters;
+    std::string_view hint;
+};
+
+constexpr CharacterHint character_hints[] = {
+    {"?", "a choice is written: if (c) then a else b"},
+    {"≤", "write '<='"},
+    {"≥", "write '>='"},
+    {"≠", "'not equal' is written '~='"},
+    {"∧", "'and' is written '^'"},
+    {"∨", "'or' is written '|'"},
+    {"¬", "'not' is written '~'"},
+    {"..", "list all values: {@a, @b, @c}"},
+    {"\xC2\xA0", "this is a no-break space; replace it by an ordinary one"},
+};
+
+std::string hint_for_character(std::string_view characters) {
+    for (const CharacterHint& known : character_hints)
+        if (known.characters == characters) return std::string(known.hint);
+    return "";
+}
+
+// A number with an exponent in the form that RDDL has, where that is of reasonable length.
+std::optional<std::string> without_exponent(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || value > 1e15 || (value < 1e-15 && value != 0)) return std::nullopt;
+    for (int digits = 1; digits <= 20; ++digits) {
+        std::string fixed = fmt::format("{:.{}f}", value, digits);
+        double again = 0;
+        std::from_chars(fixed.data(), fixed.data() + fixed.size(), again);
+        if (again == value) return fixed;
+    }
+    return std::nullopt;
+}
+
+// ------------------------------------------------------------------------------------ repair
+
+class Repair {
+  public:
+    Repair(FileId file, const Source& source, Diagnostics& diagnostics)
+        : file_(file), text_(source.text()), diagnostics_(diagnostics) {}
+
+    // The tokens that the parser shall see.
+    TokenList operator()(TokenList tokens) {
+        TokenList kept;
+        for (std::unique_ptr<Token>& token : tokens)
+            if (keep(static_cast<antlr4::CommonToken&>(*token))) kept.push_back(std::move(token));
+        report_illegal();
+        return kept;
+    }
+
+  private:
+    bool keep(antlr4::CommonToken& token) {
+        switch (token.getType()) {
+            case Parser::EXPONENT_NUMBER:
+            case Parser::POINT_WITHOUT_DIGITS:
+                return repair_number(token);
+            case Parser::FOREIGN_OPERATOR:
+                return repair_operator(token);
+            case Parser::FOREIGN_COMMENT:
+                return drop_comment(token);
+            case Parser::LONE_PRIME:
+                return drop_prime(token);
+            case Parser::ILLEGAL:
+                return drop_illegal(token);
+            default:
+                return true;
+        }
+    }
+
+    bool repair_number(antlr4::CommonToken& token) {
+        const bool exponent = token.getType() == Parser::EXPONENT_NUMBER;
+        std::string hint = "write at least one digit behind the point: " + text(token) + "0";
+        if (exponent) {
+            const auto fixed = without_exponent(text(token));
+            hint = "write all digits" + (fixed ? ": " + *fixed : ", or use pow[10, n]");
+        }
+        report(foreign_number, token,
+               exponent ? "RDDL numbers have no exponent" : "a number cannot end in a point",
+               std::move(hint));
+        token.setType(Parser::REAL);
+        return true;
+    }
+
+    bool repair_operator(antlr4::CommonToken& token) {
+        const ForeignOperator& op = find_foreign(text(token));
+        report(foreign_operator, token, fmt::format("RDDL has no operator '{}'", op.spelling),
+               std::string(op.hint));
+        token.setType(op.meant);
+        return true;
+    }
+
+    bool drop_comment(const antlr4::CommonToken& token) {
+        Span span = span_of(file_, token);
+        span.end = std::min(span.end, span.begin + 2);
+        if (text_[span.begin] == '#') span.end = span.begin + 1;
+        report(foreign_comment, span,
+               fmt::format("'{}' does not begin a comment in RDDL",
+                           text_.substr(span.begin, span.end - span.begin)),
+               "comments begin with '//' and end with the line");
+        return false;
+    }
+
+    bool drop_prime(const antlr4::CommonToken& token) {
+        report(misplaced_prime, token, "an apostrophe must follow a name at once",
+               "the next value of a fluent is written with the apostrophe before the "
+               "parentheses: p'(?x)");
+        return false;
+    }
+
+    // Neighbours are reported together.
+    bool drop_illegal(const antlr4::CommonToken& token) {
+        const Span span = span_of(file_, token);
+        if (illegal_ && illegal_->end == span.begin) {
+            illegal_->end = span.end;
+        } else {
+            report_illegal();
+            illegal_ = span;
+        }
+        return false;
+    }
+
+    void report_illegal() {
+        if (!illegal_) return;
+        const std::string_view found =
+            text_.substr(illegal_->begin, illegal_->end - illegal_->begin);
+        if (is_valid_utf8(found))
+            report(illegal_character, *illegal_, illegal_message(found), hint_for_character(found));
+        else
+            report(not_utf8_text, *illegal_, "these bytes are not UTF-8 text",
+                   "outside comments RDDL is written in ASCII; save the file in UTF-8");
+        illegal_.reset();
+    }
+
+    static std::string illegal_message(std::string_view found) {
+        constexpr std::size_t longest = 24;
+        const bool control = found.size() == 1 && static_cast<unsigned char>(found[0]) < 0x20;
+        if (control) return fmt::format("illegal character with code {}", int{found[0]});
+        if (found.size() > longest) return "characters that mean nothing in RDDL";
+        return fmt::format("'{}' means nothing in RDDL", found);
+    }
+
+    std::string text(const Token& token) const {
+        const Span span = span_of(file_, token);
+        return std::string(text_.substr(span.begin, span.end - span.begin));
+    }
+
+    void report(Code code, const Token& token, std::string message, std::string hint) {
+        report(code, span_of(file_, token), std::move(message), std::move(hint));
+    }
+
+    // A file full of strange characters is not worth a message each.
+    void report(Code code, Span span, std::string message, std::string hint) {
+        if (reported_++ < max_reports)
+            diagnostics_.report(
+                Diagnostic{code, span, std::move(message)}.with_hint(std::move(hint)));
+    }
+
+    static constexpr std::size_t max_reports = 25;
+
+    FileId file_;
+    std::string_view text_;
+    Diagnostics& diagnostics_;
+    std::optional<Span> illegal_;
+    std::size_t reported_ = 0;
+};
+
+}  // namespace
+
+TokenList repair_spelling(FileId file, const Source& source, TokenList tokens,
+                          Diagnostics& diagnostics) {
+    return Repair(file, source, diagnostics)(std::move(tokens));
+}
+
+}  // namespace rddlc
