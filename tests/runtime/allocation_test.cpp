@@ -1,0 +1,76 @@
+// After its creation a batch never allocates, in a million steps with resets and faults.
+#include "tiny_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::int64_t> allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+    if (void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded))
+        return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+    return counted(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace tiny {
+namespace {
+
+constexpr std::int64_t environments = 50;
+constexpr int steps = 1'000'000 / environments;
+
+TEST(Allocations, AreCounted) {
+    const std::int64_t before = allocations;
+    TinyBatch batch({environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1});
+    EXPECT_GT(allocations, before);
+}
+
+TEST(Allocations, DoNotHappenInSteps) {
+    for (const int threads : {1, 2})
+        for (const rddl_autoreset mode : {RDDL_AUTORESET_NEXT_STEP, RDDL_AUTORESET_SAME_STEP}) {
+            TinyBatch batch({environments, 0, 42, threads, mode, -1});
+            const std::int64_t before = allocations;
+            for (int time = 0; time < steps; ++time) {
+                for (std::size_t i = 0; i < batch.size(); ++i)
+                    batch.actions[i] = action_of(static_cast<std::int64_t>(i), time);
+                batch.step();
+            }
+            std::int32_t violated[environments];
+            rddl_fault fault;
+            simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);
+            simulator()->get_fault(batch.get(), 13, &fault);
+            simulator()->set_state(batch.get(), 0, environments, batch.observations.data());
+            simulator()->reset(batch.get(), nullptr, batch.observations.data());
+            EXPECT_EQ(allocations, before) << threads << " threads, mode " << mode;
+        }
+}
+
+}  // namespace
+}  // namespace tiny

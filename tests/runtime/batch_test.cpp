@@ -1,0 +1,113 @@
+// The promise: an environment's trajectory is bit for bit the same whatever the batch around it,
+// its place in it, and the number of threads.
+#include "tiny_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace tiny {
+namespace {
+
+constexpr std::int64_t all_environments = 1000;
+constexpr int step_count = 120;  // more than two horizons
+
+// Everything that a step tells of one environment.
+struct Told {
+    unsigned char observation[sizeof(StateRecord)];
+    unsigned char final_observation[sizeof(StateRecord)];
+    unsigned char reward[sizeof(double)];
+    std::uint8_t terminated, truncated, causes;
+
+    bool operator==(const Told&) const = default;
+};
+using Trajectory = std::vector<Told>;
+
+Told told_of(const TinyBatch& batch, std::size_t i) {
+    Told told{};
+    std::memcpy(told.observation, &batch.observations[i], sizeof(StateRecord));
+    if (batch.causes[i] != RDDL_RUNNING)
+        std::memcpy(told.final_observation, &batch.finals[i], sizeof(StateRecord));
+    std::memcpy(told.reward, &batch.rewards[i], sizeof(double));
+    told.terminated = batch.terminated[i];
+    told.truncated = batch.truncated[i];
+    told.causes = batch.causes[i];
+    return told;
+}
+
+// One trajectory for each environment from `first` on.
+std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads) {
+    TinyBatch batch({count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, -1});
+    std::vector<Trajectory> result(batch.size());
+    for (int time = 0; time < step_count; ++time) {
+        for (std::size_t i = 0; i < batch.size(); ++i)
+            batch.actions[i] = action_of(first + static_cast<std::int64_t>(i), time);
+        batch.step();
+        for (std::size_t i = 0; i < batch.size(); ++i) result[i].push_back(told_of(batch, i));
+    }
+    return result;
+}
+
+const std::vector<Trajectory>& reference() {
+    static const std::vector<Trajectory> together = trajectories(0, all_environments, 1);
+    return together;
+}
+
+TEST(Trajectories, CoverEveryCauseOfAnEnd) {
+    int causes = 0;
+    for (const Trajectory& trajectory : reference())
+        for (const Told& told : trajectory) causes |= told.causes;
+    EXPECT_EQ(causes,
+              RDDL_TERMINATED | RDDL_TRUNCATED_HORIZON | RDDL_TRUNCATED_INVARIANT | RDDL_FAULTED);
+}
+
+TEST(Trajectories, DoNotDependOnTheBatchOrThePlace) {
+    for (const std::int64_t size : {1, 7, 64, 1000})
+        for (std::int64_t first = 0; first < all_environments; first += 83 * size) {
+            const std::int64_t count = std::min(size, all_environments - first);
+            const auto found = trajectories(first, count, 1);
+            for (std::int64_t i = 0; i < count; ++i)
+                ASSERT_EQ(found[static_cast<std::size_t>(i)],
+                          reference()[static_cast<std::size_t>(first + i)])
+                    << "environment " << first + i << " in a batch of " << size;
+        }
+}
+
+TEST(Trajectories, DoNotDependOnTheThreads) {
+    for (const int threads : {2, 3, 4, 0})
+        EXPECT_EQ(trajectories(0, all_environments, threads), reference()) << threads;
+    EXPECT_EQ(trajectories(0, 5, 4),
+              std::vector<Trajectory>(reference().begin(), reference().begin() + 5));
+}
+
+TEST(Trajectories, DependOnTheSeed) {
+    TinyBatch one({1, 0, 1, 1, RDDL_AUTORESET_DISABLED, -1});
+    TinyBatch other({1, 0, 2, 1, RDDL_AUTORESET_DISABLED, -1});
+    one.step();
+    other.step();
+    EXPECT_NE(one.observations[0].wear, other.observations[0].wear);
+}
+
+TEST(Trajectories, AreRepeatedBySettingTheState) {
+    TinyBatch batch({8, 0, 42, 1, RDDL_AUTORESET_DISABLED, 0});
+    batch.step();
+    const auto before = batch.states();
+    batch.step();
+    // The step counter goes on, so that the same state meets new random numbers...
+    const auto first_time = batch.states();
+    ASSERT_EQ(simulator()->set_state(batch.get(), 0, 8, before.data()), RDDL_OK);
+    batch.step();
+    EXPECT_NE(batch.states()[0].wear, first_time[0].wear);
+    // ... while a copy made before the step repeats it.
+    TinyBatch copy(simulator()->copy(batch.get()), 8);
+    batch.step();
+    copy.step();
+    EXPECT_EQ(
+        std::memcmp(batch.observations.data(), copy.observations.data(), 8 * sizeof(StateRecord)),
+        0);
+}
+
+}  // namespace
+}  // namespace tiny

@@ -1,0 +1,65 @@
+// An engine without emitted code behind it: a counter that the action moves and that is observed
+// with noise. The tests choose when its episodes end.
+#pragma once
+
+#include <rddl/batch.hpp>
+#include <rddl/distributions.hpp>
+#include <rddl/engine.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace rddl {
+
+struct CounterEngine {
+    static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+    std::int64_t initial = 0;
+    std::int64_t terminal_from = never;    // a count that ends the episode
+    std::int64_t forbidden_from = never;   // a count that violates the invariant
+    std::int64_t faulty_from = never;      // a count that no step may leave
+    std::int64_t faulty_terminal = never;  // a count whose termination cannot be evaluated
+
+    std::size_t state_size() const { return sizeof(std::int64_t); }
+    std::size_t action_size() const { return sizeof(std::int64_t); }
+    std::size_t observation_size() const { return sizeof(double); }
+    std::size_t scratch_size() const { return 0; }
+
+    void reset(std::byte* state) const { write(state, initial); }
+
+    double step(const std::byte* state, const std::byte* action, std::byte*, std::byte* next,
+                std::byte* observation, Context<Scalar>& context) const {
+        const auto count = read(state);
+        const double p = count >= faulty_from ? 2.0 : 0.5;
+        sample::bernoulli(context, {0, 0}, p);
+        write(next, count + read(action));
+        write(observation, sample::normal(context, {1, 0}, to_real(count + read(action)), 1.0));
+        return to_real(read(action));
+    }
+    bool terminal(const std::byte* state, Context<Scalar>& context) const {
+        if (read(state) == faulty_terminal) fault<bool>(context, {0, 0});
+        return read(state) >= terminal_from;
+    }
+    int violated_invariant(const std::byte* state, Context<Scalar>&) const {
+        return read(state) >= forbidden_from ? 0 : -1;
+    }
+    // The action is not negative and not above 10.
+    int violated_precondition(const std::byte*, const std::byte* action, Context<Scalar>&) const {
+        return read(action) < 0 ? 0 : read(action) > 10 ? 1 : -1;
+    }
+
+    static std::int64_t read(const std::byte* record) {
+        std::int64_t value;
+        std::memcpy(&value, record, sizeof value);
+        return value;
+    }
+    template <class Number>
+    static void write(std::byte* record, Number value) {
+        std::memcpy(record, &value, sizeof value);
+    }
+};
+static_assert(Engine<CounterEngine>);
+
+}  // namespace rddl

@@ -1,0 +1,229 @@
+// The C interface over the hand-written simulator: records, copies, refusals, messages.
+#include "tiny_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tiny {
+namespace {
+
+const rddl_simulator& functions = *simulator();
+
+constexpr rddl_batch_options four{4, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1};
+
+TEST(Interface, DescribesItself) {
+    EXPECT_EQ(functions.abi_version, static_cast<std::uint32_t>(RDDL_ABI_VERSION));
+    EXPECT_EQ(functions.struct_size, sizeof(rddl_simulator));
+    EXPECT_EQ(functions.problem, &problem);
+}
+
+TEST(Interface, StartsInTheInitialState) {
+    TinyBatch batch(four);
+    for (const StateRecord& state : batch.states()) {
+        EXPECT_EQ(state.running, (std::array{true, true, true}));
+        EXPECT_EQ(state.repairs, 0);
+    }
+    std::int64_t steps[4], episodes[4];
+    EXPECT_EQ(functions.get_progress(batch.get(), 0, 4, steps, episodes), RDDL_OK);
+    EXPECT_EQ(steps[3], 0);
+    EXPECT_EQ(episodes[3], 0);
+}
+
+TEST(Interface, ObservesTheStateOfAFullyObservedProblem) {
+    TinyBatch batch(four);
+    batch.step();
+    const auto states = batch.states();
+    std::vector<StateRecord> observations(4);
+    EXPECT_EQ(functions.get_observation(batch.get(), 0, 4, observations.data()), RDDL_OK);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(observations[i].wear, states[i].wear);
+        EXPECT_EQ(batch.observations[i].wear, states[i].wear);
+    }
+}
+
+TEST(Interface, CountsStepsAndEpisodes) {
+    TinyBatch batch(four);
+    batch.step();
+    batch.step();
+    const std::uint8_t mask[] = {0, 1, 0, 0};
+    EXPECT_EQ(functions.reset(batch.get(), mask, batch.observations.data()), RDDL_OK);
+    EXPECT_EQ(batch.observations[1].wear[0], 0.0);
+    EXPECT_NE(batch.observations[0].wear[0], 0.0);
+    std::int64_t steps[2], episodes[2];
+    EXPECT_EQ(functions.get_progress(batch.get(), 0, 2, steps, nullptr), RDDL_OK);
+    EXPECT_EQ(functions.get_progress(batch.get(), 0, 2, nullptr, episodes), RDDL_OK);
+    EXPECT_EQ(steps[0], 2);
+    EXPECT_EQ(episodes[0], 0);
+    EXPECT_EQ(steps[1], 0);
+    EXPECT_EQ(episodes[1], 1);
+}
+
+TEST(Interface, WritesOnlyWhatIsAskedFor) {
+    TinyBatch batch(four);
+    const rddl_transition nothing{};
+    EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_OK);
+    EXPECT_EQ(functions.reset(batch.get(), nullptr, nullptr), RDDL_OK);
+}
+
+TEST(Interface, TakesTheHorizonFromTheInstanceOrTheOptions) {
+    for (const auto& [option, expected] : {std::pair(-1, 50), {3, 3}}) {
+        TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option});
+        int steps = 0;
+        do {
+            batch.actions[0].repair = {true, true, true};
+            batch.step();
+            ++steps;
+        } while (batch.causes[0] == RDDL_RUNNING);
+        EXPECT_EQ(steps, expected);
+        EXPECT_EQ(batch.causes[0], RDDL_TRUNCATED_HORIZON);
+    }
+}
+
+TEST(Interface, SetsStatesInPart) {
+    TinyBatch batch(four);
+    StateRecord state{};
+    state.running[1] = true;
+    state.wear = {1.0, 2.0, 3.0};
+    state.mode = 1;
+    EXPECT_EQ(functions.set_state(batch.get(), 2, 1, &state), RDDL_OK);
+    const auto states = batch.states();
+    EXPECT_EQ(states[2].wear, state.wear);
+    EXPECT_EQ(states[1].wear[0], 0.0);
+}
+
+TEST(Interface, EndsTheEpisodeOfATerminalStateThatIsSet) {
+    TinyBatch batch(four);
+    const StateRecord nothing_runs{};
+    EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &nothing_runs), RDDL_OK);
+    std::uint8_t causes[4];
+    EXPECT_EQ(functions.get_causes(batch.get(), 0, 4, causes), RDDL_OK);
+    EXPECT_EQ(causes[0], RDDL_TERMINATED);
+    EXPECT_EQ(causes[1], RDDL_RUNNING);
+}
+
+TEST(Interface, RefusesStatesAndActionsThatNameNoObject) {
+    TinyBatch batch(four);
+    StateRecord state{};
+    for (const std::int64_t mode :
+         {std::int64_t{-1}, std::int64_t{2}, std::numeric_limits<std::int64_t>::min()}) {
+        state.mode = mode;
+        EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state), RDDL_BAD_ARGUMENT);
+        batch.actions[3].set_mode = mode;
+        const rddl_transition nothing{};
+        EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
+        std::int32_t violated[4];
+        EXPECT_EQ(functions.violated_preconditions(batch.get(), batch.actions.data(), violated),
+                  RDDL_BAD_ARGUMENT);
+    }
+    std::int64_t steps[4];
+    EXPECT_EQ(functions.get_progress(batch.get(), 0, 4, steps, nullptr), RDDL_OK);
+    EXPECT_EQ(steps[0], 0) << "a refused step changes nothing";
+}
+
+TEST(Interface, RefusesBoolsThatAreNone) {
+    TinyBatch batch(four);
+    const unsigned char two = 2;
+    std::memcpy(&batch.actions[1].repair[2], &two, 1);
+    const rddl_transition nothing{};
+    EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
+    StateRecord state{};
+    std::memcpy(&state.running[0], &two, 1);
+    EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state), RDDL_BAD_ARGUMENT);
+}
+
+TEST(Interface, RefusesOptionsOutOfRange) {
+    const auto refused = [](const rddl_batch_options& options) {
+        return functions.create(&functions, &options) == nullptr;
+    };
+    EXPECT_TRUE(refused({0, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
+    EXPECT_TRUE(refused({-5, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
+    EXPECT_TRUE(refused({1, 0, 0, -1, RDDL_AUTORESET_DISABLED, -1}));
+    EXPECT_TRUE(refused({1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2}));
+    EXPECT_TRUE(refused({std::int64_t{1} << 60, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
+    rddl_batch_options unknown_mode{1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1};
+    const int three = 3;
+    std::memcpy(&unknown_mode.autoreset, &three, sizeof three);
+    EXPECT_TRUE(refused(unknown_mode));
+    EXPECT_EQ(functions.create(&functions, nullptr), nullptr);
+}
+
+TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
+    TinyBatch batch(four);
+    StateRecord states[8];
+    for (const auto& [begin, count] : {std::pair<std::int64_t, std::int64_t>(-1, 1),
+                                       {0, 5},
+                                       {4, 1},
+                                       {0, -1},
+                                       {1, std::numeric_limits<std::int64_t>::max()},
+                                       {5, 0}}) {
+        EXPECT_EQ(functions.get_state(batch.get(), begin, count, states), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.set_state(batch.get(), begin, count, states), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.get_progress(batch.get(), begin, count, nullptr, nullptr),
+                  RDDL_BAD_ARGUMENT);
+    }
+    EXPECT_EQ(functions.get_state(batch.get(), 4, 0, states), RDDL_OK);
+    EXPECT_EQ(functions.get_state(batch.get(), 0, 1, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.get_state(nullptr, 0, 1, states), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.step(batch.get(), nullptr, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.reset(nullptr, nullptr, nullptr), RDDL_BAD_ARGUMENT);
+    rddl_fault fault;
+    EXPECT_EQ(functions.get_fault(batch.get(), 4, &fault), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.copy(nullptr), nullptr);
+    functions.destroy(nullptr);
+}
+
+TEST(Interface, TellsFaultsInWords) {
+    TinyBatch batch(four);
+    rddl_fault fault;
+    EXPECT_EQ(functions.get_fault(batch.get(), 2, &fault), RDDL_OK);
+    EXPECT_EQ(fault.faulty, 0);
+    batch.step();
+    batch.actions[2].hazard = 1.28;
+    batch.step();
+    EXPECT_EQ(batch.causes, (std::vector<std::uint8_t>{0, 0, RDDL_FAULTED, 0}));
+    EXPECT_EQ(functions.get_fault(batch.get(), 2, &fault), RDDL_OK);
+    EXPECT_EQ(fault.faulty, 1);
+    EXPECT_EQ(fault.step, 1);
+    EXPECT_EQ(fault.source.line, 22);
+    EXPECT_EQ(fault.source.column, 24);
+    EXPECT_STREQ(fault.message,
+                 "tiny.rddl:22:24: Bernoulli's probability must be in [0, 1], found 1.3 "
+                 "(at ?m = mill)");
+    EXPECT_EQ(functions.get_fault(batch.get(), 1, &fault), RDDL_OK);
+    EXPECT_EQ(fault.faulty, 0);
+}
+
+TEST(Interface, ReportsPreconditionsWithoutEnforcingThem) {
+    TinyBatch batch(four);
+    batch.actions[1].repair = {true, false, true};
+    batch.actions[2].repair = {false, false, true};
+    std::int32_t violated[4];
+    EXPECT_EQ(functions.violated_preconditions(batch.get(), batch.actions.data(), violated),
+              RDDL_OK);
+    EXPECT_EQ(violated[0], -1);
+    EXPECT_EQ(violated[1], 0);
+    EXPECT_EQ(violated[2], -1);
+    batch.step();
+    EXPECT_EQ(batch.states()[1].repairs, 2);
+}
+
+TEST(Interface, CopiesAreIndependentAndGoOnAlike) {
+    TinyBatch original({100, 0, 42, 2, RDDL_AUTORESET_NEXT_STEP, -1});
+    for (int t = 0; t < 30; ++t) original.step();
+    TinyBatch copy(functions.copy(original.get()), 100);
+    for (int t = 0; t < 60; ++t) original.step();
+    EXPECT_EQ(copy.states()[0].repairs, 0);
+    for (int t = 0; t < 60; ++t) copy.step();
+    EXPECT_EQ(copy.rewards, original.rewards);
+    EXPECT_EQ(copy.causes, original.causes);
+    for (std::size_t i = 0; i < 100; ++i)
+        EXPECT_EQ(copy.observations[i].wear, original.observations[i].wear);
+}
+
+}  // namespace
+}  // namespace tiny

@@ -1,0 +1,63 @@
+#include <rddl/threads.hpp>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+TEST(Shares, CoverEverythingOnce) {
+    for (const std::int64_t count : {1, 2, 7, 63, 64, 65, 127, 128, 1000, 4096, 100003})
+        for (int workers = 1; workers <= 9 && workers <= count; ++workers) {
+            std::int64_t next = 0;
+            for (int worker = 0; worker < workers; ++worker) {
+                const Range share = share_of(worker, workers, count);
+                EXPECT_EQ(share.begin, next);
+                EXPECT_LT(share.begin, share.end);
+                if (count >= 64 * workers) {
+                    EXPECT_EQ(share.begin % 64, 0);
+                }
+                next = share.end;
+            }
+            EXPECT_EQ(next, count);
+        }
+}
+
+TEST(Team, RunsEveryWorkerInEveryJob) {
+    Team team(4);
+    std::vector<std::int64_t> calls(static_cast<std::size_t>(team.size()), 0);
+    for (int job = 0; job < 2000; ++job)
+        team.run([&](int worker) { ++calls[static_cast<std::size_t>(worker)]; });
+    for (const std::int64_t count : calls) EXPECT_EQ(count, 2000);
+}
+
+TEST(Team, ReturnsWhenAllAreDone) {
+    Team team(3);
+    for (int job = 0; job < 100; ++job) {
+        std::atomic<int> done = 0;
+        team.run([&](int) {
+            std::this_thread::yield();
+            ++done;
+        });
+        EXPECT_EQ(done, team.size());
+    }
+}
+
+TEST(Team, OfOneRunsInTheCallingThread) {
+    Team team(1);
+    std::thread::id id;
+    team.run([&](int) { id = std::this_thread::get_id(); });
+    EXPECT_EQ(id, std::this_thread::get_id());
+    EXPECT_EQ(team.size(), 1);
+}
+
+TEST(Team, MayRestWithoutEverWorking) {
+    Team team(4);
+}
+
+}  // namespace
+}  // namespace rddl

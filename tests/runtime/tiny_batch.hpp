@@ -1,0 +1,70 @@
+// A batch of the hand-written simulator, driven through the C interface.
+#pragma once
+
+#include "tiny_simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace tiny {
+
+using StateRecord = State<Scalar>;
+using ActionRecord = Action<Scalar>;
+
+class TinyBatch {
+  public:
+    explicit TinyBatch(const rddl_batch_options& options)
+        : TinyBatch(simulator()->create(simulator(), &options),
+                    static_cast<std::size_t>(options.environment_count)) {}
+    TinyBatch(rddl_batch* batch, std::size_t size)
+        : observations(size),
+          finals(size),
+          actions(size),
+          rewards(size),
+          terminated(size),
+          truncated(size),
+          causes(size),
+          batch_(batch) {}
+    TinyBatch(const TinyBatch&) = delete;
+    ~TinyBatch() { simulator()->destroy(batch_); }
+
+    rddl_batch* get() { return batch_; }
+    std::size_t size() const { return actions.size(); }
+
+    // With the actions in `actions`.
+    void step() {
+        const rddl_transition out{observations.data(), rewards.data(), terminated.data(),
+                                  truncated.data(),    causes.data(),  finals.data()};
+        ASSERT_EQ(simulator()->step(batch_, actions.data(), &out), RDDL_OK);
+    }
+    std::vector<StateRecord> states() {
+        std::vector<StateRecord> states(size());
+        const auto count = static_cast<std::int64_t>(size());
+        EXPECT_EQ(simulator()->get_state(batch_, 0, count, states.data()), RDDL_OK);
+        return states;
+    }
+
+    std::vector<StateRecord> observations, finals;
+    std::vector<ActionRecord> actions;
+    std::vector<double> rewards;
+    std::vector<std::uint8_t> terminated, truncated, causes;
+
+  private:
+    rddl_batch* batch_;
+};
+
+// A policy that depends on nothing but the environment's identity and the time.
+inline ActionRecord action_of(std::int64_t environment, int time) {
+    ActionRecord action{};
+    action.set_mode = (environment + time) % 3 == 0;
+    const std::int64_t machine = (environment + 2 * time) % 5;
+    if (machine < machines) action.repair[static_cast<std::size_t>(machine)] = true;
+    if (environment % 97 == 13 && time == 20) action.hazard = 3.0;  // faults
+    return action;
+}
+
+}  // namespace tiny
