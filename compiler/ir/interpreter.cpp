@@ -64,7 +64,8 @@ int Interpreter::violated_precondition(const std::byte* state, const std::byte* 
 int Interpreter::first_violated(const std::vector<Computation>& conditions, Records records,
                                 Context& context) const {
     for (std::size_t index = 0; index < conditions.size(); ++index) {
-        if (!holds(conditions[index], records, context)) return static_cast<int>(index);
+        const bool holds_here = holds(conditions[index], records, context);
+        if (!holds_here || context.fault) return static_cast<int>(index);
     }
     return -1;
 }

@@ -1,0 +1,77 @@
+#include "ir/analysis.hpp"
+
+#include "programs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rddlc::ir {
+namespace {
+
+class AnalysisTest : public testing::Test {
+  protected:
+    const Facts& facts(NodeId id) { return w.builder().facts(id); }
+    Workbench w;
+};
+
+TEST_F(AnalysisTest, UniformIsWhatNoStateHasAPartIn) {
+    EXPECT_TRUE(facts(w.at(w.connected, w.c)).uniform);
+    EXPECT_TRUE(facts(w.builder().index(w.c)).uniform);
+    EXPECT_FALSE(facts(w.at(w.running, w.c)).uniform);
+    EXPECT_FALSE(facts(w.builder().load(w.connected, {w.load(w.count)})).uniform);
+    EXPECT_FALSE(facts(w.bernoulli(w.real(0.5))).uniform);
+}
+
+TEST_F(AnalysisTest, VariablesAreFreeUntilBound) {
+    const NodeId body = w.at(w.running, w.c);
+    EXPECT_EQ(facts(body).free_variables, std::vector{w.c});
+    EXPECT_TRUE(facts(w.builder().reduce(Reduction::ForAll, w.c, body)).free_variables.empty());
+    const NodeId both = w.apply(Operator::And, w.at(w.running, w.d), body);
+    EXPECT_EQ(facts(both).free_variables, (std::vector{w.c, w.d}));
+}
+
+TEST_F(AnalysisTest, DrawsFaultUnlessTheirParametersAreKnown) {
+    EXPECT_FALSE(facts(w.bernoulli(w.real(0.5))).may_fault);
+    EXPECT_TRUE(facts(w.bernoulli(w.real(0.5))).random);
+    EXPECT_TRUE(facts(w.bernoulli(w.real(1.5))).may_fault);
+    EXPECT_TRUE(facts(w.bernoulli(w.load(w.level))).may_fault);
+    const NodeId table = w.builder().convert(w.at(w.connected, w.c), Scalar::Real);
+    const NodeId half = w.apply(Operator::Multiply, table, w.real(0.5));
+    EXPECT_FALSE(facts(w.bernoulli(half)).may_fault);
+}
+
+TEST_F(AnalysisTest, PowersFaultUnlessTheExponentIsKnown) {
+    EXPECT_TRUE(facts(w.int_power(w.load(w.count), w.load(w.count))).may_fault);
+    EXPECT_FALSE(facts(w.int_power(w.load(w.count), w.integer(2))).may_fault);
+    EXPECT_TRUE(facts(w.int_power(w.load(w.count), w.integer(-2))).may_fault);
+}
+
+TEST_F(AnalysisTest, CheapIsAHandfulOfOperations) {
+    const NodeId sum = w.apply(Operator::Add, w.load(w.level), w.real(2));
+    EXPECT_TRUE(is_cheap(facts(sum)));
+    EXPECT_FALSE(is_cheap(facts(w.apply(Operator::Exp, sum))));
+    EXPECT_FALSE(is_cheap(facts(w.bernoulli(w.real(0.5)))));
+    EXPECT_FALSE(is_cheap(facts(w.int_power(w.load(w.count), w.load(w.count)))));
+}
+
+TEST_F(AnalysisTest, CostsMultiplyInLoops) {
+    const NodeId body = w.builder().convert(w.at(w.running, w.c), Scalar::Int);
+    const NodeId sum = w.builder().reduce(Reduction::Sum, w.c, body);
+    EXPECT_GE(facts(sum).cost, 3 * facts(body).cost);
+}
+
+TEST_F(AnalysisTest, OnlyWhatIsEvaluatedIsReachable) {
+    add_step(w);
+    const NodeId unused = w.apply(Operator::Cos, w.load(w.level));
+    const std::vector<bool> reachable = reachable_nodes(w.program);
+    EXPECT_FALSE(reachable[unused.index]);
+    EXPECT_TRUE(reachable[w.program.reward.value.index]);
+    EXPECT_TRUE(is_stochastic(w.program));
+}
+
+TEST_F(AnalysisTest, ADrawThatNobodyEvaluatesIsNotStochastic) {
+    w.bernoulli(w.real(0.5));
+    EXPECT_FALSE(is_stochastic(w.program));
+}
+
+}  // namespace
+}  // namespace rddlc::ir

@@ -1,0 +1,165 @@
+#include "ir/builder.hpp"
+
+#include "ir/print.hpp"
+#include "programs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace rddlc::ir {
+namespace {
+
+constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t greatest = std::numeric_limits<std::int64_t>::max();
+
+class BuilderTest : public testing::Test {
+  protected:
+    std::string text(NodeId id) { return print(w.program, id); }
+    NodeId level() { return w.load(w.level); }
+    NodeId count() { return w.load(w.count); }
+    NodeId up() { return w.at(w.running, w.c); }
+    NodeId fallible() {
+        return w.apply(Operator::Less, w.int_power(count(), count()), w.integer(3));
+    }
+
+    Workbench w;
+};
+
+TEST_F(BuilderTest, GivesEqualExpressionsEqualIds) {
+    const NodeId a = w.apply(Operator::Add, level(), w.real(2.0));
+    const NodeId b = w.apply(Operator::Add, level(), w.real(2.0));
+    EXPECT_EQ(a, b);
+    EXPECT_NE(a, w.apply(Operator::Add, w.real(2.0), level()));
+    EXPECT_NE(w.real(0.0), w.real(-0.0));
+    EXPECT_EQ(w.real(NAN), w.real(NAN));
+    EXPECT_NE(w.integer(1), w.boolean(true));
+}
+
+TEST_F(BuilderTest, FoldsConstantsAsTheRuntimeComputesThem) {
+    EXPECT_EQ(w.apply(Operator::Add, w.integer(greatest), w.integer(1)), w.integer(least));
+    EXPECT_EQ(w.apply(Operator::FloorDivide, w.integer(-7), w.integer(2)), w.integer(-4));
+    EXPECT_EQ(w.apply(Operator::FloorDivide, w.integer(1), w.integer(0)), w.integer(0));
+    EXPECT_EQ(w.apply(Operator::Round, w.real(2.5)), w.integer(2));
+    EXPECT_EQ(w.apply(Operator::Floor, w.real(1e30)), w.integer(least));
+    EXPECT_EQ(w.apply(Operator::Divide, w.real(1), w.real(0)), w.real(HUGE_VAL));
+    EXPECT_EQ(w.apply(Operator::Exp, w.real(1.25)), w.real(std::exp(1.25)));
+    EXPECT_EQ(w.apply(Operator::Less, w.real(NAN), w.real(1)), w.boolean(false));
+    EXPECT_EQ(w.apply(Operator::Equal, w.boolean(true), w.boolean(true)), w.boolean(true));
+    EXPECT_EQ(w.builder().convert(w.boolean(true), Scalar::Real), w.real(1));
+}
+
+TEST_F(BuilderTest, FoldsFallibleOperatorsUnlessTheyFault) {
+    EXPECT_EQ(w.int_power(w.integer(3), w.integer(4)), w.integer(81));
+    EXPECT_EQ(text(w.int_power(w.integer(3), w.integer(-1))), "power@1[0](3, -1)");
+}
+
+TEST_F(BuilderTest, ReadsConstantTablesAtConstantIndices) {
+    EXPECT_EQ(w.load(w.reboot_prob), w.real(0.5));
+    EXPECT_EQ(w.builder().load(w.connected, {w.integer(1)}), w.boolean(false));
+    EXPECT_EQ(text(w.at(w.connected, w.c)), "CONNECTED[c]");
+    EXPECT_EQ(text(w.builder().load(w.running, {w.integer(1)})), "state.running[1]");
+}
+
+TEST_F(BuilderTest, KnowsIdentitiesOfInts) {
+    EXPECT_EQ(w.apply(Operator::Add, count(), w.integer(0)), count());
+    EXPECT_EQ(w.apply(Operator::Add, w.integer(0), count()), count());
+    EXPECT_EQ(w.apply(Operator::Subtract, count(), w.integer(0)), count());
+    EXPECT_EQ(w.apply(Operator::Multiply, w.integer(1), count()), count());
+    EXPECT_EQ(w.apply(Operator::Multiply, w.integer(0), count()), w.integer(0));
+    EXPECT_EQ(w.apply(Operator::Negate, w.apply(Operator::Negate, count())), count());
+    EXPECT_EQ(w.apply(Operator::Minimum, count(), count()), count());
+    EXPECT_EQ(w.apply(Operator::Equal, count(), count()), w.boolean(true));
+}
+
+TEST_F(BuilderTest, KnowsOnlyExactIdentitiesOfReals) {
+    EXPECT_EQ(w.apply(Operator::Multiply, level(), w.real(1)), level());
+    EXPECT_EQ(w.apply(Operator::Divide, level(), w.real(1)), level());
+    EXPECT_EQ(w.apply(Operator::Subtract, level(), w.real(0)), level());
+    EXPECT_EQ(w.apply(Operator::Add, level(), w.real(-0.0)), level());
+    // -0.0 + 0.0 is 0.0; 0.0 * inf is nan; nan is not nan.
+    EXPECT_NE(w.apply(Operator::Add, level(), w.real(0)), level());
+    EXPECT_NE(w.apply(Operator::Multiply, level(), w.real(0)), w.real(0));
+    EXPECT_NE(w.apply(Operator::Equal, level(), level()), w.boolean(true));
+}
+
+TEST_F(BuilderTest, SimplifiesLogic) {
+    EXPECT_EQ(w.apply(Operator::And, w.boolean(true), up()), up());
+    EXPECT_EQ(w.apply(Operator::And, up(), w.boolean(false)), w.boolean(false));
+    EXPECT_EQ(w.apply(Operator::Or, up(), w.boolean(true)), w.boolean(true));
+    EXPECT_EQ(w.apply(Operator::Or, up(), up()), up());
+    EXPECT_EQ(w.apply(Operator::Not, w.apply(Operator::Not, up())), up());
+    EXPECT_EQ(text(w.apply(Operator::Implies, up(), w.at(w.reboot, w.c))),
+              "!state.running[c] || action.reboot[c]");
+    EXPECT_EQ(w.apply(Operator::Implies, w.boolean(true), up()), up());
+    EXPECT_EQ(w.apply(Operator::Equivalent, w.boolean(false), up()), w.apply(Operator::Not, up()));
+}
+
+TEST_F(BuilderTest, NegatesOrdersOfIntsOnly) {
+    const NodeId of_ints = w.apply(Operator::Less, count(), w.integer(3));
+    EXPECT_EQ(text(w.apply(Operator::Not, of_ints)), "state.count >= 3");
+    const NodeId of_reals = w.apply(Operator::Less, level(), w.real(3));
+    EXPECT_EQ(text(w.apply(Operator::Not, of_reals)), "!(state.level < 3.0)");
+    const NodeId equal = w.apply(Operator::Equal, level(), w.real(3));
+    EXPECT_EQ(text(w.apply(Operator::Not, equal)), "state.level != 3.0");
+}
+
+TEST_F(BuilderTest, KeepsWhatMayFaultOrDraws) {
+    const NodeId draw = w.bernoulli(w.real(0.5));
+    EXPECT_NE(w.apply(Operator::And, draw, w.boolean(false)), w.boolean(false));
+    EXPECT_NE(w.apply(Operator::And, fallible(), w.boolean(false)), w.boolean(false));
+    const NodeId zero = w.apply(Operator::Multiply, w.integer(0), w.int_power(count(), count()));
+    EXPECT_NE(zero, w.integer(0));
+    EXPECT_NE(w.builder().select(fallible(), level(), level()), level());
+}
+
+TEST_F(BuilderTest, MakesFallibleRightOperandsLazy) {
+    EXPECT_EQ(text(w.apply(Operator::And, up(), fallible())),
+              "select(state.running[c], power@1[0](state.count, state.count) < 3, false)");
+    EXPECT_EQ(text(w.apply(Operator::Or, up(), fallible())),
+              "select(state.running[c], true, power@1[0](state.count, state.count) < 3)");
+    EXPECT_EQ(text(w.apply(Operator::Implies, up(), fallible())),
+              "select(state.running[c], power@1[0](state.count, state.count) < 3, true)");
+    EXPECT_EQ(text(w.apply(Operator::And, fallible(), up())),
+              "power@1[0](state.count, state.count) < 3 && state.running[c]");
+}
+
+TEST_F(BuilderTest, SimplifiesSelects) {
+    const NodeId three = w.real(3);
+    EXPECT_EQ(w.builder().select(w.boolean(true), three, level()), three);
+    EXPECT_EQ(w.builder().select(w.boolean(false), three, level()), level());
+    EXPECT_EQ(w.builder().select(up(), level(), level()), level());
+    EXPECT_EQ(w.builder().select(up(), w.boolean(true), w.boolean(false)), up());
+    EXPECT_EQ(w.builder().select(up(), w.boolean(false), w.boolean(true)),
+              w.apply(Operator::Not, up()));
+    EXPECT_EQ(w.builder().select(w.apply(Operator::Not, up()), three, level()),
+              w.builder().select(up(), level(), three));
+}
+
+TEST_F(BuilderTest, FoldsReductionsOverConstants) {
+    EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.c, w.integer(5)), w.integer(15));
+    EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.c, w.real(0.1)), w.real(0.1 + 0.1 + 0.1));
+    EXPECT_EQ(w.builder().reduce(Reduction::Product, w.c, w.real(0.5)), w.real(0.125));
+    EXPECT_EQ(w.builder().reduce(Reduction::ForAll, w.c, w.boolean(false)), w.boolean(false));
+    EXPECT_EQ(w.builder().reduce(Reduction::ArgMax, w.c, level()), w.integer(0));
+    EXPECT_EQ(w.builder().reduce(Reduction::Maximum, w.c, level()), level());
+    EXPECT_EQ(w.builder().reduce(Reduction::Exists, w.d, up()), up());
+}
+
+TEST_F(BuilderTest, FoldsReductionsOverOneOrNoObject) {
+    EXPECT_EQ(w.builder().index(w.only), w.integer(0));
+    EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.only, level()), level());
+    EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.none, level()), w.real(0));
+    EXPECT_EQ(w.builder().reduce(Reduction::Product, w.none, count()), w.integer(1));
+    EXPECT_EQ(w.builder().reduce(Reduction::ForAll, w.none, up()), w.boolean(true));
+    EXPECT_EQ(w.builder().reduce(Reduction::Exists, w.none, up()), w.boolean(false));
+}
+
+TEST_F(BuilderTest, ConvertsBoolToRealInOneStep) {
+    const NodeId as_int = w.builder().convert(up(), Scalar::Int);
+    EXPECT_EQ(w.builder().convert(as_int, Scalar::Real), w.builder().convert(up(), Scalar::Real));
+}
+
+}  // namespace
+}  // namespace rddlc::ir

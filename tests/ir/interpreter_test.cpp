@@ -1,0 +1,180 @@
+#include "ir/interpreter.hpp"
+
+#include "programs.hpp"
+
+#include <rddl/distributions.hpp>
+#include <rddl/engine.hpp>
+#include <rddl/random.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+namespace rddlc::ir {
+namespace {
+
+static_assert(rddl::Engine<Interpreter>);
+
+struct State {
+    bool running[3];
+    double level;
+    std::int64_t count;
+};
+
+template <class Record>
+std::byte* bytes(Record& record) {
+    return reinterpret_cast<std::byte*>(&record);
+}
+
+class InterpreterTest : public testing::Test {
+  protected:
+    // The next state where `value` is stored to level, count or running.
+    State step_with(Definition definition) {
+        add_step(w);
+        for (Definition& each : w.program.step) {
+            if (each.target == definition.target) each = definition;
+        }
+        return step();
+    }
+    State step() {
+        const Interpreter interpreter(w.program);
+        EXPECT_EQ(interpreter.state_size(), sizeof(State));
+        State state, next;
+        interpreter.reset(bytes(state));
+        std::array<bool, 3> action{};
+        std::array<std::byte, 64> scratch;
+        reward = interpreter.step(bytes(state), bytes(action), scratch.data(), bytes(next),
+                                  scratch.data(), context);
+        return next;
+    }
+    double real_value(NodeId id) { return step_with(w.assign(w.next_level, id)).level; }
+    std::int64_t int_value(NodeId id) { return step_with(w.assign(w.next_count, id)).count; }
+
+    Workbench w;
+    Context context{.key = rddl::stream_key(1, 2, 3), .step = 1, .fault = {}};
+    double reward = 0;
+};
+
+TEST_F(InterpreterTest, StartsWithTheInitialState) {
+    const Interpreter interpreter(w.program);
+    State state;
+    interpreter.reset(bytes(state));
+    EXPECT_TRUE(state.running[0] && state.running[1] && !state.running[2]);
+    EXPECT_EQ(state.level, 2.0);
+    EXPECT_EQ(state.count, 7);
+}
+
+TEST_F(InterpreterTest, ComputesAStep) {
+    add_step(w);
+    const State next = step();
+    EXPECT_EQ(next.level, 3.0);
+    EXPECT_EQ(next.count, 8);
+    EXPECT_FALSE(next.running[2]);
+    EXPECT_EQ(reward, 1.0);  // of the running ones, only c1 is connected
+    EXPECT_FALSE(context.fault);
+}
+
+TEST_F(InterpreterTest, DrawsAsTheRuntimeDoes) {
+    add_step(w);
+    const State next = step();
+    for (std::uint32_t c = 0; c < 2; ++c) {
+        Context same{.key = context.key, .step = 1, .fault = {}};
+        EXPECT_EQ(next.running[c], rddl::sample::bernoulli(same, {0, c}, 0.5));
+    }
+}
+
+TEST_F(InterpreterTest, ChecksConditions) {
+    add_step(w);
+    const Interpreter interpreter(w.program);
+    State state{{true, true, true}, 2.0, 8};
+    std::array<bool, 3> action{};
+    EXPECT_FALSE(interpreter.terminal(bytes(state), context));
+    EXPECT_EQ(interpreter.violated_invariant(bytes(state), context), -1);
+    EXPECT_EQ(interpreter.violated_precondition(bytes(state), bytes(action), context), 0);
+    state.level = 4.5;
+    state.count = 9;
+    action[1] = true;
+    EXPECT_TRUE(interpreter.terminal(bytes(state), context));
+    EXPECT_EQ(interpreter.violated_invariant(bytes(state), context), 0);
+    EXPECT_EQ(interpreter.violated_precondition(bytes(state), bytes(action), context), -1);
+}
+
+TEST_F(InterpreterTest, EvaluatesReductions) {
+    Builder& b = w.builder();
+    const NodeId up = b.convert(w.at(w.running, w.c), Scalar::Int);
+    const NodeId place = b.index(w.c);
+    EXPECT_EQ(int_value(b.reduce(Reduction::Sum, w.c, up)), 2);
+    EXPECT_EQ(int_value(b.reduce(Reduction::Product, w.c, up)), 0);
+    EXPECT_EQ(int_value(b.reduce(Reduction::ArgMin, w.c, up)), 2);
+    EXPECT_EQ(int_value(b.reduce(Reduction::ArgMax, w.c, b.convert(up, Scalar::Real))), 0);
+    EXPECT_EQ(int_value(b.reduce(Reduction::Maximum, w.c,
+                                 w.apply(Operator::Add, w.load(w.count), place))),
+              9);
+}
+
+TEST_F(InterpreterTest, NestsReductions) {
+    Builder& b = w.builder();
+    const NodeId product =
+        w.apply(Operator::Multiply, b.convert(w.at(w.running, w.c), Scalar::Int), b.index(w.d));
+    const NodeId sum = b.reduce(Reduction::Sum, w.c, b.reduce(Reduction::Sum, w.d, product));
+    EXPECT_EQ(int_value(sum), 2 * (0 + 1 + 2));
+}
+
+TEST_F(InterpreterTest, TakesOnlyOneBranch) {
+    Builder& b = w.builder();
+    const NodeId fault = b.fault(Scalar::Real, {SiteId{1}, w.integer(0)});
+    const NodeId few = w.apply(Operator::Less, w.load(w.count), w.integer(8));
+    EXPECT_EQ(real_value(b.select(few, w.real(5), fault)), 5.0);
+    EXPECT_FALSE(context.fault);
+    EXPECT_EQ(real_value(b.select(few, fault, w.real(5))), 0.0);
+    EXPECT_EQ(context.fault.kind, rddl::FaultKind::Type);
+    EXPECT_EQ(context.fault.place, (rddl::Place{1, 0}));
+}
+
+TEST_F(InterpreterTest, RecordsFaultsOfOperators) {
+    const NodeId negative = w.apply(Operator::Negate, w.load(w.count));
+    EXPECT_EQ(int_value(w.int_power(w.load(w.count), negative)), 0);
+    EXPECT_EQ(context.fault.kind, rddl::FaultKind::NegativeExponent);
+    EXPECT_EQ(context.fault.value, -7.0);
+}
+
+TEST_F(InterpreterTest, DrawsFromWeights) {
+    Builder& b = w.builder();
+    const Place place{SiteId{1}, w.integer(0)};
+    const NodeId zero = w.apply(Operator::Subtract, w.load(w.level), w.real(2));
+    const NodeId one = w.apply(Operator::Subtract, w.load(w.level), w.real(1));
+    EXPECT_EQ(int_value(b.discrete(false, place, {zero, zero, one})), 2);
+    EXPECT_EQ(int_value(b.discrete(true, place, {zero, w.load(w.level), zero})), 1);
+    const NodeId weight =
+        b.convert(w.apply(Operator::Equal, b.index(w.d), w.integer(2)), Scalar::Real);
+    EXPECT_EQ(int_value(b.discrete_over(false, place, w.d, weight)), 2);
+    EXPECT_EQ(int_value(b.discrete_over(true, place, w.d, weight)), 2);
+}
+
+TEST_F(InterpreterTest, RemembersLocals) {
+    add_step(w);
+    w.program.local_count = 2;
+    const NodeId twice = w.apply(Operator::Multiply, w.load(w.level), w.real(2));
+    const NodeId local = w.builder().local(LocalId{1}, Scalar::Real);
+    w.program.step[2].body = {{Let{LocalId{1}, twice}},
+                              {Store{w.next_level, {}, w.apply(Operator::Add, local, local)}}};
+    EXPECT_EQ(step().level, 8.0);
+}
+
+TEST_F(InterpreterTest, FindsRoomForManyLocals) {
+    add_step(w);
+    constexpr std::uint32_t count = 2000;
+    w.program.local_count = count;
+    Block block = {{Let{LocalId{0}, w.load(w.level)}}};
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const NodeId before = w.builder().local(LocalId{i - 1}, Scalar::Real);
+        block.push_back({Let{LocalId{i}, w.apply(Operator::Add, before, w.real(1))}});
+    }
+    block.push_back({Store{w.next_level, {}, w.builder().local(LocalId{count - 1}, Scalar::Real)}});
+    w.program.step[2].body = std::move(block);
+    EXPECT_EQ(step().level, 2.0 + count - 1);
+}
+
+}  // namespace
+}  // namespace rddlc::ir

@@ -1,0 +1,135 @@
+#include "ir/verify.hpp"
+
+#include "programs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rddlc::ir {
+namespace {
+
+class VerifyTest : public testing::Test {
+  protected:
+    VerifyTest() { add_step(w); }
+
+    // The only complaint, or all in one text.
+    std::string complaint() {
+        std::string text;
+        for (const std::string& sentence : verify(w.program)) {
+            text += (text.empty() ? "" : "; ") + sentence;
+        }
+        return text;
+    }
+    // Puts a node into the pool behind the builder's back.
+    NodeId add(Node node) {
+        w.program.nodes.push_back(std::move(node));
+        return {static_cast<std::uint32_t>(w.program.nodes.size() - 1)};
+    }
+    Store& store_of_level() { return std::get<Store>(w.program.step[2].body.front().form); }
+
+    Workbench w;
+};
+
+TEST_F(VerifyTest, AcceptsAWellFormedProgram) {
+    EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(VerifyTest, FindsOperandsBehindTheirUsers) {
+    const auto next = static_cast<std::uint32_t>(w.program.nodes.size() + 1);
+    add({Scalar::Real, Apply{Operator::Exp, {NodeId{next}}, {}}});
+    add({Scalar::Real, Constant{1.0}});
+    EXPECT_NE(complaint().find("which is not before it"), std::string::npos);
+}
+
+TEST_F(VerifyTest, FindsUnknownIds) {
+    add({Scalar::Real, Load{BufferId{99}, {}}});
+    EXPECT_EQ(complaint(), "there is no buffer 99");
+}
+
+TEST_F(VerifyTest, FindsTypesThatDoNotFit) {
+    store_of_level().value =
+        add({Scalar::Real, Apply{Operator::Add, {w.real(1), w.integer(1)}, {}}});
+    EXPECT_EQ(complaint(), "types do not fit in '1.0 + 1'");
+}
+
+TEST_F(VerifyTest, FindsValuesStoredToAnotherType) {
+    store_of_level().value = w.integer(3);
+    EXPECT_EQ(complaint(), "the type stored to 'level' is wrong");
+}
+
+TEST_F(VerifyTest, FindsMissingPlaces) {
+    const NodeId count = w.load(w.count);
+    store_of_level().value = w.builder().convert(
+        add({Scalar::Int, Apply{Operator::Power, {count, count}, {}}}), Scalar::Real);
+    EXPECT_EQ(complaint(), "types do not fit in 'power(state.count, state.count)'");
+}
+
+TEST_F(VerifyTest, FindsUnboundVariables) {
+    store_of_level().value = w.builder().convert(w.at(w.running, w.c), Scalar::Real);
+    EXPECT_EQ(complaint(), "a variable of 'real(state.running[c])' is not bound");
+}
+
+TEST_F(VerifyTest, FindsVariablesBoundTwice) {
+    auto& loop = std::get<Loop>(w.program.step[1].body.front().form);
+    auto& store = std::get<Store>(loop.body.front().form);
+    store.value = w.builder().reduce(Reduction::ForAll, w.c, w.at(w.running, w.c));
+    EXPECT_EQ(complaint(), "'c' is bound inside itself");
+}
+
+TEST_F(VerifyTest, FindsSitesUsedTwice) {
+    const NodeId draw = w.bernoulli(w.real(0.25));
+    auto& loop = std::get<Loop>(w.program.step[0].body.front().form);
+    std::get<Store>(loop.body.front().form).value = draw;
+    EXPECT_EQ(complaint(), "site 0 is used 2 times");
+}
+
+TEST_F(VerifyTest, FindsFallibleRightOperands) {
+    const NodeId count = w.load(w.count);
+    const NodeId fallible = w.apply(Operator::Less, w.int_power(count, count), w.integer(3));
+    w.program.terminations.front().value =
+        add({Scalar::Bool, Apply{Operator::And, {w.boolean(true), fallible}, {}}});
+    EXPECT_EQ(complaint(),
+              "types do not fit in 'true && power@1[0](state.count, state.count) < 3'");
+}
+
+TEST_F(VerifyTest, FindsReadsBeforeTheComputation) {
+    std::swap(w.program.step[0], w.program.step[1]);
+    EXPECT_EQ(complaint(), "");
+    w.program.step.push_back(w.program.step[1]);
+    w.program.step.erase(w.program.step.begin() + 1);
+    EXPECT_EQ(complaint(), "");
+    auto& loop = std::get<Loop>(w.program.step[0].body.front().form);
+    std::get<Store>(loop.body.front().form).value = w.at(w.seen, w.c);
+    EXPECT_EQ(complaint(), "'seen' is read before it is computed");
+}
+
+TEST_F(VerifyTest, FindsWhatNobodyOrSomebodyTwiceComputes) {
+    w.program.step.push_back(w.program.step.back());
+    EXPECT_EQ(complaint(), "'count' is computed twice");
+    w.program.step.pop_back();
+    w.program.step.pop_back();
+    EXPECT_EQ(complaint(), "nothing computes 'count'");
+}
+
+TEST_F(VerifyTest, FindsActionsInInvariants) {
+    w.program.invariants.front().value =
+        w.builder().reduce(Reduction::ForAll, w.c, w.at(w.reboot, w.c));
+    EXPECT_EQ(complaint(), "'reboot' must not be read here");
+}
+
+TEST_F(VerifyTest, FindsLocalsUsedOutsideOfTheirBlock) {
+    w.program.local_count = 1;
+    const NodeId local = w.builder().local(LocalId{0}, Scalar::Real);
+    Block& block = w.program.step[2].body;
+    store_of_level().value = local;
+    EXPECT_EQ(complaint(), "local 0 is not defined here");
+    block.insert(block.begin(), {Let{LocalId{0}, w.real(1)}});
+    EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(VerifyTest, FindsTablesOfTheWrongSize) {
+    w.program.buffers[w.connected.index].values.pop_back();
+    EXPECT_EQ(complaint(), "'CONNECTED' has 2 values instead of 3");
+}
+
+}  // namespace
+}  // namespace rddlc::ir
