@@ -1,0 +1,192 @@
+// What binds variables: aggregations, distributions over objects, determinants.
+#include "check/expressions.hpp"
+#include "check/types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rddlc::checking {
+namespace {
+
+bool is_bool_reduction(Reduction op) {
+    return op == Reduction::ForAll || op == Reduction::Exists;
+}
+
+bool is_arg_reduction(Reduction op) {
+    return op == Reduction::ArgMin || op == Reduction::ArgMax;
+}
+
+// Those without a value over an empty type.
+bool needs_objects(Reduction op) {
+    return is_arg_reduction(op) || op == Reduction::Minimum || op == Reduction::Maximum;
+}
+
+bool check_nonempty(const std::vector<model::VariableId>& variables, const ast::Name& name,
+                    Context& context) {
+    for (const model::VariableId id : variables) {
+        const model::Type& type = context.model.type_of(context.model.variables[id]);
+        if (!type.objects.empty()) continue;
+        if (!context.names.broken_types.contains(context.model.variables[id].type))
+            context.report(Diagnostic{
+                empty_scope, name.span,
+                fmt::format("'{}' has no value over the empty type '{}'", name.text, type.name)}
+                               .note(type.span, "declared here"));
+        return false;
+    }
+    return true;
+}
+
+bool check_single(std::size_t variables, const ast::Name& name, Context& context) {
+    if (variables == 1) return true;
+    context.report({one_variable_needed, name.span,
+                    fmt::format("'{}' takes one variable, found {}", name.text, variables)});
+    return false;
+}
+
+// The operators that give the same whether they stand inside or after the aggregation, so that
+// nothing is lost if the writer took the body to end earlier.
+bool is_harmless(Reduction op, ast::BinaryOperator after) {
+    using ast::BinaryOperator;
+    switch (op) {
+        case Reduction::Sum:
+            return after == BinaryOperator::Multiply || after == BinaryOperator::Divide;
+        case Reduction::Average:
+            return after == BinaryOperator::Multiply || after == BinaryOperator::Divide ||
+                   after == BinaryOperator::Add || after == BinaryOperator::Subtract;
+        case Reduction::Minimum:
+        case Reduction::Maximum:
+            return after == BinaryOperator::Add || after == BinaryOperator::Subtract;
+        case Reduction::ForAll:
+        case Reduction::Exists:
+            return after == BinaryOperator::And || after == BinaryOperator::Or;
+        default:
+            return false;
+    }
+}
+
+bool contains(Span outer, Span inner) {
+    return outer.file == inner.file && outer.begin <= inner.begin && inner.end <= outer.end;
+}
+
+bool uses_any(Span span, const std::vector<model::VariableId>& variables, const Scope& scope) {
+    return std::ranges::any_of(scope.variable_uses, [&](const VariableUse& use) {
+        return contains(span, use.span) &&
+               std::ranges::find(variables, use.variable) != variables.end();
+    });
+}
+
+// `sum_{?o : t} [v(?o)] + 10` adds 10 in every term, though it looks as if the brackets ended the
+// body. Warns where what follows the brackets has nothing to do with the aggregation's variables.
+void warn_of_long_body(const ast::Aggregation& aggregation, Reduction op,
+                       const std::vector<model::VariableId>& variables, Scope& scope) {
+    const Span body = aggregation.body->span;
+    const ast::Expr* left = &*aggregation.body;
+    std::optional<Span> rest;  // what follows the brackets
+    bool harmless = true;
+    while (const auto* binary = std::get_if<ast::Binary>(&left->node)) {
+        if (uses_any(binary->right->span, variables, scope)) return;
+        harmless = harmless && is_harmless(op, binary->op);
+        rest = Span{body.file, binary->op_span.begin, body.end};
+        left = &*binary->left;
+    }
+    if (harmless || !rest || !std::holds_alternative<ast::Group>(left->node)) return;
+    scope.context.report(
+        Diagnostic{long_body, rest,
+                   fmt::format("this belongs to the body of '{}', which goes on to the end",
+                               aggregation.op.text)}
+            .note(left->span, "the body does not end with these brackets")
+            .with_hint(fmt::format("to end the body, put brackets around the whole aggregation: "
+                                   "'[{}_{{...}} ...]'",
+                                   aggregation.op.text)));
+}
+
+void warn_of_unused_variables(const std::vector<model::VariableId>& variables, Span body,
+                              std::string_view what, Scope& scope) {
+    for (const model::VariableId id : variables) {
+        if (uses_any(body, {id}, scope)) continue;
+        const model::Variable& variable = scope.context.model.variables[id];
+        scope.context.report(
+            {unused_variable, variable.span,
+             fmt::format("the body of '{}' does not use '?{}'", what, variable.name)});
+    }
+}
+
+Typed check_body(Reduction op, Typed body, const ast::Name& name, Scope& scope) {
+    const std::string what = fmt::format("the body of '{}'", name.text);
+    if (is_bool_reduction(op)) return require_bool(std::move(body), what, scope);
+    if (op == Reduction::Average) return require_real(std::move(body), what, scope);
+    body = require_number(std::move(body), what, scope);
+    if (!body) return std::nullopt;
+    const model::ValueType type = promoted(model::int_type, body->type);
+    return convert(std::move(*body), type);
+}
+
+void report_unknown_aggregation(const ast::Name& name, Context& context) {
+    std::string hint = suggestion(context, name.text, reduction_names());
+    if (function_named(name.text) && !reduction_named(name.text))
+        hint = fmt::format("'{0}' is a function: '{0}[...]'", name.text);
+    context.report(Diagnostic{unknown_aggregation, name.span,
+                              fmt::format("there is no aggregation '{}'", name.text)}
+                       .with_hint(hint));
+}
+
+}  // namespace
+
+Typed check_aggregation(const ast::Aggregation& aggregation, Span span, Scope& scope) {
+    Context& context = scope.context;
+    const ast::Name& name = aggregation.op;
+    const std::optional<Reduction> op = reduction_named(name.text);
+    if (!op) report_unknown_aggregation(name, context);
+
+    const Binder binder(aggregation.variables, name.text, span, scope);
+    Typed body = check_expression(*aggregation.body, scope);
+    if (!op) return std::nullopt;
+    body = check_body(*op, std::move(body), name, scope);
+    const bool single =
+        !is_arg_reduction(*op) || check_single(aggregation.variables.size(), name, context);
+    const auto variables = binder.variables();
+    if (!body || !variables || !single) return std::nullopt;
+    if (needs_objects(*op) && !check_nonempty(*variables, name, context)) return std::nullopt;
+    warn_of_long_body(aggregation, *op, *variables, scope);
+    warn_of_unused_variables(*variables, aggregation.body->span, name.text, scope);
+
+    model::ValueType type = body->type;
+    if (is_arg_reduction(*op))
+        type = {model::ValueType::Kind::Object, context.model.variables[variables->front()].type};
+    return model::Expr{type, span, model::Aggregate{*op, *variables, std::move(*body)}};
+}
+
+Typed check_discrete_over(const ast::DiscreteOver& discrete, Span span, Scope& scope) {
+    Context& context = scope.context;
+    const Binder binder(discrete.variables, discrete.name.text, span, scope);
+    Typed weight = require_real(check_expression(*discrete.weight, scope),
+                                fmt::format("the weight of '{}'", discrete.name.text), scope);
+    const bool single = check_single(discrete.variables.size(), discrete.name, context);
+    const auto variables = binder.variables();
+    if (!weight || !variables || !single) return std::nullopt;
+    if (!check_nonempty(*variables, discrete.name, context)) return std::nullopt;
+    const model::VariableId variable = variables->front();
+    const model::ValueType type{model::ValueType::Kind::Object,
+                                context.model.variables[variable].type};
+    return model::Expr{
+        type, span,
+        model::DiscreteOver{discrete.name.text == "UnnormDiscrete", variable, std::move(*weight)}};
+}
+
+Typed check_determinant(const ast::Determinant& determinant, Span span, Scope& scope) {
+    Context& context = scope.context;
+    const Binder binder({determinant.row, determinant.column}, "det", span, scope);
+    Typed element =
+        require_real(check_expression(*determinant.element, scope), "the body of 'det'", scope);
+    const auto variables = binder.variables();
+    if (!element || !variables) return std::nullopt;
+    const model::VariableId row = variables->front();
+    const model::VariableId column = variables->back();
+    if (!check_square("det", row, column, span, context)) return std::nullopt;
+    return model::Expr{model::real_type, span,
+                       model::Determinant{row, column, std::move(*element)}};
+}
+
+}  // namespace rddlc::checking

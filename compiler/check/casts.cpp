@@ -1,0 +1,253 @@
+#include "check/casts.hpp"
+
+#include "check/types.hpp"
+#include "support/match.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rddlc::checking {
+namespace {
+
+using Kind = model::ValueType::Kind;
+
+// A place whose value has a forbidden type on some path.
+struct Misfit {
+    Span span;
+    model::ValueType found;
+};
+using Misfits = std::vector<Misfit>;
+
+std::string excerpt(const Context& context, Span span) {
+    constexpr std::size_t longest = 40;
+    std::string text;
+    for (const char c : context.sources.text(span)) {
+        const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+        if (!blank) text += c;
+        if (blank && !text.empty() && text.back() != ' ') text += ' ';
+    }
+    return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+}
+
+std::string fault_message(Span span, model::ValueType found, const Need& need,
+                          const Context& context) {
+    return fmt::format("'{}' is {}, {} must be {}", excerpt(context, span),
+                       describe(context, found), need.what, describe(context, need.type));
+}
+
+model::Expr fault_at(Span span, model::ValueType found, const Need& need, const Context& context) {
+    return {need.type, span, model::TypeFault{fault_message(span, found, need, context)}};
+}
+
+// Rewrites an expression to a lower type, as if each operation worked on what its operands really
+// are: `if (c) then 1 else 2.5` is int where c holds.
+class Narrowing {
+  public:
+    Narrowing(const Need& need, const Context& context) : need_(need), context_(context) {}
+
+    // Nothing if no path gives the type. Misfits on other paths become faults.
+    Typed at(model::Expr e, model::ValueType to) {
+        if (castable(e.type, to)) return convert(std::move(e), to);
+        const Span span = e.span;
+        return match(
+            std::move(e.node), [&](model::Convert&& n) { return at(std::move(*n.operand), to); },
+            [&](model::If&& n) { return if_(std::move(n), span, to); },
+            [&](model::Switch&& n) { return switch_(std::move(n), span, to); },
+            [&](model::Apply&& n) { return apply(std::move(n), span, to); },
+            [&](model::Aggregate&& n) { return aggregate(std::move(n), span, to); },
+            [&](model::Sample&& n) { return delta(std::move(n), span, to); },
+            [&](model::External&& n) -> Typed {
+                // An external function gives what it gives.
+                return model::Expr{to, span, std::move(n)};
+            },
+            [](auto&&) -> Typed { return std::nullopt; });
+    }
+
+    const Misfits& misfits() const { return misfits_; }
+
+  private:
+    model::Expr branch(model::ExprBox&& box, model::ValueType to, bool& fits) {
+        const Span span = box->span;
+        const model::ValueType found = natural_type(*box);
+        const std::size_t before = misfits_.size();
+        if (Typed narrowed = at(std::move(*box), to)) {
+            fits = true;
+            return std::move(*narrowed);
+        }
+        misfits_.resize(before);
+        misfits_.push_back({span, found});
+        return fault_at(span, found, need_, context_);
+    }
+
+    // Before it was promoted to match the other branches.
+    static model::ValueType natural_type(const model::Expr& e) {
+        const auto* cast = std::get_if<model::Convert>(&e.node);
+        return cast ? cast->operand->type : e.type;
+    }
+
+    Typed if_(model::If&& n, Span span, model::ValueType to) {
+        bool fits = false;
+        model::Expr then_branch = branch(std::move(n.then_branch), to, fits);
+        model::Expr else_branch = branch(std::move(n.else_branch), to, fits);
+        if (!fits) return std::nullopt;
+        return model::Expr{
+            to, span,
+            model::If{std::move(n.condition), std::move(then_branch), std::move(else_branch)}};
+    }
+
+    Typed switch_(model::Switch&& n, Span span, model::ValueType to) {
+        bool fits = false;
+        for (std::optional<model::ExprBox>& value : n.cases)
+            if (value) value = branch(std::move(*value), to, fits);
+        if (n.default_case) n.default_case = branch(std::move(*n.default_case), to, fits);
+        if (!fits) return std::nullopt;
+        return model::Expr{to, span, std::move(n)};
+    }
+
+    // Operators that give an int for ints.
+    static std::optional<Operator> on_ints(Operator op) {
+        switch (op) {
+            case Operator::Add:
+            case Operator::Subtract:
+            case Operator::Multiply:
+            case Operator::Negate:
+            case Operator::Abs:
+            case Operator::Minimum:
+            case Operator::Maximum:
+            case Operator::Power:
+                return op;
+            case Operator::FloorModuloReal:
+                return Operator::FloorModulo;
+            default:
+                return std::nullopt;
+        }
+    }
+
+    Typed apply(model::Apply&& n, Span span, model::ValueType to) {
+        const std::optional<Operator> op = on_ints(n.op);
+        if (!op || to != model::int_type) return std::nullopt;
+        for (model::Expr& operand : n.operands) {
+            Typed narrowed = at(std::move(operand), to);
+            if (!narrowed) return std::nullopt;
+            operand = std::move(*narrowed);
+        }
+        return model::Expr{to, span, model::Apply{*op, std::move(n.operands)}};
+    }
+
+    Typed aggregate(model::Aggregate&& n, Span span, model::ValueType to) {
+        const bool keeps_type = n.op == Reduction::Sum || n.op == Reduction::Product ||
+                                n.op == Reduction::Minimum || n.op == Reduction::Maximum;
+        if (!keeps_type || to != model::int_type) return std::nullopt;
+        Typed body = at(std::move(*n.body), to);
+        if (!body) return std::nullopt;
+        return model::Expr{to, span,
+                           model::Aggregate{n.op, std::move(n.variables), std::move(*body)}};
+    }
+
+    Typed delta(model::Sample&& n, Span span, model::ValueType to) {
+        if (n.distribution != Distribution::KronDelta && n.distribution != Distribution::DiracDelta)
+            return std::nullopt;
+        Typed value = at(std::move(n.parameters[0]), to);
+        if (!value) return std::nullopt;
+        n.parameters[0] = std::move(*value);
+        return model::Expr{to, span, std::move(n)};
+    }
+
+    const Need& need_;
+    const Context& context_;
+    Misfits misfits_;
+};
+
+void warn(Span span, model::ValueType found, const Need& need, Context& context) {
+    context.report(
+        Diagnostic{type_fault, span, fault_message(span, found, need, context)}.with_hint(
+            "a run that gets here stops with a fault"));
+}
+
+std::string hint_for(model::ValueType found, const Need& need) {
+    if (need.type == model::bool_type && !is_object(found)) return "compare it: '... > 0'";
+    if (need.type == model::int_type && found == model::real_type)
+        return "'round[...]', 'floor[...]' and 'ceil[...]' give an int; '/' always gives a real, "
+               "'div[a, b]' an int";
+    return "";
+}
+
+void report_misfit(Span span, model::ValueType found, const Need& need, Scope& scope) {
+    Diagnostic diagnostic{
+        need.code, span,
+        fmt::format("{} must be {}, found {}", need.what, describe(scope.context, need.type),
+                    describe(scope.context, found))};
+    if (need.note) diagnostic.notes.push_back(*need.note);
+    diagnostic.hint = hint_for(found, need);
+    scope.context.report(std::move(diagnostic));
+}
+
+}  // namespace
+
+bool is_object(model::ValueType type) {
+    return type.kind == Kind::Object;
+}
+
+bool castable(model::ValueType from, model::ValueType to) {
+    if (is_object(from) || is_object(to)) return from == to;
+    return from.kind <= to.kind;
+}
+
+model::ValueType promoted(model::ValueType a, model::ValueType b) {
+    return {std::max(a.kind, b.kind)};
+}
+
+model::Expr convert(model::Expr expression, model::ValueType to) {
+    if (expression.type == to) return expression;
+    const Span span = expression.span;
+    return {to, span, model::Convert{std::move(expression)}};
+}
+
+Typed try_require(model::Expr expression, const Need& need, Scope& scope) {
+    Narrowing narrowing(need, scope.context);
+    Typed result = narrowing.at(std::move(expression), need.type);
+    if (result)
+        for (const Misfit& misfit : narrowing.misfits())
+            warn(misfit.span, misfit.found, need, scope.context);
+    return result;
+}
+
+Typed require(Typed expression, const Need& need, Scope& scope) {
+    if (!expression) return std::nullopt;
+    const Span span = expression->span;
+    const model::ValueType found = expression->type;
+    Typed result = try_require(std::move(*expression), need, scope);
+    if (!result) report_misfit(span, found, need, scope);
+    return result;
+}
+
+Typed require_bool(Typed expression, std::string what, Scope& scope) {
+    return require(std::move(expression), {model::bool_type, std::move(what), bool_needed}, scope);
+}
+
+Typed require_int(Typed expression, std::string what, Scope& scope) {
+    return require(std::move(expression), {model::int_type, std::move(what), int_needed}, scope);
+}
+
+Typed require_number(Typed expression, std::string_view what, Scope& scope) {
+    if (!expression || !is_object(expression->type)) return expression;
+    scope.context.report({number_needed, expression->span,
+                          fmt::format("{} must be a number or a bool, found {}", what,
+                                      describe(scope.context, expression->type))});
+    return std::nullopt;
+}
+
+Typed require_real(Typed expression, std::string_view what, Scope& scope) {
+    Typed number = require_number(std::move(expression), what, scope);
+    if (!number) return std::nullopt;
+    return convert(std::move(*number), model::real_type);
+}
+
+model::Expr fault_instead_of(const model::Expr& expression, const Need& need, Scope& scope) {
+    warn(expression.span, expression.type, need, scope.context);
+    return fault_at(expression.span, expression.type, need, scope.context);
+}
+
+}  // namespace rddlc::checking

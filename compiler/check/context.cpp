@@ -1,0 +1,41 @@
+#include "check/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rddlc::checking {
+
+std::string suggestion(const Context& context, std::string_view name,
+                       std::vector<std::string> candidates) {
+    constexpr std::size_t enough_errors = 50;
+    if (context.diagnostics.error_count() >= enough_errors) return "";
+    std::ranges::sort(candidates);
+    const auto near = did_you_mean(name, candidates);
+    return near ? fmt::format("did you mean '{}'?", *near) : "";
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string joined(const std::vector<std::string>& words, std::string_view last) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? fmt::format(" {} ", last) : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string with_article(Role role) {
+    const std::string_view name = name_of(role);
+    const bool vowel = std::string_view("aeiou").find(name.front()) != std::string_view::npos;
+    return fmt::format("{} {}", vowel ? "an" : "a", name);
+}
+
+std::string written_name(const model::Fluent& fluent, bool next) {
+    return fluent.name + (next ? "'" : "");
+}
+
+}  // namespace rddlc::checking

@@ -1,0 +1,78 @@
+// What the parts of the checker share while the model grows.
+#pragma once
+
+#include "ast/ast.hpp"
+#include "check/codes.hpp"
+#include "model/model.hpp"
+#include "support/diagnostic.hpp"
+#include "support/source.hpp"
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace rddlc::checking {
+
+// An object of the instance or a member of an enumerated type.
+struct Object {
+    model::TypeId type;
+    std::int64_t index;
+    Span span;
+};
+
+// Everything that has a name. Maps point into the model by number.
+struct Names {
+    std::unordered_map<std::string, model::TypeId> types;
+    std::unordered_map<std::string, model::FluentId> fluents;
+    std::unordered_map<std::string, Object> objects;
+    // Declared with an error that was reported: what follows from it is not reported again.
+    std::unordered_set<model::TypeId> broken_types;
+    std::unordered_set<model::FluentId> broken_fluents;
+};
+
+struct Context {
+    const Sources& sources;
+    Diagnostics& diagnostics;
+    model::Model model = {};
+    Names names = {};
+    // Fluents that some expression mentions.
+    std::unordered_set<model::FluentId> mentioned = {};
+
+    void report(Diagnostic diagnostic) { diagnostics.report(std::move(diagnostic)); }
+
+    const model::Fluent& fluent(model::FluentId id) const { return model.fluents[id]; }
+    const model::Type& type(model::TypeId id) const { return model.types[id]; }
+};
+
+// Lookup in one of the maps of Names; nullptr if absent.
+template <class T>
+const T* find(const std::unordered_map<std::string, T>& map, const std::string& name) {
+    const auto found = map.find(name);
+    return found == map.end() ? nullptr : &found->second;
+}
+
+template <class T>
+std::vector<std::string> keys(const std::unordered_map<std::string, T>& map) {
+    std::vector<std::string> result;
+    result.reserve(map.size());
+    for (const auto& [name, value] : map) result.push_back(name);
+    return result;
+}
+
+// "did you mean 'rlevel'?" or nothing. After many errors nothing is suggested any more: the
+// search looks at every candidate.
+std::string suggestion(const Context& context, std::string_view name,
+                       std::vector<std::string> candidates);
+
+// "1 argument", "2 arguments"
+std::string counted(std::size_t count, std::string_view noun);
+// "a, b and c"
+std::string joined(const std::vector<std::string>& words, std::string_view last = "and");
+// "an action-fluent", "a state-fluent"
+std::string with_article(Role role);
+// The written name: a state-fluent's next value has a prime.
+std::string written_name(const model::Fluent& fluent, bool next);
+
+}  // namespace rddlc::checking

@@ -1,0 +1,174 @@
+// Conditional probability functions: one for each fluent that has no value of its own.
+#include "check/definitions.hpp"
+#include "check/expressions.hpp"
+#include "check/types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+namespace rddlc::checking {
+namespace {
+
+bool needs_cpf(Role role) {
+    return role != Role::NonFluent && role != Role::Action;
+}
+
+Definition definition_of(Role role) {
+    switch (role) {
+        case Role::Derived:
+            return Definition::Derived;
+        case Role::Interm:
+            return Definition::Interm;
+        case Role::Observ:
+            return Definition::Observ;
+        default:
+            return Definition::NextState;
+    }
+}
+
+std::string written_name(const ast::Cpf& cpf) {
+    return cpf.name.text + (cpf.primed ? "'" : "");
+}
+
+class CpfChecker {
+  public:
+    explicit CpfChecker(Context& context) : context_(context) {}
+
+    void check(const ast::Cpf& cpf) {
+        const model::FluentId* id = find(context_.names.fluents, cpf.name.text);
+        if (!id) return report_undeclared(cpf);
+        const model::Fluent& fluent = context_.fluent(*id);
+        const bool first = defined_.try_emplace(*id, cpf.name.span).second;
+        if (context_.names.broken_fluents.contains(*id)) return;
+        bool sound = check_written(cpf, fluent);
+        if (sound && !first) {
+            context_.report(Diagnostic{repeated_cpf, cpf.name.span,
+                                       fmt::format("'{}' has a CPF already", written_name(cpf))}
+                                .note(defined_[*id], "defined here"));
+            sound = false;
+        }
+        if (check_parameter_count(cpf, fluent)) check_definition(cpf, *id, sound);
+    }
+
+    void report_missing() const {
+        for (model::FluentId id = 0; id < context_.model.fluents.size(); ++id) {
+            const model::Fluent& fluent = context_.fluent(id);
+            const bool broken = context_.names.broken_fluents.contains(id);
+            if (broken || !needs_cpf(fluent.role) || defined_.contains(id)) continue;
+            const std::string name = checking::written_name(fluent, fluent.role == Role::State);
+            context_.report(
+                Diagnostic{missing_cpf, fluent.span,
+                           fmt::format("{} '{}' has no CPF", name_of(fluent.role), fluent.name)}
+                    .with_hint(fmt::format("define '{}' in 'cpfs {{ ... }};'", name)));
+        }
+    }
+
+    std::vector<CpfUses> uses() && { return std::move(uses_); }
+
+  private:
+    void report_undeclared(const ast::Cpf& cpf) {
+        context_.report(
+            Diagnostic{undeclared_cpf, cpf.name.span,
+                       fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text)}
+                .with_hint(suggestion(context_, cpf.name.text, keys(context_.names.fluents))));
+    }
+
+    // Whether a CPF may be written like this for this fluent.
+    bool check_written(const ast::Cpf& cpf, const model::Fluent& fluent) {
+        if (!needs_cpf(fluent.role)) {
+            const std::string_view reason = fluent.role == Role::Action
+                                                ? "the agent chooses its value"
+                                                : "the instance gives its value";
+            context_.report(Diagnostic{cpf_not_allowed, cpf.name.span,
+                                       fmt::format("{} '{}' cannot have a CPF: {}",
+                                                   name_of(fluent.role), fluent.name, reason)}
+                                .note(fluent.span, "declared here"));
+            return false;
+        }
+        if (fluent.role == Role::State && !cpf.primed) {
+            context_.report(
+                Diagnostic{forgotten_prime, cpf.name.span,
+                           fmt::format("the CPF of state-fluent '{0}' defines its next "
+                                       "value '{0}''",
+                                       fluent.name)}
+                    .note(fluent.span, "declared here")
+                    .with_hint(fmt::format("you forgot a prime: write '{}'{} = ...'", fluent.name,
+                                           cpf.parameters.empty() ? "" : "(...)")));
+            return false;
+        }
+        if (fluent.role != Role::State && cpf.primed) {
+            context_.report(
+                Diagnostic{misplaced_prime, cpf.name.span,
+                           fmt::format("'{}' is {}: only state-fluents have a next value",
+                                       fluent.name, with_article(fluent.role))}
+                    .note(fluent.span, "declared here")
+                    .with_hint(fmt::format("write '{}' without the prime", fluent.name)));
+            return false;
+        }
+        return true;
+    }
+
+    bool check_parameter_count(const ast::Cpf& cpf, const model::Fluent& fluent) {
+        const std::size_t expected = fluent.parameters.size();
+        if (cpf.parameters.size() == expected) return true;
+        std::vector<std::string> types;
+        for (const model::TypeId type : fluent.parameters)
+            types.push_back(context_.type(type).name);
+        const std::string list = types.empty() ? "" : fmt::format(" ({})", fmt::join(types, ", "));
+        context_.report(
+            Diagnostic{wrong_cpf_arity, cpf.name.span,
+                       fmt::format("'{}' has {}{}, found {}", written_name(cpf),
+                                   counted(expected, "parameter"), list, cpf.parameters.size())}
+                .note(fluent.span, "declared here"));
+        return false;
+    }
+
+    // The body is checked for errors of its own even if the CPF does not count.
+    void check_definition(const ast::Cpf& cpf, model::FluentId id, bool counts) {
+        Scope scope{context_};
+        std::vector<model::VariableId> parameters;
+        for (std::size_t i = 0; i < cpf.parameters.size(); ++i) {
+            const auto variable = bind(cpf.parameters[i], context_.fluent(id).parameters[i], scope);
+            if (variable) parameters.push_back(*variable);
+        }
+        Typed body = check_body(cpf, id, scope);
+        if (!counts) return;
+        const Role role = context_.fluent(id).role;
+        check_dependencies(definition_of(role), fmt::format("'{}'", written_name(cpf)),
+                           scope.fluent_uses, context_);
+        if (!body || parameters.size() < cpf.parameters.size())
+            body = model::Expr{context_.fluent(id).range, cpf.span, model::Constant{false}};
+        uses_.push_back({context_.model.cpfs.size(), std::move(scope.fluent_uses)});
+        context_.model.cpfs.push_back({id, std::move(parameters), std::move(*body), cpf.span});
+    }
+
+    Typed check_body(const ast::Cpf& cpf, model::FluentId id, Scope& scope) {
+        const auto* vector = std::get_if<ast::RandomVector>(&cpf.body.node);
+        Typed body = vector ? check_random_vector(*vector, cpf.body.span, scope)
+                            : check_expression(cpf.body, scope);
+        const model::Fluent& fluent = context_.fluent(id);
+        return require(std::move(body),
+                       {fluent.range, fmt::format("the value of '{}'", written_name(cpf)),
+                        wrong_cpf_type, Note{fluent.span, "declared here"}},
+                       scope);
+    }
+
+    Context& context_;
+    std::unordered_map<model::FluentId, Span> defined_;  // where
+    std::vector<CpfUses> uses_;
+};
+
+}  // namespace
+
+std::vector<CpfUses> check_cpfs(const Blocks& blocks, Context& context) {
+    if (!blocks.cpfs) return {};
+    CpfChecker checker(context);
+    for (const ast::Cpf& cpf : blocks.cpfs->definitions) checker.check(cpf);
+    checker.report_missing();
+    return std::move(checker).uses();
+}
+
+}  // namespace rddlc::checking

@@ -1,0 +1,44 @@
+// What the domain defines by expressions: CPFs, reward, conditions.
+#pragma once
+
+#include "check/blocks.hpp"
+#include "check/scope.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace rddlc::checking {
+
+// Whose definition an expression is; decides what it may depend on.
+enum class Definition : std::uint8_t {
+    Derived,
+    Interm,
+    NextState,
+    Observ,
+    Reward,
+    ActionPrecondition,
+    StateInvariant,
+    Termination,
+};
+
+// Which CPF mentions which fluents.
+struct CpfUses {
+    std::size_t cpf;  // index into Model::cpfs
+    std::vector<FluentUse> uses;
+};
+
+// cpfs.cpp: fills Model::cpfs in the order written.
+std::vector<CpfUses> check_cpfs(const Blocks& blocks, Context& context);
+
+// conditions.cpp: reward, preconditions, invariants, terminations.
+void check_reward(const Blocks& blocks, Context& context);
+void check_conditions(const Blocks& blocks, Context& context);
+
+// dependencies.cpp
+// Reports what a definition mentions but may not; `what` names it in messages.
+void check_dependencies(Definition definition, const std::string& what,
+                        const std::vector<FluentUse>& uses, Context& context);
+// Sorts Model::cpfs by level, then by name; reports cycles.
+void order_cpfs(const std::vector<CpfUses>& uses, Context& context);
+
+}  // namespace rddlc::checking

@@ -1,0 +1,219 @@
+// What may depend on what, cycles, and the order of evaluation.
+#include "check/definitions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace rddlc::checking {
+namespace {
+
+// ------------------------------------------------------------------------------ the rules
+
+// What a definition may mention besides non-fluents.
+struct Rule {
+    Definition definition;
+    std::string_view title;  // "a derived-fluent"
+    bool state, action, interm, derived, next;
+};
+
+constexpr std::array rules = {
+    Rule{Definition::Derived, "a derived-fluent", true, false, false, true, false},
+    Rule{Definition::Interm, "an interm-fluent", true, true, true, true, false},
+    Rule{Definition::NextState, "the next state", true, true, true, true, true},
+    Rule{Definition::Observ, "an observ-fluent", false, true, true, true, true},
+    Rule{Definition::Reward, "the reward", true, true, true, true, true},
+    Rule{Definition::ActionPrecondition, "a precondition of the action", true, true, false, false,
+         false},
+    Rule{Definition::StateInvariant, "a state-invariant", true, false, false, false, false},
+    Rule{Definition::Termination, "a termination condition", true, false, false, false, false},
+};
+
+const Rule& rule_of(Definition definition) {
+    return rules[static_cast<std::size_t>(definition)];
+}
+
+bool allows(const Rule& rule, Role role, bool next) {
+    switch (role) {
+        case Role::NonFluent:
+            return true;
+        case Role::State:
+            return next ? rule.next : rule.state;
+        case Role::Action:
+            return rule.action;
+        case Role::Interm:
+            return rule.interm;
+        case Role::Derived:
+            return rule.derived;
+        case Role::Observ:
+            break;
+    }
+    return false;
+}
+
+std::string allowed_list(const Rule& rule) {
+    std::vector<std::string> words{"non-fluents"};
+    if (rule.state) words.emplace_back("state-fluents");
+    if (rule.action) words.emplace_back("action-fluents");
+    if (rule.derived) words.emplace_back("derived-fluents");
+    if (rule.interm) words.emplace_back("interm-fluents");
+    if (rule.next) words.emplace_back("next-state fluents");
+    return joined(words);
+}
+
+std::string role_of(const model::Fluent& fluent, bool next) {
+    return next ? "a next-state fluent" : with_article(fluent.role);
+}
+
+std::string hint_for(const Rule& rule, const model::Fluent& fluent, bool next) {
+    const std::string allowed = fmt::format("{} may depend on {}", rule.title, allowed_list(rule));
+    if (rule.definition == Definition::Observ && fluent.role == Role::State && !next)
+        return fmt::format("write '{}'': {}", fluent.name, allowed);
+    if (next && rule.state)
+        return fmt::format("write '{}' without the prime: {}", fluent.name, allowed);
+    return allowed;
+}
+
+// --------------------------------------------------------------------------------- cycles
+
+struct Edge {
+    std::size_t to;  // a CPF
+    Span span;       // where it is mentioned
+};
+// For each CPF the CPFs it mentions, each once.
+using Graph = std::vector<std::vector<Edge>>;
+
+bool defined_by_cpf(const model::Fluent& fluent, bool next) {
+    return fluent.role == Role::State
+               ? next
+               : fluent.role != Role::NonFluent && fluent.role != Role::Action;
+}
+
+Graph build_graph(const std::vector<CpfUses>& all_uses, const Context& context) {
+    std::unordered_map<model::FluentId, std::size_t> cpf_of;
+    for (std::size_t i = 0; i < context.model.cpfs.size(); ++i)
+        cpf_of[context.model.cpfs[i].fluent] = i;
+    Graph graph(context.model.cpfs.size());
+    for (const CpfUses& entry : all_uses) {
+        std::set<std::size_t> seen;
+        for (const FluentUse& use : entry.uses) {
+            const auto target = cpf_of.find(use.fluent);
+            const bool edge =
+                target != cpf_of.end() && defined_by_cpf(context.fluent(use.fluent), use.next);
+            if (edge && seen.insert(target->second).second)
+                graph[entry.cpf].push_back({target->second, use.span});
+        }
+    }
+    return graph;
+}
+
+constexpr int no_level = -1;
+
+// 0 without dependencies, else 1 + the largest level below; no_level on cycles and behind them.
+std::vector<int> levels_of(const Graph& graph) {
+    std::vector<std::vector<std::size_t>> users(graph.size());
+    std::vector<std::size_t> open(graph.size());  // dependencies without a level yet
+    std::vector<std::size_t> ready;
+    for (std::size_t i = 0; i < graph.size(); ++i) {
+        open[i] = graph[i].size();
+        for (const Edge& edge : graph[i]) users[edge.to].push_back(i);
+        if (graph[i].empty()) ready.push_back(i);
+    }
+    std::vector<int> levels(graph.size(), no_level);
+    while (!ready.empty()) {
+        const std::size_t cpf = ready.back();
+        ready.pop_back();
+        int level = 0;
+        for (const Edge& edge : graph[cpf]) level = std::max(level, levels[edge.to] + 1);
+        levels[cpf] = level;
+        for (const std::size_t user : users[cpf])
+            if (--open[user] == 0) ready.push_back(user);
+    }
+    return levels;
+}
+
+std::string cpf_name(std::size_t cpf, const Context& context) {
+    const model::Fluent& fluent = context.fluent(context.model.cpfs[cpf].fluent);
+    return written_name(fluent, fluent.role == Role::State);
+}
+
+// Steps of a cycle: each CPF mentions the next one's fluent, the last the first's.
+void report_cycle(const std::vector<std::size_t>& cpfs, const std::vector<Span>& mentions,
+                  Context& context) {
+    std::string path = cpf_name(cpfs.front(), context);
+    for (std::size_t i = 1; i < cpfs.size(); ++i) path += " -> " + cpf_name(cpfs[i], context);
+    path += " -> " + cpf_name(cpfs.front(), context);
+    Diagnostic diagnostic{
+        cyclic_cpfs, context.model.cpfs[cpfs.front()].span,
+        fmt::format("'{}' depends on itself: {}", cpf_name(cpfs.front(), context), path)};
+    // The span of the whole CPF would underline its body.
+    diagnostic.span = mentions.back();
+    for (std::size_t i = 0; i < cpfs.size(); ++i)
+        diagnostic.notes.push_back(
+            {mentions[i], fmt::format("'{}' needs '{}'", cpf_name(cpfs[i], context),
+                                      cpf_name(cpfs[(i + 1) % cpfs.size()], context))});
+    diagnostic.hint = "dependencies are between fluents, whatever their arguments";
+    context.report(std::move(diagnostic));
+}
+
+// Walks along dependencies without a level until a CPF comes again: that is a cycle.
+void report_cycles(const Graph& graph, const std::vector<int>& levels, Context& context) {
+    std::vector<bool> visited(graph.size(), false);
+    for (std::size_t start = 0; start < graph.size(); ++start) {
+        std::vector<std::size_t> path;
+        std::vector<Span> mentions;
+        std::size_t cpf = start;
+        while (levels[cpf] == no_level && !visited[cpf]) {
+            visited[cpf] = true;
+            path.push_back(cpf);
+            const Edge& next = *std::ranges::find_if(
+                graph[cpf], [&](const Edge& edge) { return levels[edge.to] == no_level; });
+            mentions.push_back(next.span);
+            cpf = next.to;
+        }
+        const auto first = std::ranges::find(path, cpf);
+        if (first == path.end()) continue;
+        const auto skipped = first - path.begin();
+        report_cycle({first, path.end()}, {mentions.begin() + skipped, mentions.end()}, context);
+    }
+}
+
+}  // namespace
+
+void check_dependencies(Definition definition, const std::string& what,
+                        const std::vector<FluentUse>& uses, Context& context) {
+    const Rule& rule = rule_of(definition);
+    std::set<std::pair<model::FluentId, bool>> reported;
+    for (const FluentUse& use : uses) {
+        const model::Fluent& fluent = context.fluent(use.fluent);
+        if (allows(rule, fluent.role, use.next)) continue;
+        if (!reported.insert({use.fluent, use.next}).second) continue;
+        context.report(
+            Diagnostic{illegal_dependency, use.span,
+                       fmt::format("{} may not depend on '{}', {}", what,
+                                   written_name(fluent, use.next), role_of(fluent, use.next))}
+                .note(fluent.span, "declared here")
+                .with_hint(hint_for(rule, fluent, use.next)));
+    }
+}
+
+void order_cpfs(const std::vector<CpfUses>& uses, Context& context) {
+    const Graph graph = build_graph(uses, context);
+    const std::vector<int> levels = levels_of(graph);
+    report_cycles(graph, levels, context);
+
+    std::vector<std::size_t> order(graph.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::sort(
+        order, {}, [&](std::size_t cpf) { return std::pair(levels[cpf], cpf_name(cpf, context)); });
+    std::vector<model::Cpf> sorted;
+    sorted.reserve(order.size());
+    for (const std::size_t cpf : order) sorted.push_back(std::move(context.model.cpfs[cpf]));
+    context.model.cpfs = std::move(sorted);
+}
+
+}  // namespace rddlc::checking

@@ -1,0 +1,186 @@
+#include "check/fluents.hpp"
+
+#include "check/types.hpp"
+#include "check/values.hpp"
+
+#include <fmt/format.h>
+
+namespace rddlc::checking {
+namespace {
+
+// Values are held in dense tables; more than this is a mistake in the instance.
+constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
+
+std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& context) {
+    if (range.text == "bool") return model::bool_type;
+    if (range.text == "int") return model::int_type;
+    if (range.text == "real") return model::real_type;
+    if (const model::TypeId* id = find(context.names.types, range.text))
+        return model::ValueType{model::ValueType::Kind::Object, *id};
+    context.report(
+        Diagnostic{unknown_type, range.span, fmt::format("type '{}' is not declared", range.text)}
+            .with_hint(suggestion(context, range.text, [&] {
+                std::vector<std::string> names = keys(context.names.types);
+                names.insert(names.end(), {"bool", "int", "real"});
+                return names;
+            }())));
+    return std::nullopt;
+}
+
+bool has_initial_values(Role role) {
+    return role == Role::NonFluent || role == Role::State || role == Role::Action;
+}
+
+void check_name(const ast::PVariable& declaration, Context& context) {
+    const std::string& name = declaration.name.text;
+    if (declaration.primed)
+        context.report(Diagnostic{illegal_fluent_name, declaration.name.span,
+                                  fmt::format("'{}'' is declared with a prime", name)}
+                           .with_hint("declare it without; its next value is written with one"));
+    if (name.find("__") != std::string::npos)
+        context.report(Diagnostic{illegal_fluent_name, declaration.name.span,
+                                  fmt::format("'{}' contains '__'", name)}
+                           .with_hint("'__' and '___' separate the parts of grounded names"));
+}
+
+std::optional<Role> resolve_role(const ast::PVariable& declaration, Context& context) {
+    const std::optional<Role> role = role_named(declaration.kind.text);
+    if (!role)
+        context.report({illegal_declaration, declaration.kind.span,
+                        fmt::format("'{}' cannot be declared in a domain", declaration.kind.text)});
+    return role;
+}
+
+bool resolve_parameters(const ast::PVariable& declaration, model::Fluent& fluent,
+                        Context& context) {
+    bool known = true;
+    for (const ast::Name& parameter : declaration.parameters) {
+        const std::optional<model::TypeId> type = resolve_type(parameter, context);
+        if (type) fluent.parameters.push_back(*type);
+        known = known && type.has_value();
+    }
+    return known;
+}
+
+void check_default_allowed(const ast::PVariable& declaration, Role role, Context& context) {
+    const bool given = declaration.default_value.has_value();
+    if (role == Role::Action && !given)
+        context.report(
+            Diagnostic{illegal_declaration, declaration.name.span,
+                       fmt::format("action-fluent '{}' has no default", declaration.name.text)}
+                .with_hint("the default is its value where the agent does nothing: "
+                           "'default = false'"));
+    if (given && !has_initial_values(role))
+        context.report({illegal_declaration, declaration.default_value->span,
+                        fmt::format("{} cannot have a default: its CPF gives it its value",
+                                    with_article(role))});
+}
+
+// Of the instance's objects, which the domain cannot name.
+bool has_object_range(const model::Fluent& fluent, const Context& context) {
+    return fluent.range.kind == model::ValueType::Kind::Object &&
+           !context.type(fluent.range.type).enumerated;
+}
+
+void check_range_of_role(const ast::PVariable& declaration, const model::Fluent& fluent,
+                         Context& context) {
+    if (!has_object_range(fluent, context)) return;
+    const std::string& type = context.type(fluent.range.type).name;
+    if (fluent.role == Role::Action)
+        context.report(
+            Diagnostic{
+                object_action, declaration.range.span,
+                fmt::format("action-fluent '{}' cannot have the object type '{}' as its range",
+                            fluent.name, type)}
+                .with_hint(fmt::format("make it a bool action-fluent with a parameter of type '{}'",
+                                       type)));
+    else if (declaration.default_value)
+        context.report(
+            Diagnostic{bad_default, declaration.default_value->span,
+                       fmt::format("'{}' cannot have a default: the domain cannot name an object "
+                                   "of type '{}'",
+                                   fluent.name, type)}
+                .with_hint("give its values in the instance"));
+}
+
+void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, Context& context) {
+    if (!declaration.default_value || !has_initial_values(fluent.role)) return;
+    // After an error any value will do: what matters is that there is a default.
+    fluent.default_value = model::Value{false};
+    if (has_object_range(fluent, context)) return;
+    const std::optional<model::Value> value =
+        value_of(*declaration.default_value, fluent, bad_default, context);
+    if (value) fluent.default_value = *value;
+}
+
+// False if there are too many.
+bool check_grounding_count(const model::Fluent& fluent, Context& context) {
+    std::int64_t count = 1;
+    for (const model::TypeId parameter : fluent.parameters) {
+        const model::Type& type = context.type(parameter);
+        if (type.objects.empty() && has_initial_values(fluent.role) &&
+            !context.names.broken_types.contains(parameter))
+            context.report(Diagnostic{
+                empty_scope, fluent.span,
+                fmt::format("'{}' has no values: type '{}' is empty", fluent.name, type.name)}
+                               .note(type.span, "declared here"));
+        count *= static_cast<std::int64_t>(type.objects.size());
+        if (count <= max_groundings) continue;
+        context.report(
+            {too_many_groundings, fluent.span,
+             fmt::format("'{}' has more than {} groundings", fluent.name, max_groundings)});
+        return false;
+    }
+    return true;
+}
+
+void declare_fluent(const ast::PVariable& declaration, Context& context) {
+    check_name(declaration, context);
+    const std::string& name = declaration.name.text;
+    const auto id = static_cast<model::FluentId>(context.model.fluents.size());
+    const auto [entry, is_new] = context.names.fluents.try_emplace(name, id);
+    if (!is_new) {
+        context.report(Diagnostic{repeated_fluent, declaration.name.span,
+                                  fmt::format("'{}' is declared twice", name)}
+                           .note(context.fluent(entry->second).span, "first declared here"));
+        return;
+    }
+    model::Fluent fluent{name, Role::NonFluent,       {}, model::bool_type,
+                         {},   declaration.name.span, {}};
+    const std::optional<Role> role = resolve_role(declaration, context);
+    const std::optional<model::ValueType> range = resolve_range(declaration.range, context);
+    bool sound = resolve_parameters(declaration, fluent, context);
+    fluent.role = role.value_or(Role::NonFluent);
+    fluent.range = range.value_or(model::bool_type);
+    if (role) check_default_allowed(declaration, *role, context);
+    if (role && range) {
+        check_range_of_role(declaration, fluent, context);
+        resolve_default(declaration, fluent, context);
+    }
+    sound = sound && check_grounding_count(fluent, context);
+    if (!role || !range || !sound) context.names.broken_fluents.insert(id);
+    if (role == Role::Derived)
+        context.report(
+            Diagnostic{derived_is_interm, declaration.kind.span,
+                       fmt::format("derived-fluent '{}' is treated as an interm-fluent", name)}
+                .with_hint("declare it 'interm-fluent'"));
+    context.model.fluents.push_back(std::move(fluent));
+}
+
+}  // namespace
+
+void declare_fluents(const Blocks& blocks, Context& context) {
+    for (const ast::PVariable& declaration : blocks.pvariables->declarations)
+        declare_fluent(declaration, context);
+}
+
+void warn_of_unused_fluents(Context& context) {
+    for (model::FluentId id = 0; id < context.model.fluents.size(); ++id) {
+        const model::Fluent& fluent = context.fluent(id);
+        if (fluent.role == Role::Observ || context.mentioned.contains(id)) continue;
+        context.report({unused_fluent, fluent.span,
+                        fmt::format("{} '{}' is never used", name_of(fluent.role), fluent.name)});
+    }
+}
+
+}  // namespace rddlc::checking

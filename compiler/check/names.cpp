@@ -1,0 +1,82 @@
+#include "check/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rddlc::checking {
+namespace {
+
+bool is_value(const std::string& word, const Context& context) {
+    const bool number =
+        !word.empty() && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+    return number || context.names.fluents.contains(word) || context.names.objects.contains(word);
+}
+
+// "a - b" for "a-b" if both sides mean something; otherwise nothing.
+std::string as_subtraction(const std::string& name, const Context& context) {
+    std::string every = name.substr(0, name.find('-'));
+    bool all_known = is_value(every, context) && every.size() < name.size();
+    for (std::size_t minus = name.find('-'); minus != std::string::npos;) {
+        const std::string left = name.substr(0, minus);
+        const std::string right = name.substr(minus + 1);
+        if (is_value(left, context) && is_value(right, context)) return left + " - " + right;
+        const std::size_t next = name.find('-', minus + 1);
+        const std::string word = name.substr(minus + 1, next - minus - 1);
+        all_known = all_known && is_value(word, context);
+        every += " - " + word;
+        minus = next;
+    }
+    return all_known ? every : "";
+}
+
+// A call written with the wrong brackets, or a distribution in lower case.
+std::string hint_for_call(const std::string& name) {
+    if (function_named(name)) return fmt::format("functions take square brackets: '{}[...]'", name);
+    if (reduction_named(name))
+        return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
+    return "";
+}
+
+std::vector<std::string> candidates(const ast::Reference& reference, const Context& context) {
+    std::vector<std::string> names = keys(context.names.fluents);
+    if (reference.arguments.empty()) {
+        const std::vector<std::string> members = enumerated_members(context);
+        names.insert(names.end(), members.begin(), members.end());
+        return names;
+    }
+    for (int i = 0; i <= static_cast<int>(Distribution::Kumaraswamy); ++i)
+        names.emplace_back(name_of(static_cast<Distribution>(i)));
+    return names;
+}
+
+}  // namespace
+
+void report_unknown_name(const ast::Reference& reference, Scope& scope) {
+    Context& context = scope.context;
+    const std::string& name = reference.name.text;
+    const std::string subtraction = as_subtraction(name, context);
+    const std::string call = reference.arguments.empty() ? "" : hint_for_call(name);
+    Diagnostic diagnostic{call.empty() ? unknown_name : round_brackets, reference.name.span,
+                          fmt::format("'{}' is not declared", name)};
+    if (!call.empty()) {
+        diagnostic.message = fmt::format("'{}' is not a fluent", name);
+        diagnostic.hint = call;
+    } else if (!subtraction.empty()) {
+        diagnostic.hint =
+            fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name);
+    } else {
+        diagnostic.hint = suggestion(context, name, candidates(reference, context));
+    }
+    context.report(std::move(diagnostic));
+}
+
+std::vector<std::string> enumerated_members(const Context& context) {
+    std::vector<std::string> members;
+    for (const model::Type& type : context.model.types)
+        if (type.enumerated)
+            members.insert(members.end(), type.objects.begin(), type.objects.end());
+    return members;
+}
+
+}  // namespace rddlc::checking

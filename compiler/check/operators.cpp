@@ -1,0 +1,214 @@
+// Unary and binary operators.
+#include "check/expressions.hpp"
+#include "check/types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rddlc::checking {
+namespace {
+
+Operator operator_of(ast::BinaryOperator op) {
+    switch (op) {
+        case ast::BinaryOperator::Equivalent:
+            return Operator::Equivalent;
+        case ast::BinaryOperator::Implies:
+            return Operator::Implies;
+        case ast::BinaryOperator::Or:
+            return Operator::Or;
+        case ast::BinaryOperator::And:
+            return Operator::And;
+        case ast::BinaryOperator::Equal:
+            return Operator::Equal;
+        case ast::BinaryOperator::NotEqual:
+            return Operator::NotEqual;
+        case ast::BinaryOperator::Less:
+            return Operator::Less;
+        case ast::BinaryOperator::LessEqual:
+            return Operator::LessEqual;
+        case ast::BinaryOperator::Greater:
+            return Operator::Greater;
+        case ast::BinaryOperator::GreaterEqual:
+            return Operator::GreaterEqual;
+        case ast::BinaryOperator::Add:
+            return Operator::Add;
+        case ast::BinaryOperator::Subtract:
+            return Operator::Subtract;
+        case ast::BinaryOperator::Multiply:
+            return Operator::Multiply;
+        case ast::BinaryOperator::Divide:
+            break;
+    }
+    return Operator::Divide;
+}
+
+struct BinaryPlace {
+    Operator op;
+    Span span;  // of the whole
+    Span op_span;
+    const ast::Expr& right;
+
+    std::string left_operand() const {
+        return fmt::format("the left operand of '{}'", source_name_of(op));
+    }
+    std::string right_operand() const {
+        return fmt::format("the right operand of '{}'", source_name_of(op));
+    }
+};
+
+model::Expr apply(Operator op, model::Expr left, model::Expr right, model::ValueType type,
+                  Span span) {
+    model::Apply node{op, {}};
+    node.operands.reserve(2);
+    node.operands.push_back(std::move(left));
+    node.operands.push_back(std::move(right));
+    return {type, span, std::move(node)};
+}
+
+// Both operands converted to `operand_type`.
+model::Expr apply_converted(Operator op, model::Expr left, model::Expr right,
+                            model::ValueType operand_type, model::ValueType type, Span span) {
+    return apply(op, convert(std::move(left), operand_type),
+                 convert(std::move(right), operand_type), type, span);
+}
+
+Typed check_arithmetic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    left = require_number(std::move(left), place.left_operand(), scope);
+    right = require_number(std::move(right), place.right_operand(), scope);
+    if (!left || !right) return std::nullopt;
+    model::ValueType type = promoted(model::int_type, promoted(left->type, right->type));
+    if (place.op == Operator::Divide) type = model::real_type;
+    return apply_converted(place.op, std::move(*left), std::move(*right), type, type, place.span);
+}
+
+bool is_order(Operator op) {
+    return op != Operator::Equal && op != Operator::NotEqual;
+}
+
+Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    if (!left || !right) return std::nullopt;
+    const bool objects = is_object(left->type) || is_object(right->type);
+    if (objects && left->type != right->type) {
+        scope.context.report(
+            {not_comparable, place.op_span,
+             fmt::format("cannot compare {} with {}", describe(scope.context, left->type),
+                         describe(scope.context, right->type))});
+        return std::nullopt;
+    }
+    if (objects && is_order(place.op)) {
+        scope.context.report(Diagnostic{
+            not_comparable, place.op_span,
+            fmt::format("objects have no order: '{}' compares numbers", source_name_of(place.op))}
+                                 .with_hint("only '==' and '~=' compare objects"));
+        return std::nullopt;
+    }
+    model::ValueType type = objects ? left->type : promoted(left->type, right->type);
+    if (is_order(place.op) && type == model::bool_type) type = model::int_type;
+    return apply_converted(place.op, std::move(*left), std::move(*right), type, model::bool_type,
+                           place.span);
+}
+
+bool is_constant(const ast::Expr& expression) {
+    return std::holds_alternative<ast::Boolean>(expression.node) ||
+           std::holds_alternative<ast::Integer>(expression.node) ||
+           std::holds_alternative<ast::Real>(expression.node);
+}
+
+// Which operand of '^' and '|' is evaluated first: the right one if it is a literal or a plain
+// reference, otherwise the left one. The other may be skipped, so its type may be wrong as long as
+// that happens.
+bool right_goes_first(const ast::Expr& right) {
+    const ast::Expr& inner = without_groups(right);
+    return is_constant(inner) || std::holds_alternative<ast::Reference>(inner.node) ||
+           std::holds_alternative<ast::Variable>(inner.node) ||
+           std::holds_alternative<ast::Literal>(inner.node);
+}
+
+// A literal that never settles the outcome: then the other operand is always evaluated.
+bool never_settles(Operator op, const model::Expr& first) {
+    const auto* constant = std::get_if<model::Constant>(&first.node);
+    return constant && constant->value == model::Value{op == Operator::And};
+}
+
+Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    const bool swap = right_goes_first(place.right);
+    left = require_number(std::move(left), place.left_operand(), scope);
+    right = require_number(std::move(right), place.right_operand(), scope);
+    Typed& first = swap ? right : left;
+    Typed& second = swap ? left : right;
+    std::string first_name = swap ? place.right_operand() : place.left_operand();
+    std::string second_name = swap ? place.left_operand() : place.right_operand();
+    first = require_bool(std::move(first), std::move(first_name), scope);
+    const bool second_is_bool = second && second->type == model::bool_type;
+    const bool may_be_skipped = first && !never_settles(place.op, *first);
+    if (second_is_bool || !may_be_skipped) {
+        second = require_bool(std::move(second), std::move(second_name), scope);
+        if (!left || !right) return std::nullopt;
+        return apply(place.op, std::move(*left), std::move(*right), model::bool_type, place.span);
+    }
+    if (!second) return std::nullopt;
+    const Need need{model::bool_type, std::move(second_name), bool_needed};
+    const model::Expr misfit = *second;
+    Typed narrowed = try_require(std::move(*second), need, scope);
+    if (!narrowed) narrowed = fault_instead_of(misfit, need, scope);
+    return apply(place.op, std::move(*first), std::move(*narrowed), model::bool_type, place.span);
+}
+
+Typed check_strict_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    left = require_bool(std::move(left), place.left_operand(), scope);
+    right = require_bool(std::move(right), place.right_operand(), scope);
+    if (!left || !right) return std::nullopt;
+    return apply(place.op, std::move(*left), std::move(*right), model::bool_type, place.span);
+}
+
+Typed combine(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    switch (place.op) {
+        case Operator::And:
+        case Operator::Or:
+            return check_lazy_logic(place, std::move(left), std::move(right), scope);
+        case Operator::Implies:
+        case Operator::Equivalent:
+            return check_strict_logic(place, std::move(left), std::move(right), scope);
+        case Operator::Add:
+        case Operator::Subtract:
+        case Operator::Multiply:
+        case Operator::Divide:
+            return check_arithmetic(place, std::move(left), std::move(right), scope);
+        default:
+            return check_comparison(place, std::move(left), std::move(right), scope);
+    }
+}
+
+Typed check_sign(Operator op, const ast::Unary& unary, Span span, Scope& scope) {
+    Typed operand = require_number(check_expression(*unary.operand, scope),
+                                   fmt::format("the operand of '{}'", source_name_of(op)), scope);
+    if (!operand) return std::nullopt;
+    const model::ValueType type = promoted(model::int_type, operand->type);
+    model::Expr number = convert(std::move(*operand), type);
+    if (op == Operator::Add) return number;  // unary plus
+    return model::Expr{type, span, model::Apply{op, {std::move(number)}}};
+}
+
+}  // namespace
+
+Typed check_unary(const ast::Unary& unary, Span span, Scope& scope) {
+    if (unary.op == ast::UnaryOperator::Minus)
+        return check_sign(Operator::Negate, unary, span, scope);
+    if (unary.op == ast::UnaryOperator::Plus) return check_sign(Operator::Add, unary, span, scope);
+    Typed operand =
+        require_bool(check_expression(*unary.operand, scope), "the operand of '~'", scope);
+    if (!operand) return std::nullopt;
+    return model::Expr{model::bool_type, span, model::Apply{Operator::Not, {std::move(*operand)}}};
+}
+
+Typed check_binary(const ast::Binary& binary, Span span, Scope& scope) {
+    const BinaryPlace place{operator_of(binary.op), span, binary.op_span, *binary.right};
+    Typed left = check_expression(*binary.left, scope);
+    Typed right = check_expression(*binary.right, scope);
+    return combine(place, std::move(left), std::move(right), scope);
+}
+
+}  // namespace rddlc::checking

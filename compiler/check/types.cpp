@@ -1,0 +1,120 @@
+#include "check/types.hpp"
+
+#include "model/expression_text.hpp"
+
+#include <fmt/format.h>
+
+namespace rddlc::checking {
+namespace {
+
+using ObjectLists = std::unordered_map<std::string, const ast::ObjectList*>;
+
+// For a type listed twice the last list counts.
+ObjectLists collect_lists(const ast::Objects* objects, Context& context) {
+    ObjectLists lists;
+    if (!objects) return lists;
+    for (const ast::ObjectList& list : objects->lists) {
+        const auto [entry, is_new] = lists.try_emplace(list.type.text, &list);
+        if (is_new) continue;
+        context.report(Diagnostic{repeated_section, entry->second->type.span,
+                                  fmt::format("these objects of '{}' are ignored: a later list "
+                                              "replaces them",
+                                              list.type.text)}
+                           .note(list.type.span, "the list that counts"));
+        entry->second = &list;
+    }
+    return lists;
+}
+
+void add_objects(model::TypeId id, const std::vector<ast::Name>& objects, Context& context) {
+    model::Type& type = context.model.types[id];
+    for (const ast::Name& object : objects) {
+        const auto index = static_cast<std::int64_t>(type.objects.size());
+        const auto [entry, is_new] =
+            context.names.objects.try_emplace(object.text, Object{id, index, object.span});
+        if (is_new) {
+            type.objects.push_back(object.text);
+            continue;
+        }
+        const Object& first = entry->second;
+        const std::string message =
+            first.type == id
+                ? fmt::format("object '{}' occurs twice in type '{}'", object.text, type.name)
+                : fmt::format("object '{}' belongs to type '{}' already", object.text,
+                              context.type(first.type).name);
+        context.report(Diagnostic{repeated_object, object.span, message}.note(
+            first.span, fmt::format("'{}' first listed here", object.text)));
+    }
+}
+
+void declare_type(const ast::TypeDeclaration& declaration, ObjectLists& lists, Context& context) {
+    const std::string& name = declaration.name.text;
+    const auto id = static_cast<model::TypeId>(context.model.types.size());
+    const auto [entry, is_new] = context.names.types.try_emplace(name, id);
+    if (!is_new) {
+        context.report(Diagnostic{repeated_type, declaration.name.span,
+                                  fmt::format("type '{}' is declared twice", name)}
+                           .note(context.type(entry->second).span, "first declared here"));
+        return;
+    }
+    const bool enumerated = declaration.members.has_value();
+    context.model.types.push_back({name, enumerated, {}, declaration.name.span});
+    const auto list = lists.find(name);
+    if (enumerated) {
+        add_objects(id, *declaration.members, context);
+        if (list != lists.end())
+            context.report(Diagnostic{ignored_objects, list->second->type.span,
+                                      fmt::format("these objects are ignored: type '{}' is "
+                                                  "enumerated in the domain",
+                                                  name)}
+                               .note(declaration.name.span, "declared here"));
+    } else if (list != lists.end()) {
+        add_objects(id, list->second->objects, context);
+    } else {
+        context.names.broken_types.insert(id);
+        context.report(Diagnostic{type_without_objects, declaration.name.span,
+                                  fmt::format("type '{}' has no objects in the instance", name)}
+                           .with_hint(fmt::format("add '{} : {{ ... }};' to its 'objects'", name)));
+    }
+    lists.erase(name);
+}
+
+void report_undeclared(const ObjectLists& lists, const ast::Objects* objects, Context& context) {
+    if (lists.empty()) return;
+    for (const ast::ObjectList& list : objects->lists)
+        if (lists.contains(list.type.text) && !context.names.types.contains(list.type.text))
+            context.report(
+                Diagnostic{objects_of_unknown_type, list.type.span,
+                           fmt::format("type '{}' is not declared in the domain", list.type.text)}
+                    .with_hint(suggestion(context, list.type.text, keys(context.names.types))));
+}
+
+}  // namespace
+
+void declare_types(const Blocks& blocks, Context& context) {
+    ObjectLists lists = collect_lists(blocks.objects, context);
+    if (blocks.types)
+        for (const ast::TypeDeclaration& declaration : blocks.types->declarations)
+            declare_type(declaration, lists, context);
+    report_undeclared(lists, blocks.objects, context);
+}
+
+std::optional<model::TypeId> resolve_type(const ast::Name& name, Context& context) {
+    if (const model::TypeId* id = find(context.names.types, name.text)) return *id;
+    const bool primitive = name.text == "bool" || name.text == "int" || name.text == "real";
+    const std::string hint =
+        primitive ? "only object types and enumerated types have members to range over"
+                  : suggestion(context, name.text, keys(context.names.types));
+    const std::string message = primitive ? fmt::format("'{}' is not a type of objects", name.text)
+                                          : fmt::format("type '{}' is not declared", name.text);
+    context.report(Diagnostic{unknown_type, name.span, message}.with_hint(hint));
+    return std::nullopt;
+}
+
+std::string describe(const Context& context, model::ValueType type) {
+    if (type.kind == model::ValueType::Kind::Object)
+        return fmt::format("an object of type '{}'", context.type(type.type).name);
+    return model::text_of(context.model, type);
+}
+
+}  // namespace rddlc::checking
