@@ -1,21 +1,21 @@
 #include "emit/about.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <vector>
-
 #include "emit/functions.hpp"
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
 #include "emit/tables.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
 namespace rddlc::cpp {
 namespace {
 
-const std::vector<std::string> about_words = {"types",       "fluents",        "preconditions",
-                                              "invariants",  "terminations",   "problem",
-                                              "sites",       "default_action", "simulator"};
+const std::vector<std::string> about_words = {"types",      "fluents",        "preconditions",
+                                              "invariants", "terminations",   "problem",
+                                              "sites",      "default_action", "simulator"};
 
 std::string role_constant(Role role) {
     switch (role) {
@@ -81,9 +81,7 @@ class Describer {
     }
 
   private:
-    void add(const std::string& definition) {
-        text_ += (text_.empty() ? "" : "\n") + definition;
-    }
+    void add(const std::string& definition) { text_ += (text_.empty() ? "" : "\n") + definition; }
 
     std::string source(Span span) const {
         const Position position = unit_.sources.position(span);
@@ -169,7 +167,9 @@ class Describer {
 
     // Both bounds of all groundings: the fluent is not bounded at all.
     static bool are_infinite(const ir::Fluent& fluent) {
-        const auto infinite = [](double v) { return std::isinf(v); };
+        const auto infinite = [](double v) {
+            return std::isinf(v);
+        };
         return std::ranges::all_of(fluent.lower, infinite) &&
                std::ranges::all_of(fluent.upper, infinite);
     }
@@ -303,7 +303,9 @@ class Describer {
 
 }  // namespace
 
-std::string about(const Unit& unit) { return Describer(unit).describe(); }
+std::string about(const Unit& unit) {
+    return Describer(unit).describe();
+}
 
 std::string sites_argument(const Unit& unit) {
     return unit.program.sites.empty() ? "{}" : "about::sites";

@@ -1,9 +1,9 @@
 // The tables that describe the simulator: rddl_problem and the sites, in namespace about.
 #pragma once
 
-#include <string>
-
 #include "emit/unit.hpp"
+
+#include <string>
 
 namespace rddlc::cpp {
 

@@ -2,10 +2,10 @@
 // written in the program. docs/emitted-code.md is a guided tour of the result.
 #pragma once
 
-#include <string>
-
 #include "ir/ir.hpp"
 #include "support/source.hpp"
+
+#include <string>
 
 namespace rddlc {
 

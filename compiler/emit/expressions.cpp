@@ -1,17 +1,17 @@
 #include "emit/expressions.hpp"
 
-#include <algorithm>
-
 #include "emit/literals.hpp"
 #include "emit/operators.hpp"
 #include "support/match.hpp"
+
+#include <algorithm>
 
 namespace rddlc::cpp {
 namespace {
 
 std::string operand_of(const OperatorSpelling& spelling, Level loosest, const Spelled& operand) {
-    const bool bare = operand.level >= loosest ||
-                      (spelling.associative && operand.level == spelling.level);
+    const bool bare =
+        operand.level >= loosest || (spelling.associative && operand.level == spelling.level);
     return bare ? operand.text : "(" + operand.text + ")";
 }
 
@@ -95,7 +95,8 @@ Spelled Expressions::spell(const ir::Node& node, const ir::Convert& convert) {
 Spelled Expressions::spell(const ir::Node&, const ir::Apply& apply) {
     const bool on_ints = unit_.program[apply.operands.front()].type == ir::Scalar::Int;
     const OperatorSpelling spelling = spelling_of(apply.op, on_ints);
-    if (!spelling.is_infix) return {call(spelling.word, apply.operands, apply.place), Level::Primary};
+    if (!spelling.is_infix)
+        return {call(spelling.word, apply.operands, apply.place), Level::Primary};
     const Spelled first = spell(apply.operands[0]);
     if (apply.operands.size() == 1) {
         return {spelling.word + operand_of(spelling, spelling.left, first), spelling.level};
@@ -108,8 +109,7 @@ Spelled Expressions::spell(const ir::Node&, const ir::Apply& apply) {
 Spelled Expressions::spell(const ir::Node&, const ir::Select& select) {
     const bool constants = is_int_constant(unit_.program[select.then_value]) &&
                            is_int_constant(unit_.program[select.else_value]);
-    const std::string then_value =
-        constants ? result(select.then_value) : text(select.then_value);
+    const std::string then_value = constants ? result(select.then_value) : text(select.then_value);
     return {"rddl::select(" + text(select.condition) + ", " + then_value + ", " +
                 (constants ? result(select.else_value) : text(select.else_value)) + ")",
             Level::Primary};
@@ -152,8 +152,7 @@ std::string Expressions::arguments(const std::vector<ir::NodeId>& operands) {
     return comma_separated(texts);
 }
 
-std::string Expressions::call(const std::string& function,
-                              const std::vector<ir::NodeId>& operands,
+std::string Expressions::call(const std::string& function, const std::vector<ir::NodeId>& operands,
                               const std::optional<ir::Place>& where) {
     return "rddl::" + function + "(" + (where ? place(*where) + ", " : "") + arguments(operands) +
            ")";

@@ -1,16 +1,16 @@
 // Expressions as C++ text on one line, with as few parentheses as a reader needs.
 #pragma once
 
+#include "emit/identifiers.hpp"
+#include "emit/unit.hpp"
+#include "ir/ir.hpp"
+
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "emit/identifiers.hpp"
-#include "emit/unit.hpp"
-#include "ir/ir.hpp"
 
 namespace rddlc::cpp {
 

@@ -1,10 +1,10 @@
 #include "emit/function_body.hpp"
 
-#include <algorithm>
-
 #include "emit/layout.hpp"
 #include "emit/operators.hpp"
 #include "support/match.hpp"
+
+#include <algorithm>
 
 namespace rddlc::cpp {
 namespace {
@@ -14,7 +14,9 @@ constexpr std::size_t longest_operand = 45;
 // Shorter texts are not worth a name.
 constexpr std::size_t shortest_named = 12;
 
-bool is_binder(const ir::Node& node) { return ir::bound_variable(node).has_value(); }
+bool is_binder(const ir::Node& node) {
+    return ir::bound_variable(node).has_value();
+}
 
 bool is_leaf(const ir::Node& node) {
     return match(
@@ -88,9 +90,13 @@ void FunctionBody::block(const ir::Block& block) {
     }
 }
 
-void FunctionBody::return_value(ir::NodeId id) { value("return ", id); }
+void FunctionBody::return_value(ir::NodeId id) {
+    value("return ", id);
+}
 
-void FunctionBody::statement(const ir::Let& let) { expressions_.name(let.local, declare(let.value)); }
+void FunctionBody::statement(const ir::Let& let) {
+    expressions_.name(let.local, declare(let.value));
+}
 
 void FunctionBody::statement(const ir::Store& store) {
     const auto before = expressions_.mark();

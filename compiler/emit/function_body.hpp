@@ -15,12 +15,12 @@
 //         [&] { return ...; });
 #pragma once
 
+#include "emit/expressions.hpp"
+#include "ir/ir.hpp"
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "emit/expressions.hpp"
-#include "ir/ir.hpp"
 
 namespace rddlc::cpp {
 

@@ -1,13 +1,13 @@
 #include "emit/functions.hpp"
 
-#include <algorithm>
-#include <vector>
-
 #include "emit/function_body.hpp"
 #include "emit/layout.hpp"
 #include "emit/line_directives.hpp"
 #include "emit/literals.hpp"
 #include "emit/tables.hpp"
+
+#include <algorithm>
+#include <vector>
 
 namespace rddlc::cpp {
 namespace {
@@ -40,13 +40,13 @@ Parameter context_parameter(const Uses& uses) {
 
 // All records that a function might take, in the order of every signature.
 std::vector<Parameter> record_parameters(const Uses& uses) {
-    return {record_parameter("State", "state", uses.state, false),
-            record_parameter("Action", "action", uses.action, false),
-            record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
-            record_parameter("State", "next", uses.next, uses.stores_next),
-            record_parameter("Observation", "observation", uses.observation,
-                             uses.stores_observation),
-            context_parameter(uses)};
+    return {
+        record_parameter("State", "state", uses.state, false),
+        record_parameter("Action", "action", uses.action, false),
+        record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
+        record_parameter("State", "next", uses.next, uses.stores_next),
+        record_parameter("Observation", "observation", uses.observation, uses.stores_observation),
+        context_parameter(uses)};
 }
 
 std::vector<Parameter> only_used(std::vector<Parameter> parameters) {
@@ -56,7 +56,8 @@ std::vector<Parameter> only_used(std::vector<Parameter> parameters) {
 
 std::string arguments(const std::vector<Parameter>& parameters) {
     std::string text;
-    for (const Parameter& parameter : parameters) text += (text.empty() ? "" : ", ") + parameter.name;
+    for (const Parameter& parameter : parameters)
+        text += (text.empty() ? "" : ", ") + parameter.name;
     return text;
 }
 
@@ -133,8 +134,8 @@ void unite(Uses& all, const Uses& some) {
 }
 
 std::string count_constant(const std::string& word, std::size_t count) {
-    return indented("static constexpr rddl::Index " + word + "_count = " + std::to_string(count) + ";",
-                    level);
+    return indented(
+        "static constexpr rddl::Index " + word + "_count = " + std::to_string(count) + ";", level);
 }
 
 std::string condition_switch(const std::vector<std::string>& calls, const char* otherwise) {
@@ -169,7 +170,8 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
         body.return_value(computation.value);
         unite(all, body.uses());
         const std::vector<Parameter> parameters = only_used(record_parameters(body.uses()));
-        calls.push_back(names[k] + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")");
+        calls.push_back(names[k] + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) +
+                        ")");
         functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
                                     unit.where(computation.span));
         functions += function("typename L::Bool", names[k], parameters,
@@ -221,8 +223,7 @@ std::string reward_function(const Unit& unit) {
                     {record_parameter("State", "state", uses.state, false),
                      record_parameter("Action", "action", uses.action, false),
                      record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
-                     record_parameter("State", "next", uses.next, false),
-                     context_parameter(uses)},
+                     record_parameter("State", "next", uses.next, false), context_parameter(uses)},
                     body_text(unit, body, reward.span));
 }
 
@@ -235,7 +236,8 @@ std::string condition_functions(const Unit& unit) {
            conditions(unit, {"invariant", "Hold in every state that makes sense.", "true", false},
                       program.invariants, unit.names.invariants) +
            "\n" +
-           conditions(unit, {"precondition", "Hold for every action that is allowed.", "true", true},
+           conditions(unit,
+                      {"precondition", "Hold for every action that is allowed.", "true", true},
                       program.preconditions, unit.names.preconditions);
 }
 

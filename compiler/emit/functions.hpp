@@ -1,9 +1,9 @@
 // The functions of the struct Simulator, indented by one level.
 #pragma once
 
-#include <string>
-
 #include "emit/unit.hpp"
+
+#include <string>
 
 namespace rddlc::cpp {
 

@@ -1,10 +1,10 @@
 // #line: what a debugger shows for a line of the emitted text is the RDDL line that it came from.
 #pragma once
 
+#include "support/source.hpp"
+
 #include <string>
 #include <string_view>
-
-#include "support/source.hpp"
 
 namespace rddlc::cpp {
 

@@ -1,10 +1,10 @@
 #include "emit/literals.hpp"
 
+#include "support/match.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <limits>
-
-#include "support/match.hpp"
 
 namespace rddlc::cpp {
 namespace {
@@ -63,7 +63,9 @@ std::string literal(std::string_view text) {
             result += {'\\', c};
         } else if (byte < 0x20 || byte == 0x7f) {
             // Three octal digits: a digit that follows is not read as part of the escape.
-            const auto digit = [&](int shift) { return static_cast<char>('0' + (byte >> shift & 7)); };
+            const auto digit = [&](int shift) {
+                return static_cast<char>('0' + (byte >> shift & 7));
+            };
             result += {'\\', digit(6), digit(3), digit(0)};
         } else {
             result += c;

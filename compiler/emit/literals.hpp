@@ -1,11 +1,11 @@
 // Values and texts as C++ writes them.
 #pragma once
 
+#include "ir/ir.hpp"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
-
-#include "ir/ir.hpp"
 
 namespace rddlc::cpp {
 

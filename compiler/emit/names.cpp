@@ -1,8 +1,8 @@
 #include "emit/names.hpp"
 
-#include <algorithm>
-
 #include "emit/tables.hpp"
+
+#include <algorithm>
 
 namespace rddlc::cpp {
 namespace {
@@ -11,14 +11,13 @@ using ir::Storage;
 
 // What emitted functions call their parameters and types: no table may hide them.
 const std::vector<std::string> file_words = {
-    "State",  "Action", "Scratch", "Observation", "Simulator", "Bool", "Int",
-    "Real",   "state",  "action",  "scratch",     "next",      "observation",
-    "context", "about"};
+    "State", "Action", "Scratch", "Observation", "Simulator",   "Bool",    "Int",  "Real",
+    "state", "action", "scratch", "next",        "observation", "context", "about"};
 
 // The members of Simulator.
 const std::vector<std::string> simulator_words = {
-    "reset",        "step",      "reward",        "termination",       "termination_count",
-    "invariant",    "precondition", "invariant_count", "precondition_count", "partially_observed"};
+    "reset",     "step",         "reward",          "termination",        "termination_count",
+    "invariant", "precondition", "invariant_count", "precondition_count", "partially_observed"};
 
 // Each record has a region of its own, except that Next is State again.
 struct RecordScopes {
@@ -49,8 +48,7 @@ std::size_t state_of(const ir::Program& program, const ir::Buffer& next) {
     return static_cast<std::size_t>(found - program.buffers.begin());
 }
 
-void name_members(const ir::Program& program, const Scope& file,
-                  std::vector<std::string>& names) {
+void name_members(const ir::Program& program, const Scope& file, std::vector<std::string>& names) {
     RecordScopes records(file);
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
@@ -78,7 +76,8 @@ Names names_of(const ir::Program& program) {
     names.buffers.resize(program.buffers.size());
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
-        if (buffer.storage == Storage::Constant) names.buffers[index] = names.file.claim(buffer.name);
+        if (buffer.storage == Storage::Constant)
+            names.buffers[index] = names.file.claim(buffer.name);
     }
     name_members(program, names.file, names.buffers);
 

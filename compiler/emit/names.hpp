@@ -1,11 +1,11 @@
 // The C++ names of everything in a program that lives as long as the emitted file.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "emit/identifiers.hpp"
 #include "ir/ir.hpp"
+
+#include <string>
+#include <vector>
 
 namespace rddlc::cpp {
 

@@ -1,10 +1,10 @@
 // How operators, aggregations and distributions are called in the runtime.
 #pragma once
 
-#include <string>
-
 #include "emit/expressions.hpp"
 #include "model/vocabulary.hpp"
+
+#include <string>
 
 namespace rddlc::cpp {
 

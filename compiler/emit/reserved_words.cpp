@@ -1,7 +1,7 @@
+#include "emit/identifiers.hpp"
+
 #include <algorithm>
 #include <array>
-
-#include "emit/identifiers.hpp"
 
 namespace rddlc::cpp {
 namespace {

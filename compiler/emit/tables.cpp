@@ -1,13 +1,13 @@
 #include "emit/tables.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
 #include "ir/layout.hpp"
 #include "support/match.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace rddlc::cpp {
 namespace {
@@ -36,7 +36,8 @@ class TableWriter {
         std::string text = innermost ? "{" : "{{";
         for (std::int64_t i = 0; i < shape_[dimension]; ++i) {
             text += i > 0 ? ", " : "";
-            text += on_one_line(dimension + 1, begin + static_cast<std::size_t>(i) * stride(dimension));
+            text +=
+                on_one_line(dimension + 1, begin + static_cast<std::size_t>(i) * stride(dimension));
         }
         return text + (innermost ? "}" : "}}");
     }
@@ -88,7 +89,7 @@ std::string record(const Unit& unit, const std::string& name, ir::Storage storag
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage) continue;
-        const char* element = buffer.scalar == ir::Scalar::Bool   ? "typename L::Bool"
+        const char* element = buffer.scalar == ir::Scalar::Bool  ? "typename L::Bool"
                               : buffer.scalar == ir::Scalar::Int ? "typename L::Int"
                                                                  : "typename L::Real";
         const std::string member =
@@ -105,7 +106,8 @@ std::string size_assert(const Unit& unit, const std::string& name, ir::Storage s
     const ir::RecordLayout layout = ir::record_layout(unit.program, storage);
     if (layout.fields.empty()) return "";
     const std::string type = name + "<rddl::Scalar>";
-    std::string text = "static_assert(sizeof(" + type + ") == " + std::to_string(layout.size) + ");\n";
+    std::string text =
+        "static_assert(sizeof(" + type + ") == " + std::to_string(layout.size) + ");\n";
     if (layout.fields.size() > 1) {
         const ir::Field& last = layout.fields.back();
         text += "static_assert(offsetof(" + type + ", " + unit.names.buffers[last.buffer.index] +

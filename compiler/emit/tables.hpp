@@ -1,12 +1,12 @@
 // Objects, constant tables and records: everything that stands before the functions.
 #pragma once
 
+#include "emit/unit.hpp"
+#include "ir/ir.hpp"
+
 #include <span>
 #include <string>
 #include <vector>
-
-#include "emit/unit.hpp"
-#include "ir/ir.hpp"
 
 namespace rddlc::cpp {
 

@@ -1,8 +1,8 @@
 #include "emit/unit.hpp"
 
-#include <filesystem>
-
 #include "emit/literals.hpp"
+
+#include <filesystem>
 
 namespace rddlc::cpp {
 

@@ -1,14 +1,14 @@
 // What every part of the emitter looks at: the program with its names and facts. Nothing changes.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "emit/emit.hpp"
 #include "emit/names.hpp"
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
 #include "support/source.hpp"
+
+#include <string>
+#include <vector>
 
 namespace rddlc::cpp {
 
@@ -19,8 +19,8 @@ struct Unit {
     const Sources& sources;
     const EmitOptions& options;
     Names names;
-    std::vector<ir::Facts> facts;         // by NodeId
-    std::vector<bool> contains_branch;    // by NodeId: it is a lazy select, or has one inside
+    std::vector<ir::Facts> facts;       // by NodeId
+    std::vector<bool> contains_branch;  // by NodeId: it is a lazy select, or has one inside
 
     const ir::Facts& facts_of(ir::NodeId id) const { return facts[id.index]; }
 

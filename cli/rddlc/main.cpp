@@ -1,0 +1,74 @@
+// `rddlc`: an RDDL problem in, a simulator out.
+#include "driver/codes.hpp"
+#include "driver/driver.hpp"
+#include "driver/explain.hpp"
+#include "driver/version.hpp"
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+namespace rddlc::cli {
+namespace {
+
+void print_times(const Compilation& compilation) {
+    for (const StageTime& each : compilation.times) {
+        fmt::print(stderr, "{:9} {:9.2f} ms\n", name_of(each.stage), each.time.count() * 1e3);
+    }
+}
+
+void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
+                       const RenderOptions& options) {
+    fmt::print(stderr, "{}", render(diagnostics, sources, options));
+    const std::string counts = summary(diagnostics);
+    const bool is_text = options.format == DiagnosticsFormat::Text;
+    if (is_text && !counts.empty()) fmt::print(stderr, "{}\n", counts);
+}
+
+ExitStatus refuse(const Options& options) {
+    Diagnostics diagnostics;
+    for (const std::string& option : options.not_supported_yet) {
+        diagnostics.report({.code = option_not_supported_yet,
+                            .span = {},
+                            .message = option + " is not supported yet"});
+    }
+    print_diagnostics(diagnostics, {}, options.render);
+    return diagnosed;
+}
+
+ExitStatus run(const Options& options) {
+    if (options.explained) {
+        fmt::print("{}", *explain(*options.explained));
+        return success;
+    }
+    if (!options.not_supported_yet.empty()) return refuse(options);
+
+    const Compilation compilation = compile(options.compile);
+    fmt::print("{}", compilation.printed);
+    print_diagnostics(compilation.diagnostics, compilation.sources, options.render);
+    if (options.verbose) print_times(compilation);
+    return compilation.diagnostics.has_errors() ? diagnosed : success;
+}
+
+}  // namespace
+}  // namespace rddlc::cli
+
+int main(int argc, char** argv) {
+    using namespace rddlc;
+    try {
+        const auto [options, status] = cli::parse_command_line(argc, argv);
+        if (!options) return status;
+        const int result = cli::run(*options);
+        const bool written = std::fflush(stdout) == 0;
+        return written ? result : cli::diagnosed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr,
+                   "rddlc: internal error: {}\n"
+                   "This is a mistake in rddlc {}, not in your problem. Please report it with the "
+                   "command and the files.\n",
+                   error.what(), version);
+        return cli::internal_error;
+    }
+}

@@ -1,0 +1,238 @@
+#include "options.hpp"
+
+#include "driver/explain.hpp"
+#include "driver/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rddlc::cli {
+namespace {
+
+constexpr const char* overview =
+    "Compiles an RDDL problem, a domain and an instance, into a simulator in C++.";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
+    "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
+    "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc --explain E0203                         what a diagnostic means\n\n"
+    "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"
+    "wrong, which please report.";
+
+// What the command line says, as it says it.
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string output;
+    std::vector<std::string> print;
+    std::string stop_after;
+    bool check_only = false;
+    bool line_directives = false;
+    bool dependencies = false;
+    std::string dependency_file;
+    std::vector<std::string> warnings;  // behind -W
+    bool no_warnings = false;
+    std::string format = "text";
+    std::string color = "auto";
+    std::string lanes = "1";
+    std::string real = "double";
+    std::string explained;
+    bool verbose = false;
+};
+
+// A mistake in how rddlc was called.
+CLI::ValidationError usage(const std::string& message) {
+    return CLI::ValidationError(message);
+}
+
+void declare(CLI::App& program, Arguments& arguments) {
+    program.set_version_flag("--version", fmt::format("rddlc {}", version));
+    program
+        .add_option("files", arguments.inputs, "DOMAIN and INSTANCE, or one file that holds both")
+        ->type_name("DOMAIN INSTANCE")
+        ->expected(1, 2);
+    program
+        .add_option("-o", arguments.output,
+                    "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ "
+                    "text goes to standard output")
+        ->type_name("FILE");
+    program
+        .add_option("--print", arguments.print,
+                    "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp")
+        ->delimiter(',')
+        ->type_name("FORM");
+    program
+        .add_option("--stop-after", arguments.stop_after,
+                    "stop after a stage: read, parse, check, ground, verify, optimise, emit")
+        ->type_name("STAGE");
+    program.add_flag("--check", arguments.check_only, "only check: the same as --stop-after=check");
+    program.add_flag("--emit-lines", arguments.line_directives,
+                     "#line in the C++ text, for debuggers and profilers");
+    program.add_flag("--MD", arguments.dependencies,
+                     "write a rule for make and ninja beside the output: FILE.d");
+    program.add_option("--MF", arguments.dependency_file, "name the file of --MD")
+        ->type_name("FILE");
+    program
+        .add_option("-W", arguments.warnings,
+                    "-Wno-W0210: silence a warning; -Werror=W0210: make it an error; -Werror: "
+                    "make all of them errors")
+        ->type_name("...");
+    program.add_flag("-w", arguments.no_warnings, "silence all warnings");
+    program.add_option("--diagnostics-format", arguments.format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->type_name("FORMAT");
+    program.add_option("--color", arguments.color, "auto, always or never")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->type_name("WHEN");
+    program.add_option("--lanes", arguments.lanes, "environments that one step computes at once")
+        ->type_name("N");
+    program.add_option("--real", arguments.real, "double or float")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->type_name("TYPE");
+    program.add_option("--explain", arguments.explained, "explain a diagnostic and exit")
+        ->type_name("CODE");
+    program.add_flag("-v,--verbose", arguments.verbose, "tell how long each stage takes");
+    program.get_formatter()->column_width(34);
+    program.footer(examples);
+}
+
+// Compilers write -MD, -MF FILE and -Wx with one dash; CLI11 wants -M D or --MD.
+std::vector<std::string> with_compiler_spelling(int argc, char** argv) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool dependency = word == "-MD" || word.starts_with("-MF");
+        words.push_back(dependency ? "-" + word : word);
+        if (word.starts_with("-MF") && word.size() > 3) {
+            words.back() = "--MF=" + word.substr(3);
+        }
+    }
+    return words;
+}
+
+Code warning_named(const std::string& name) {
+    const auto code = parse_code(name);
+    if (!code || code->letter != 'W' || !explain(*code)) {
+        throw usage(fmt::format("there is no warning '{}'", name));
+    }
+    return *code;
+}
+
+DiagnosticOptions diagnostic_options(const Arguments& arguments) {
+    DiagnosticOptions options;
+    options.all_warnings_disabled = arguments.no_warnings;
+    for (const std::string& word : arguments.warnings) {
+        if (word == "error") {
+            options.warnings_as_errors = true;
+        } else if (word.starts_with("error=")) {
+            options.codes_as_errors.insert(warning_named(word.substr(6)));
+        } else if (word.starts_with("no-")) {
+            options.disabled_warnings.insert(warning_named(word.substr(3)));
+        } else {
+            throw usage(
+                fmt::format("-W{} is not known; -Wno-CODE, -Werror and -Werror=CODE are", word));
+        }
+    }
+    return options;
+}
+
+bool use_color(const std::string& when) {
+    if (when != "auto") return when == "always";
+    const char* no_color = std::getenv("NO_COLOR");
+    return ::isatty(STDERR_FILENO) != 0 && (!no_color || *no_color == '\0');
+}
+
+Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
+    Stage last = Stage::Write;
+    if (!arguments.stop_after.empty()) {
+        const auto stage = stage_named(arguments.stop_after);
+        if (!stage) throw usage(fmt::format("there is no stage '{}'", arguments.stop_after));
+        last = *stage;
+    }
+    if (arguments.check_only) last = std::min(last, Stage::Check);
+    // Who only wants to see a form does not wait for the stages after it.
+    if (arguments.output.empty() && !print.empty()) {
+        last = std::min(last, stage_of(*print.rbegin()));
+    }
+    return last;
+}
+
+std::set<Form> printed_forms(const Arguments& arguments) {
+    std::set<Form> forms;
+    for (const std::string& name : arguments.print) {
+        const auto form = form_named(name);
+        if (!form) throw usage(fmt::format("there is no form '{}' to print", name));
+        forms.insert(*form);
+    }
+    const bool anything_else =
+        !arguments.output.empty() || !arguments.stop_after.empty() || arguments.check_only;
+    if (forms.empty() && !anything_else) forms.insert(Form::Cpp);
+    return forms;
+}
+
+std::optional<std::filesystem::path> dependency_file(const Arguments& arguments) {
+    if (!arguments.dependencies && arguments.dependency_file.empty()) return std::nullopt;
+    if (arguments.output.empty()) throw usage("-MD needs an output: -o FILE");
+    if (!arguments.dependency_file.empty()) return arguments.dependency_file;
+    return arguments.output + ".d";
+}
+
+CompileOptions compile_options(const Arguments& arguments) {
+    if (arguments.inputs.empty()) throw usage("which problem? Name DOMAIN and INSTANCE");
+    CompileOptions options;
+    options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
+    if (!arguments.output.empty()) options.output = arguments.output;
+    options.print = printed_forms(arguments);
+    options.stop_after = last_stage(arguments, options.print);
+    options.line_directives = arguments.line_directives;
+    options.dependency_file = dependency_file(arguments);
+    options.diagnostics = diagnostic_options(arguments);
+    return options;
+}
+
+Options options_of(const Arguments& arguments) {
+    Options options;
+    options.verbose = arguments.verbose;
+    options.render.format =
+        arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
+    options.render.color = use_color(arguments.color);
+    if (!arguments.explained.empty()) {
+        options.explained = parse_code(arguments.explained);
+        if (!options.explained || !explain(*options.explained)) {
+            throw usage(fmt::format("there is no diagnostic '{}'", arguments.explained));
+        }
+        return options;
+    }
+    options.compile = compile_options(arguments);
+    if (arguments.lanes != "1") options.not_supported_yet.push_back("--lanes=" + arguments.lanes);
+    if (arguments.real != "double") options.not_supported_yet.push_back("--real=" + arguments.real);
+    return options;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, char** argv) {
+    CLI::App program(overview, "rddlc");
+    Arguments arguments;
+    declare(program, arguments);
+    try {
+        std::vector<std::string> words = with_compiler_spelling(argc, argv);
+        std::ranges::reverse(words);  // as CLI11 takes them
+        program.parse(words);
+        return {options_of(arguments)};
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            program.exit(error);
+            return {std::nullopt, success};
+        }
+        fmt::print(stderr, "rddlc: error: {}\n'rddlc --help' shows the usage\n", error.what());
+        return {std::nullopt, usage_error};
+    }
+}
+
+}  // namespace rddlc::cli

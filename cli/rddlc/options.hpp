@@ -1,0 +1,32 @@
+// The command line of rddlc.
+#pragma once
+
+#include "driver/driver.hpp"
+#include "support/render.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc::cli {
+
+enum ExitStatus { success = 0, diagnosed = 1, usage_error = 2, internal_error = 70 };
+
+struct Options {
+    CompileOptions compile;
+    RenderOptions render;
+    bool verbose = false;
+    std::optional<Code> explained;               // --explain
+    std::vector<std::string> not_supported_yet;  // options that are valid and planned
+};
+
+// The options, or the exit status where there is nothing left to do: after --help, --version, or a
+// mistake that has been reported.
+struct CommandLine {
+    std::optional<Options> options;
+    ExitStatus status = success;
+};
+CommandLine parse_command_line(int argc, char** argv);
+
+}  // namespace rddlc::cli

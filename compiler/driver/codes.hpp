@@ -1,0 +1,15 @@
+// The diagnostics of this stage; each has a page in docs/diagnostics.
+#pragma once
+
+#include "support/diagnostic.hpp"
+
+namespace rddlc {
+
+inline constexpr Code unreadable_file{'E', 901};
+inline constexpr Code unwritable_file{'E', 902};
+inline constexpr Code unknown_output_kind{'E', 903};
+inline constexpr Code option_not_supported_yet{'E', 904};
+inline constexpr Code no_cpp_compiler{'E', 905};
+inline constexpr Code output_is_input{'E', 906};
+
+}  // namespace rddlc

@@ -1,0 +1,183 @@
+#include "driver/driver.hpp"
+
+#include "ast/print.hpp"
+#include "check/check.hpp"
+#include "driver/files.hpp"
+#include "driver/version.hpp"
+#include "driver/write.hpp"
+#include "emit/emit.hpp"
+#include "ground/ground.hpp"
+#include "ir/print.hpp"
+#include "ir/verify.hpp"
+#include "model/print.hpp"
+#include "parse/parse.hpp"
+#include "passes/passes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace rddlc {
+namespace {
+
+constexpr std::array<std::string_view, 8> stage_names = {"read",   "parse",    "check", "ground",
+                                                         "verify", "optimise", "emit",  "write"};
+constexpr std::array<std::string_view, 5> form_names = {"ast", "model", "ir", "ir-opt", "cpp"};
+
+// The enumerator whose name it is.
+template <class Enumeration, std::size_t n>
+std::optional<Enumeration> named(const std::array<std::string_view, n>& names,
+                                 std::string_view name) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<Enumeration>(found - names.begin());
+}
+
+// One compilation under way: measures stages, prints forms, knows when to stop.
+class Run {
+  public:
+    explicit Run(const CompileOptions& all) : options(all), result(all.diagnostics) {}
+
+    template <class Work>
+    auto measure(Stage stage, Work&& work) {
+        const auto begin = std::chrono::steady_clock::now();
+        auto value = work();
+        result.times.push_back({stage, std::chrono::steady_clock::now() - begin});
+        return value;
+    }
+
+    // Whether there is nothing to do after this stage.
+    bool ends_after(Stage stage) const {
+        return result.diagnostics.has_errors() || options.stop_after == stage;
+    }
+
+    template <class Print>
+    void show(Form form, Print&& print) {
+        if (options.print.contains(form)) result.printed += print();
+    }
+
+    const CompileOptions& options;
+    Compilation result;
+};
+
+ir::Program verified(ir::Program program) {
+    std::string complaints;
+    for (const std::string& complaint : ir::verify(program)) complaints += "\n  " + complaint;
+    if (!complaints.empty()) throw std::logic_error("the IR is not valid:" + complaints);
+    return program;
+}
+
+EmitOptions emit_options(const CompileOptions& options) {
+    const std::string name = options.output ? options.output->filename().string() : "simulator.cpp";
+    return {.header = output_kind(name) == OutputKind::Header,
+            .line_directives = options.line_directives,
+            .output_name = name,
+            .compiler_version = version};
+}
+
+void run_stages(Run& run) {
+    Compilation& result = run.result;
+    Diagnostics& diagnostics = result.diagnostics;
+
+    // The text of the files; the output must be a place to write to.
+    const auto files = run.measure(
+        Stage::Read, [&] { return read_inputs(run.options, result.sources, diagnostics); });
+    if (run.ends_after(Stage::Read)) return;
+
+    // Text -> what was written.
+    const auto tree =
+        run.measure(Stage::Parse, [&] { return parse(result.sources, files, diagnostics); });
+    if (diagnostics.has_errors()) return;
+    run.show(Form::Ast, [&] { return ast::print(tree); });
+    if (run.ends_after(Stage::Parse)) return;
+
+    // What was written -> what it means: names, types, casts, the order of the CPFs.
+    result.model =
+        run.measure(Stage::Check, [&] { return check(tree, result.sources, diagnostics); });
+    if (diagnostics.has_errors()) return;
+    run.show(Form::Model, [&] { return model::print(*result.model); });
+    if (run.ends_after(Stage::Check)) return;
+
+    // Model -> IR: objects become integers, non-fluents tables, CPFs loops.
+    auto grounded = run.measure(Stage::Ground, [&] { return ground(*result.model, diagnostics); });
+    if (diagnostics.has_errors()) return;
+    run.show(Form::Ir, [&] { return ir::print(*grounded); });
+    if (run.ends_after(Stage::Ground)) return;
+
+    // The IR keeps its invariants, or else the compiler is wrong.
+    result.program = run.measure(Stage::Verify, [&] { return verified(*std::move(grounded)); });
+    if (run.ends_after(Stage::Verify)) return;
+
+    // IR -> IR that computes the same values with less work.
+    result.program = run.measure(Stage::Optimise,
+                                 [&] { return verified(optimise(*std::move(result.program))); });
+    run.show(Form::OptimisedIr, [&] { return ir::print(*result.program); });
+    if (run.ends_after(Stage::Optimise)) return;
+
+    // IR -> C++.
+    result.text = run.measure(Stage::Emit, [&] {
+        return emit(*result.program, result.sources, emit_options(run.options));
+    });
+    run.show(Form::Cpp, [&] { return result.text; });
+    if (run.ends_after(Stage::Emit)) return;
+
+    // C++ -> the output file, through the C++ compiler if it is a shared object.
+    run.measure(Stage::Write, [&] {
+        write_outputs(run.options, result.text, diagnostics);
+        return 0;
+    });
+}
+
+std::string counted(std::size_t count, const char* word) {
+    return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string_view name_of(Stage stage) {
+    return stage_names[static_cast<std::size_t>(stage)];
+}
+std::optional<Stage> stage_named(std::string_view name) {
+    return named<Stage>(stage_names, name);
+}
+
+std::string_view name_of(Form form) {
+    return form_names[static_cast<std::size_t>(form)];
+}
+std::optional<Form> form_named(std::string_view name) {
+    return named<Form>(form_names, name);
+}
+
+Stage stage_of(Form form) {
+    switch (form) {
+        case Form::Ast:
+            return Stage::Parse;
+        case Form::Model:
+            return Stage::Check;
+        case Form::Ir:
+            return Stage::Ground;
+        case Form::OptimisedIr:
+            return Stage::Optimise;
+        case Form::Cpp:
+            break;
+    }
+    return Stage::Emit;
+}
+
+Compilation compile(const CompileOptions& options) {
+    Run run(options);
+    run_stages(run);
+    return std::move(run.result);
+}
+
+std::string summary(const Diagnostics& diagnostics) {
+    const std::size_t errors = diagnostics.error_count();
+    const std::size_t warnings = diagnostics.all().size() - errors;
+    if (errors == 0 && warnings == 0) return "";
+    if (errors == 0) return counted(warnings, "warning");
+    if (warnings == 0) return counted(errors, "error");
+    return counted(errors, "error") + ", " + counted(warnings, "warning");
+}
+
+}  // namespace rddlc

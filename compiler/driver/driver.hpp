@@ -1,0 +1,66 @@
+// The compiler as one function: the table of contents of everything below compiler/.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "model/model.hpp"
+#include "support/diagnostic.hpp"
+#include "support/source.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddlc {
+
+// In the order in which they run.
+enum class Stage { Read, Parse, Check, Ground, Verify, Optimise, Emit, Write };
+std::string_view name_of(Stage stage);  // "read", ...
+std::optional<Stage> stage_named(std::string_view name);
+
+// The forms that a problem takes on its way, and their names: ast, model, ir, ir-opt, cpp.
+enum class Form { Ast, Model, Ir, OptimisedIr, Cpp };
+std::string_view name_of(Form form);
+std::optional<Form> form_named(std::string_view name);
+Stage stage_of(Form form);  // the stage that makes it
+
+struct CompileOptions {
+    std::vector<std::filesystem::path> inputs;  // domain and instance, or one file with both
+    // .cpp, .hpp or .so; absent: nothing is written.
+    std::optional<std::filesystem::path> output;
+    std::set<Form> print;
+    Stage stop_after = Stage::Write;
+    bool line_directives = false;
+    // A make rule that names the inputs of the output.
+    std::optional<std::filesystem::path> dependency_file;
+    DiagnosticOptions diagnostics;
+};
+
+struct StageTime {
+    Stage stage;
+    std::chrono::duration<double> time;
+};
+
+// What a compilation leaves behind; what comes after an error or after `stop_after` is absent.
+struct Compilation {
+    explicit Compilation(const DiagnosticOptions& options) : diagnostics(options) {}
+
+    Sources sources;
+    Diagnostics diagnostics;
+    std::optional<model::Model> model;
+    std::optional<ir::Program> program;  // optimised, if it came so far
+    std::string text;                    // the emitted C++
+    std::string printed;                 // the forms asked for, in the order of the stages
+    std::vector<StageTime> times;
+};
+
+// Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
+Compilation compile(const CompileOptions& options);
+
+// "2 errors, 1 warning"; empty if there are neither.
+std::string summary(const Diagnostics& diagnostics);
+
+}  // namespace rddlc

@@ -1,0 +1,86 @@
+#include "driver/shared_object.hpp"
+
+#include "driver/codes.hpp"
+#include "driver/process.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+namespace rddlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds_runtime(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::exists(folder / "rddl" / "simulator.hpp", ignored);
+}
+
+std::vector<std::string> words(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> result;
+    for (std::string word; stream >> word;) result.push_back(word);
+    return result;
+}
+
+}  // namespace
+
+std::optional<fs::path> runtime_include_folder() {
+    std::vector<fs::path> candidates;
+    if (const char* folder = std::getenv("RDDLC_INCLUDE")) candidates.push_back(folder);
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    if (!program.empty()) candidates.push_back(program.parent_path() / RDDLC_INCLUDE_FROM_BIN);
+    candidates.push_back(RDDLC_SOURCE_INCLUDE);
+    for (const fs::path& candidate : candidates) {
+        if (holds_runtime(candidate)) return candidate.lexically_normal();
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output) {
+    const char* compiler = std::getenv("CXX");
+    std::vector<std::string> command = words(compiler ? compiler : "");
+    if (command.empty()) command = {"c++"};
+    for (const char* flag : {"-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off",
+                             "-DRDDL_ENTRY=rddl_simulator_entry"}) {
+        command.push_back(flag);
+    }
+    if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
+    command.insert(command.end(), {"-o", output.string(), source.string()});
+    return command;
+}
+
+bool build_shared_object(const fs::path& source, const fs::path& output, Diagnostics& diagnostics) {
+    if (!runtime_include_folder()) {
+        diagnostics.report(Diagnostic{.code = no_cpp_compiler,
+                                      .span = {},
+                                      .message = "cannot find the headers of the runtime"}
+                               .with_hint("set RDDLC_INCLUDE to the folder that holds "
+                                          "rddl/simulator.hpp"));
+        return false;
+    }
+    const std::vector<std::string> command = shared_object_command(source, output);
+    const auto result = run_process(command);
+    if (!result) {
+        diagnostics.report(Diagnostic{.code = no_cpp_compiler,
+                                      .span = {},
+                                      .message = fmt::format("cannot run the C++ compiler '{}': {}",
+                                                             command.front(), std::strerror(errno))}
+                               .with_hint("a shared object needs one: install it, or set CXX"));
+        return false;
+    }
+    if (result->status != 0) {
+        throw std::logic_error(fmt::format("the C++ compiler refuses the emitted text ({}):\n{}",
+                                           fmt::join(command, " "), result->output));
+    }
+    return true;
+}
+
+}  // namespace rddlc

@@ -1,0 +1,26 @@
+// Emitted text -> shared object, by the machine's C++ compiler.
+#pragma once
+
+#include "support/diagnostic.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc {
+
+// The folder that holds rddl/simulator.hpp: $RDDLC_INCLUDE, the one installed beside the running
+// program, or that of the source tree from which it was built. Nothing if there is none.
+std::optional<std::filesystem::path> runtime_include_folder();
+
+// The compiler and its arguments: $CXX (split at blanks) or c++.
+std::vector<std::string> shared_object_command(const std::filesystem::path& source,
+                                               const std::filesystem::path& output);
+
+// False, with the reason reported, if there is no compiler or no runtime. Throws std::logic_error
+// with the compiler's messages if it refuses the text: that is never the user's mistake.
+bool build_shared_object(const std::filesystem::path& source, const std::filesystem::path& output,
+                         Diagnostics& diagnostics);
+
+}  // namespace rddlc

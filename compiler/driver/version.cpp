@@ -1,0 +1,7 @@
+#include "driver/version.hpp"
+
+namespace rddlc {
+
+const char* const version = RDDLC_VERSION;
+
+}  // namespace rddlc
