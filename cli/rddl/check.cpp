@@ -1,0 +1,168 @@
+// rddl check: diagnostics, of one problem or of the whole repository.
+#include "commands.hpp"
+#include "front_end.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "support/render.hpp"
+#include "table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <thread>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct CheckOptions {
+    ProblemArguments problem;
+    bool all = false;
+    bool verbose = false;
+};
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::size_t warning_count(const Diagnostics& diagnostics) {
+    return diagnostics.all().size() - diagnostics.error_count();
+}
+
+ExitStatus check_one(const ProblemFiles& files) {
+    const CheckedProblem problem = check_problem(files);
+    report(problem);
+    const std::size_t warnings = warning_count(problem.diagnostics);
+    fmt::print("{}: no errors{}\n", files.name,
+               warnings == 0 ? "" : fmt::format(", {}", counted(warnings, "warning")));
+    return success;
+}
+
+// ------------------------------------------------------------------ many problems at once
+
+struct Outcome {
+    bool done = false;
+    std::size_t errors = 0, warnings = 0;
+    std::string text;  // the rendered diagnostics
+};
+
+Outcome check_quietly(const ProblemFiles& files) {
+    try {
+        const CheckedProblem problem = check_problem(files);
+        return {true, problem.diagnostics.error_count(), warning_count(problem.diagnostics),
+                render(problem.diagnostics, problem.sources, {})};
+    } catch (const Failure& failure) {
+        return {true, 1, 0, fmt::format("{}: error: {}\n", files.name, failure.what())};
+    }
+}
+
+// In parallel; outcomes in the order of the files. Stops early on an interrupt.
+std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
+    std::vector<Outcome> outcomes(files.size());
+    Progress progress("checking", static_cast<std::int64_t>(files.size()));
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < files.size() && !is_interrupted(); i = next++) {
+            outcomes[i] = check_quietly(files[i]);
+            progress.advance();
+        }
+    };
+    std::vector<std::thread> others;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
+    work();
+    for (std::thread& thread : others) thread.join();
+    return outcomes;
+}
+
+struct ProblemRow {
+    std::size_t instances = 0, without_errors = 0, errors = 0, warnings = 0;
+
+    void add(const Outcome& outcome) {
+        instances += 1;
+        without_errors += outcome.errors == 0;
+        errors += outcome.errors;
+        warnings += outcome.warnings;
+    }
+    std::vector<std::string> cells(std::string name) const {
+        return {std::move(name), std::to_string(instances), std::to_string(without_errors),
+                std::to_string(errors), std::to_string(warnings)};
+    }
+};
+
+ExitStatus summarise(const std::vector<RepositoryProblem>& problems,
+                     const std::vector<Outcome>& outcomes) {
+    Table table({{"problem"},
+                 {"instances", Align::Right},
+                 {"without errors", Align::Right},
+                 {"errors", Align::Right},
+                 {"warnings", Align::Right}});
+    ProblemRow total;
+    std::size_t next = 0;
+    for (const RepositoryProblem& problem : problems) {
+        ProblemRow row;
+        for (std::size_t i = 0; i < problem.instances.size(); ++i) {
+            const Outcome& outcome = outcomes[next++];
+            if (!outcome.done) continue;
+            row.add(outcome);
+            total.add(outcome);
+        }
+        table.add_row(row.cells(problem.name));
+    }
+    fmt::print("{}\n", table.text());
+    fmt::print("{} of {} without errors, {}, {}\n", total.without_errors,
+               counted(total.instances, "instance"), counted(total.errors, "error"),
+               counted(total.warnings, "warning"));
+    if (is_interrupted()) return interrupted;
+    return total.errors == 0 ? success : diagnosed;
+}
+
+ExitStatus check_problems(const std::vector<RepositoryProblem>& problems, bool verbose) {
+    std::vector<ProblemFiles> files;
+    for (const RepositoryProblem& problem : problems)
+        for (const std::string& instance : problem.instances)
+            files.push_back(find_instance(problem, instance));
+    const std::vector<Outcome> outcomes = check_many(files);
+    for (const Outcome& outcome : outcomes)
+        if (outcome.errors > 0 || verbose) fmt::print(stderr, "{}", outcome.text);
+    return summarise(problems, outcomes);
+}
+
+ExitStatus check(const CheckOptions& options) {
+    const ProblemArguments& problem = options.problem;
+    if (options.all) {
+        if (!problem.first.empty())
+            throw Failure("--all checks the whole repository; name no problem", "", usage_error);
+        return check_problems(require_repository().problems, options.verbose);
+    }
+    if (problem.first.empty()) throw Failure("name a problem, or say --all", "", usage_error);
+    if (problem.second.empty() && !is_path(problem.first)) {
+        const Repository repository = require_repository();
+        return check_problems({find_problem(repository, problem.first)}, options.verbose);
+    }
+    return check_one(problem.files());
+}
+
+}  // namespace
+
+Command add_check_command(CLI::App& program) {
+    CLI::App* const app = program.add_subcommand("check", "Check problems and show diagnostics");
+    app->footer(
+        "The exit status is 1 if there are errors. 'rddlc --explain E0203' explains a code.\n\n"
+        "Examples:\n"
+        "  rddl check domain.rddl instance.rddl\n"
+        "  rddl check Wildfire_MDP_ippc2014      all instances of a problem\n"
+        "  rddl check --all                      the whole of rddlrepository");
+    const auto options = std::make_shared<CheckOptions>();
+    add_problem_arguments(*app, options->problem, false);
+    app->add_flag("--all", options->all, "Check every instance of rddlrepository");
+    app->add_flag("-v,--verbose", options->verbose,
+                  "Show warnings, too, where many instances are checked");
+    return {app, [options] {
+                return check(*options);
+            }};
+}
+
+}  // namespace rddlc::cli

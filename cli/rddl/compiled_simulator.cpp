@@ -1,0 +1,171 @@
+#include "compiled_simulator.hpp"
+
+#include "cxx_compiler.hpp"
+#include "emit/emit.hpp"
+#include "failure.hpp"
+#include "progress.hpp"
+#include "sha256.hpp"
+#include "version.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace rddlc::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// All headers of the runtime, by name.
+std::string runtime_text() {
+    const fs::path folder = runtime_folder() / "rddl";
+    if (!fs::is_directory(folder))
+        throw Failure(fmt::format("the runtime's headers are not in '{}'", folder.string()),
+                      "set RDDLC_RUNTIME to the folder that holds rddl/simulator.hpp");
+    std::vector<fs::path> headers;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) headers.push_back(entry.path());
+    std::sort(headers.begin(), headers.end());
+    std::string text;
+    for (const fs::path& header : headers)
+        text += header.lexically_relative(folder).string() + '\0' + read_text(header) + '\0';
+    return text;
+}
+
+// Everything that the compiled code depends on.
+std::string content_key(const std::string& source, const CxxCompiler& compiler) {
+    return sha256(fmt::format("{}\n{}\n{}\n{}\n{}", source, runtime_text(),
+                              fmt::join(compiler.command, " "), compiler.version,
+                              fmt::join(simulator_flags(), " ")));
+}
+
+// A folder of our own beside the final place, so that a rename is atomic; removed at the end.
+class WorkFolder {
+  public:
+    explicit WorkFolder(const fs::path& parent) {
+        std::error_code error;
+        fs::create_directories(parent, error);
+        std::string pattern = (parent / "building-XXXXXX").string();
+        if (!mkdtemp(pattern.data()))
+            throw Failure(
+                fmt::format("cannot write to '{}': {}", parent.string(), std::strerror(errno)),
+                "set XDG_CACHE_HOME to a folder that can be written");
+        path_ = pattern;
+    }
+    ~WorkFolder() {
+        std::error_code error;
+        fs::remove_all(path_, error);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+// Tells on a terminal what takes so long.
+class CompilingMessage {
+  public:
+    CompilingMessage(const std::string& problem, bool shown) : shown_(shown && is_terminal(2)) {
+        if (shown_) fmt::print(stderr, "compiling {} ...", problem);
+    }
+    void done() const {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+        if (shown_) fmt::print(stderr, " ({})\n", duration_text(elapsed.count()));
+    }
+
+  private:
+    bool shown_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+// A shared object in the cache ends with the hash of what stands before it (the loader does not
+// mind), since loading a file that is cut off may kill the process.
+constexpr std::size_t seal_size = 64;
+
+void seal(const fs::path& object) {
+    const std::string digest = sha256_of_file(object);
+    std::ofstream(object, std::ios::binary | std::ios::app) << digest;
+}
+
+bool is_sealed(const fs::path& object) {
+    const std::string content = read_text(object);
+    if (content.size() < seal_size) return false;
+    const std::size_t end = content.size() - seal_size;
+    return sha256(std::string_view(content).substr(0, end)) == content.substr(end);
+}
+
+void compile(const std::string& source, const CxxCompiler& compiler, const fs::path& target) {
+    const WorkFolder work(target.parent_path());
+    const fs::path text = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
+    std::ofstream(text, std::ios::binary) << source;
+    compile_simulator(compiler, text, object);
+    seal(object);
+    fs::rename(object, target);
+}
+
+}  // namespace
+
+fs::path cache_folder() {
+    if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+        return fs::path(cache) / "rddlc";
+    if (const char* const home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".cache" / "rddlc";
+    throw Failure(
+        "there is no place for compiled simulators: neither XDG_CACHE_HOME nor HOME is set");
+}
+
+std::shared_ptr<const rddl_simulator> load_shared_object(const fs::path& path) {
+    const std::shared_ptr<void> library(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL),
+                                        [](void* handle) {
+                                            if (handle) dlclose(handle);
+                                        });
+    if (!library) return nullptr;
+    const auto entry = reinterpret_cast<rddl_simulator_entry_function>(
+        dlsym(library.get(), "rddl_simulator_entry"));
+    const rddl_simulator* const simulator = entry ? entry() : nullptr;
+    if (!simulator || simulator->abi_version != RDDL_ABI_VERSION ||
+        simulator->struct_size < sizeof(rddl_simulator))
+        return nullptr;
+    return {library, simulator};
+}
+
+std::shared_ptr<const rddl_simulator> compiled_simulator(const ir::Program& program,
+                                                         const Sources& sources,
+                                                         const CompileOptions& options) {
+    const auto compiler = find_cxx_compiler();
+    if (!compiler)
+        throw Failure("no C++ compiler was found (tried c++, g++ and clang++)",
+                      "install one, name it in CXX, or use --engine=interpreter");
+    const std::string source = emit(program, sources, {.compiler_version = version});
+    const fs::path target = cache_folder() / (content_key(source, *compiler) + ".so");
+    if (!options.ignore_cache && is_sealed(target))
+        if (auto simulator = load_shared_object(target)) return simulator;
+
+    const CompilingMessage message(options.problem, !options.quiet);
+    compile(source, *compiler, target);
+    message.done();
+    if (auto simulator = load_shared_object(target)) return simulator;
+    throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}", target.string(),
+                              dlerror()));
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,49 @@
+// rddl info: what a problem is made of, as someone who picks a solver asks.
+#include "commands.hpp"
+#include "description.hpp"
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct InfoOptions {
+    ProblemArguments problem;
+    bool json = false;
+};
+
+ExitStatus info(const InfoOptions& options) {
+    CheckedProblem problem = check_problem(options.problem.files());
+    report(problem);
+    ProblemDescription description;
+    description.files = problem.files;
+    description.model = *problem.model;
+    description.characteristics = characteristics_of(description.model);
+    description.simulator = load_simulator(std::move(problem), {Engine::Interpreter, false, true});
+    if (options.json)
+        fmt::print("{}\n", description_json(description).dump(2));
+    else
+        fmt::print("{}", description_text(description));
+    return success;
+}
+
+}  // namespace
+
+Command add_info_command(CLI::App& program) {
+    CLI::App* const app =
+        program.add_subcommand("info", "Show fluents, sizes and characteristics of a problem");
+    app->footer(
+        "Examples:\n"
+        "  rddl info domain.rddl instance.rddl\n"
+        "  rddl info Reservoir_ippc2023 1 --json");
+    const auto options = std::make_shared<InfoOptions>();
+    add_problem_arguments(*app, options->problem);
+    app->add_flag("--json", options->json, "Print everything as JSON, layouts and bounds included");
+    return {app, [options] {
+                return info(*options);
+            }};
+}
+
+}  // namespace rddlc::cli

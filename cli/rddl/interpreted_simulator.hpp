@@ -1,0 +1,16 @@
+// The C interface of a program that the interpreter runs.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "support/source.hpp"
+
+#include <rddl/simulator.h>
+
+#include <memory>
+
+namespace rddlc::cli {
+
+// The pointer owns everything that the simulator refers to.
+std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources);
+
+}  // namespace rddlc::cli

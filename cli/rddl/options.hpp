@@ -1,0 +1,25 @@
+// Options that several subcommands share, so that they are spelled and explained alike.
+#pragma once
+
+#include "load_simulator.hpp"
+#include "problem_lookup.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace rddlc::cli {
+
+// The positional arguments P.
+struct ProblemArguments {
+    std::string first;   // DOMAIN or NAME
+    std::string second;  // INSTANCE; may be empty for a file that holds both blocks
+
+    ProblemFiles files() const { return find_files(first, second); }
+};
+void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required = true);
+
+// --engine, --no-cache
+void add_engine_options(CLI::App& command, LoadOptions& options);
+
+}  // namespace rddlc::cli

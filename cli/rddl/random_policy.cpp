@@ -1,0 +1,164 @@
+#include "random_policy.hpp"
+
+#include "records_json.hpp"
+
+#include <rddl/random.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace rddlc::cli {
+
+namespace {
+
+// The policy draws from an "episode" that no environment ever reaches.
+constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
+
+std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
+    return std::uint64_t{high} << 32 | low;
+}
+
+// 0 .. count - 1; unbiased enough: the error is below count / 2^64.
+std::uint64_t below(std::uint64_t count, std::uint64_t bits) {
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::uint64_t>(Wide{bits} * count >> 64);
+}
+
+struct IntRange {
+    std::int64_t first = 0;
+    std::uint64_t count = 0;
+};
+
+// The ints between two finite bounds.
+IntRange ints_between(double lower, double upper) {
+    constexpr double limit = 0x1p62;  // far beyond any sensible bound, and count cannot overflow
+    const double first = std::ceil(std::clamp(lower, -limit, limit));
+    const double last = std::floor(std::clamp(upper, -limit, limit));
+    if (!(first <= last)) return {};
+    return {static_cast<std::int64_t>(first), static_cast<std::uint64_t>(last - first) + 1};
+}
+
+// See the header; both uniforms are in (0, 1).
+double draw_real(double lower, double upper, double u, double v) {
+    if (std::isfinite(lower) && std::isfinite(upper))
+        return std::clamp(lower + u * (upper - lower), lower, upper);
+    if (std::isfinite(lower)) return lower - std::log(u);
+    if (std::isfinite(upper)) return upper + std::log(u);
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+}
+
+template <class T>
+void store(std::byte* action, std::size_t offset, T value) {
+    std::memcpy(action + offset, &value, sizeof value);
+}
+
+}  // namespace
+
+// The random numbers of one environment at one timestep.
+struct RandomPolicy::Draws {
+    rddl::StreamKey key;
+    std::uint32_t step;
+
+    enum Purpose : std::uint32_t { Value = 0, Choice = 1 };
+
+    rddl::philox::Block block(Purpose purpose, std::size_t number) const {
+        return rddl::philox::generate({step, static_cast<std::uint32_t>(number), purpose, 0},
+                                      {key.low, key.high});
+    }
+    std::uint64_t bits(Purpose purpose, std::size_t number) const {
+        const rddl::philox::Block words = block(purpose, number);
+        return joined(words[0], words[1]);
+    }
+};
+
+RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
+    : problem_(&problem), seed_(seed) {
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = problem.fluents[f];
+        if (fluent.role != RDDL_ACTION) continue;
+        for (std::int64_t g = 0; g < fluent.count; ++g)
+            entries_.push_back(entry_of(problem, fluent, g));
+    }
+    drawn_per_step_ = entries_.size();
+    if (problem.max_nondef_actions >= 0)
+        drawn_per_step_ =
+            std::min(drawn_per_step_, static_cast<std::size_t>(problem.max_nondef_actions));
+    order_.resize(entries_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+}
+
+RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, const rddl_fluent& fluent,
+                                           std::int64_t grounding) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Entry entry{Entry::Kind::Bool,
+                0,
+                fluent.lower ? fluent.lower[grounding] : -infinity,
+                fluent.upper ? fluent.upper[grounding] : infinity,
+                0,
+                0};
+    entry.offset = static_cast<std::size_t>(fluent.offset) +
+                   static_cast<std::size_t>(grounding) * scalar_size(fluent.scalar);
+    if (fluent.range_type >= 0) {
+        entry.kind = Entry::Kind::Int;
+        entry.count = static_cast<std::uint64_t>(problem.types[fluent.range_type].object_count);
+    } else if (fluent.scalar == RDDL_INT) {
+        entry.kind = Entry::Kind::Int;
+        if (std::isfinite(entry.lower) && std::isfinite(entry.upper)) {
+            const IntRange range = ints_between(entry.lower, entry.upper);
+            entry.first = range.first;
+            entry.count = range.count;
+        }
+    } else if (fluent.scalar == RDDL_REAL) {
+        entry.kind = Entry::Kind::Real;
+    }
+    return entry;
+}
+
+void RandomPolicy::act(std::int64_t environment, std::int64_t step, std::byte* action) {
+    std::memcpy(action, problem_->default_action, static_cast<std::size_t>(problem_->action_size));
+    const Draws draws{
+        rddl::stream_key(seed_, static_cast<std::uint64_t>(environment), policy_episode),
+        static_cast<std::uint32_t>(step)};
+    if (drawn_per_step_ == entries_.size()) {
+        for (std::size_t i = 0; i < entries_.size(); ++i) draw(entries_[i], draws, i, action);
+        return;
+    }
+    // The first steps of a Fisher-Yates shuffle choose a subset; swapping back restores the order.
+    std::vector<std::size_t> partners;
+    for (std::size_t i = 0; i < drawn_per_step_; ++i) {
+        const std::uint64_t offset = below(order_.size() - i, draws.bits(Draws::Choice, i));
+        partners.push_back(i + static_cast<std::size_t>(offset));
+        std::swap(order_[i], order_[partners[i]]);
+        draw(entries_[order_[i]], draws, order_[i], action);
+    }
+    for (std::size_t i = drawn_per_step_; i-- > 0;) std::swap(order_[i], order_[partners[i]]);
+}
+
+void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t number,
+                        std::byte* action) const {
+    const rddl::philox::Block words = draws.block(Draws::Value, number);
+    const std::uint64_t bits = joined(words[0], words[1]);
+    if (entry.kind == Entry::Kind::Bool)
+        return store(action, entry.offset, static_cast<std::uint8_t>(bits >> 63));
+    if (entry.kind == Entry::Kind::Int && entry.count > 0)
+        return store(action, entry.offset,
+                     entry.first + static_cast<std::int64_t>(below(entry.count, bits)));
+    // Bounds between which no int fits: only the default is left.
+    if (entry.kind == Entry::Kind::Int && std::isfinite(entry.lower) && std::isfinite(entry.upper))
+        return;
+
+    const double value = draw_real(entry.lower, entry.upper, rddl::open_unit_real(bits),
+                                   rddl::open_unit_real(joined(words[2], words[3])));
+    if (entry.kind == Entry::Kind::Real) return store(action, entry.offset, value);
+    const double inside = std::isfinite(entry.lower)   ? std::ceil(value)
+                          : std::isfinite(entry.upper) ? std::floor(value)
+                                                       : std::nearbyint(value);
+    store(action, entry.offset, static_cast<std::int64_t>(std::clamp(inside, -0x1p62, 0x1p62)));
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,251 @@
+#include "rollouts.hpp"
+
+#include "batch.hpp"
+#include "faults.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "random_policy.hpp"
+#include "trace.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace rddlc::cli {
+
+namespace {
+
+// Lets the threads that finish batches out of order write their traces in order.
+class Turns {
+  public:
+    // False: the turn will never come.
+    bool wait_for(std::int64_t number) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return next_ == number || abandoned_; });
+        return next_ == number;
+    }
+    void end(std::int64_t number) {
+        const std::scoped_lock lock(mutex_);
+        next_ = number + 1;
+        changed_.notify_all();
+    }
+    // After a failure nobody may wait for the turn that never comes.
+    void abandon() {
+        const std::scoped_lock lock(mutex_);
+        abandoned_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::int64_t next_ = 0;
+    bool abandoned_ = false;
+};
+
+// Consecutive episodes stepped together by one thread.
+class EpisodeBatch {
+  public:
+    EpisodeBatch(const rddl_simulator& simulator, const RolloutOptions& options, std::int64_t first,
+                 std::int64_t count)
+        : simulator_(simulator),
+          problem_(*simulator.problem),
+          first_(first),
+          batch_(create_batch(simulator, {count, first, options.seed, 1, RDDL_AUTORESET_DISABLED,
+                                          options.horizon})),
+          episodes_(static_cast<std::size_t>(count)),
+          discounts_(episodes_.size(), 1.0),
+          rewards_(episodes_.size()),
+          causes_(episodes_.size()),
+          action_size_(static_cast<std::size_t>(problem_.action_size)),
+          actions_(episodes_.size() * action_size_) {
+        set_default_actions();
+        simulator_.get_causes(batch_.get(), 0, count, causes_.data());
+        for (std::size_t i = 0; i < episodes_.size(); ++i)
+            if (causes_[i] != RDDL_RUNNING) end_episode(i);
+    }
+
+    bool running() const {
+        return std::any_of(episodes_.begin(), episodes_.end(),
+                           [](const Episode& episode) { return !episode.finished; });
+    }
+
+    void choose_actions(RandomPolicy& policy) {
+        for (std::size_t i = 0; i < episodes_.size(); ++i)
+            if (!episodes_[i].finished)
+                policy.act(first_ + static_cast<std::int64_t>(i), episodes_[i].length, action(i));
+    }
+
+    void step() {
+        const rddl_transition out{nullptr, rewards_.data(), nullptr,
+                                  nullptr, causes_.data(),  nullptr};
+        simulator_.step(batch_.get(), actions_.data(), &out);
+        for (std::size_t i = 0; i < episodes_.size(); ++i)
+            if (!episodes_[i].finished) record(i);
+    }
+
+    // The same, with a trace line for each environment that was running.
+    void step(TraceLines& lines) {
+        const std::vector<Episode> before = episodes_;
+        lines.before_step(*batch_);
+        step();
+        lines.after_step(*batch_);
+        for (std::size_t i = 0; i < episodes_.size(); ++i)
+            if (!before[i].finished)
+                lines.add(i, first_ + static_cast<std::int64_t>(i), before[i].length, action(i),
+                          rewards_[i], causes_[i], episodes_[i].fault);
+    }
+
+    std::vector<Episode> take_episodes() && { return std::move(episodes_); }
+
+  private:
+    std::byte* action(std::size_t i) { return actions_.data() + i * action_size_; }
+
+    void set_default_actions() {
+        const auto* const defaults = static_cast<const std::byte*>(problem_.default_action);
+        for (std::size_t i = 0; i < episodes_.size(); ++i)
+            std::copy_n(defaults, action_size_, action(i));
+    }
+
+    void record(std::size_t i) {
+        Episode& episode = episodes_[i];
+        if (causes_[i] != RDDL_RUNNING) end_episode(i);
+        if (causes_[i] & RDDL_FAULTED) return;  // a step that faults is not made
+        episode.length += 1;
+        episode.undiscounted_return += rewards_[i];
+        episode.discounted_return += discounts_[i] * rewards_[i];
+        discounts_[i] *= problem_.discount;
+    }
+
+    void end_episode(std::size_t i) {
+        episodes_[i].finished = true;
+        episodes_[i].causes = causes_[i];
+        if (causes_[i] & RDDL_FAULTED)
+            episodes_[i].fault = fault_text(simulator_, *batch_, static_cast<std::int64_t>(i));
+    }
+
+    const rddl_simulator& simulator_;
+    const rddl_problem& problem_;
+    std::int64_t first_;
+    Batch batch_;
+    std::vector<Episode> episodes_;
+    std::vector<double> discounts_;
+    std::vector<double> rewards_;
+    std::vector<std::uint8_t> causes_;
+    std::size_t action_size_;
+    std::vector<std::byte> actions_;
+};
+
+// All threads' share of the work.
+class Rollout {
+  public:
+    Rollout(const rddl_simulator& simulator, const RolloutOptions& options, const TraceSink& trace,
+            bool progress)
+        : simulator_(simulator),
+          options_(options),
+          trace_(trace),
+          progress_("running", options.episodes, progress),
+          trace_format_(trace ? std::optional<TraceFormat>(*simulator.problem) : std::nullopt),
+          episodes_(static_cast<std::size_t>(options.episodes)) {}
+
+    void work() {
+        try {
+            RandomPolicy policy(*simulator_.problem, options_.seed);
+            for (std::int64_t number = next_batch_++; number * options_.batch < options_.episodes;
+                 number = next_batch_++) {
+                if (is_interrupted()) break;
+                run_batch(number, policy);
+            }
+        } catch (...) {
+            const std::scoped_lock lock(failure_mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            next_batch_ = options_.episodes;  // the other threads stop, too
+        }
+        // Only an early end leaves batches that others could wait for.
+        if (failure_ || is_interrupted()) turns_.abandon();
+    }
+
+    std::vector<Episode> take_episodes() {
+        if (failure_) std::rethrow_exception(failure_);
+        return std::move(episodes_);
+    }
+
+  private:
+    void run_batch(std::int64_t number, RandomPolicy& policy) {
+        const std::int64_t first = number * options_.batch;
+        const std::int64_t count = std::min(options_.batch, options_.episodes - first);
+        EpisodeBatch batch(simulator_, options_, first, count);
+        std::optional<TraceLines> lines;
+        if (trace_format_) lines.emplace(simulator_, *trace_format_, count);
+        while (batch.running() && !is_interrupted()) {
+            if (options_.policy == Policy::Random) batch.choose_actions(policy);
+            lines ? batch.step(*lines) : batch.step();
+        }
+        if (lines) write_trace(number, *lines);
+        auto finished = std::move(batch).take_episodes();
+        std::move(finished.begin(), finished.end(), episodes_.begin() + first);
+        progress_.advance(count);
+    }
+
+    void write_trace(std::int64_t number, const TraceLines& lines) {
+        if (!turns_.wait_for(number)) return;
+        trace_(lines.text());
+        turns_.end(number);
+    }
+
+    const rddl_simulator& simulator_;
+    const RolloutOptions& options_;
+    const TraceSink& trace_;
+    Progress progress_;
+    std::optional<TraceFormat> trace_format_;
+    std::vector<Episode> episodes_;
+    std::atomic<std::int64_t> next_batch_ = 0;
+    Turns turns_;
+    std::mutex failure_mutex_;
+    std::exception_ptr failure_;
+};
+
+int thread_count(int wanted) {
+    if (wanted > 0) return wanted;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Enough environments to amortise a call, few enough to give every thread work and, with a trace,
+// to keep the lines that wait for their turn small.
+std::int64_t batch_size(const RolloutOptions& options, int threads, bool traced) {
+    if (options.batch > 0) return options.batch;
+    if (traced) return 1;
+    return std::clamp<std::int64_t>(options.episodes / threads, 1, 64);
+}
+
+}  // namespace
+
+Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
+                      const TraceSink& trace, bool progress) {
+    Rollouts rollouts;
+    RolloutOptions chosen = options;
+    rollouts.threads =
+        static_cast<int>(std::min<std::int64_t>(thread_count(options.threads), options.episodes));
+    chosen.batch = batch_size(options, rollouts.threads, static_cast<bool>(trace));
+
+    const auto begin = std::chrono::steady_clock::now();
+    Rollout rollout(simulator, chosen, trace, progress);
+    std::vector<std::thread> others;
+    for (int i = 1; i < rollouts.threads; ++i) others.emplace_back([&] { rollout.work(); });
+    rollout.work();
+    for (std::thread& thread : others) thread.join();
+    rollouts.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+    rollouts.episodes = rollout.take_episodes();
+    for (const Episode& episode : rollouts.episodes) rollouts.steps += episode.length;
+    return rollouts;
+}
+
+}  // namespace rddlc::cli

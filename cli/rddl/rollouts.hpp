@@ -1,0 +1,50 @@
+// Whole episodes under a simple policy, in parallel.
+//
+// Episode number e is environment e of the seed, so its course depends on seed and number only:
+// not on how many others run, in which batch, or on which thread.
+#pragma once
+
+#include <rddl/simulator.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rddlc::cli {
+
+enum class Policy { Random, Noop };
+
+struct RolloutOptions {
+    Policy policy = Policy::Random;
+    std::int64_t episodes = 1;
+    std::uint64_t seed = 0;
+    std::int64_t horizon = -1;  // as in rddl_batch_options
+    int threads = 0;            // 0: one per core
+    std::int64_t batch = 0;     // environments stepped together; 0: chosen here
+};
+
+struct Episode {
+    bool finished = false;  // false only after an interrupt
+    double undiscounted_return = 0;
+    double discounted_return = 0;
+    std::int64_t length = 0;  // steps
+    std::uint8_t causes = RDDL_RUNNING;
+    std::string fault;  // "file:line:column: message" if it faulted
+};
+
+struct Rollouts {
+    std::vector<Episode> episodes;  // by number
+    std::int64_t steps = 0;
+    double seconds = 0;
+    int threads = 0;
+};
+
+// Receives the trace lines of consecutive episodes, in order; called by one thread at a time.
+using TraceSink = std::function<void(const std::string& lines)>;
+
+// Stops early, with what is finished, once is_interrupted(). `trace` may be empty.
+Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
+                      const TraceSink& trace, bool progress);
+
+}  // namespace rddlc::cli

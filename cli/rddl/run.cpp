@@ -1,0 +1,233 @@
+// rddl run: whole episodes under a simple policy, and what came of them.
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "line_stream.hpp"
+#include "options.hpp"
+#include "rollouts.hpp"
+#include "statistics.hpp"
+#include "table.hpp"
+#include "trace.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct RunOptions {
+    ProblemArguments problem;
+    LoadOptions load;
+    RolloutOptions rollouts;
+    std::string trace;
+    bool json = false;
+    bool quiet = false;
+};
+
+std::string_view name_of(Policy policy) {
+    return policy == Policy::Random ? "random" : "noop";
+}
+
+struct Summary {
+    Statistics undiscounted_return, discounted_return, length;
+    std::int64_t episodes = 0;  // finished ones
+    std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0;
+    std::optional<std::int64_t> first_faulted;  // number of an episode
+    double steps_per_second = 0;
+};
+
+Summary summarise(const Rollouts& rollouts) {
+    Summary summary;
+    std::vector<double> returns, discounted, lengths;
+    for (const Episode& episode : rollouts.episodes) {
+        if (!episode.finished) continue;
+        returns.push_back(episode.undiscounted_return);
+        discounted.push_back(episode.discounted_return);
+        lengths.push_back(static_cast<double>(episode.length));
+        summary.terminated += (episode.causes & RDDL_TERMINATED) != 0;
+        summary.horizon += (episode.causes & RDDL_TRUNCATED_HORIZON) != 0;
+        summary.invariant += (episode.causes & RDDL_TRUNCATED_INVARIANT) != 0;
+        summary.faulted += (episode.causes & RDDL_FAULTED) != 0;
+        if (!summary.first_faulted && episode.causes & RDDL_FAULTED)
+            summary.first_faulted = &episode - rollouts.episodes.data();
+    }
+    summary.episodes = static_cast<std::int64_t>(returns.size());
+    summary.undiscounted_return = statistics_of(returns);
+    summary.discounted_return = statistics_of(discounted);
+    summary.length = statistics_of(lengths);
+    summary.steps_per_second =
+        rollouts.seconds > 0 ? static_cast<double>(rollouts.steps) / rollouts.seconds : 0;
+    return summary;
+}
+
+std::string fault_line(const Rollouts& rollouts, std::int64_t number) {
+    const Episode& episode = rollouts.episodes[static_cast<std::size_t>(number)];
+    return fmt::format("episode {}, step {}: {}", number, episode.length, episode.fault);
+}
+
+void print_summary(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
+                   const LoadedProblem& problem) {
+    const rddl_problem& description = *problem.simulator->problem;
+    fmt::print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
+               name_of(options.rollouts.policy), options.rollouts.seed,
+               name_of(options.load.engine));
+    Table table({{""},
+                 {"mean", Align::Right},
+                 {"std", Align::Right},
+                 {"min", Align::Right},
+                 {"max", Align::Right}});
+    const auto add = [&](std::string what, const Statistics& s) {
+        table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
+                       number_text(s.minimum), number_text(s.maximum)});
+    };
+    add("return", summary.undiscounted_return);
+    add("discounted return", summary.discounted_return);
+    add("length", summary.length);
+    fmt::print("{}\n", table.text());
+    fmt::print(
+        "{} episode{}: {} terminated, {} at the horizon, {} broke an invariant, {} faulted\n",
+        grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
+        grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
+    if (summary.first_faulted)
+        fmt::print("first fault: {}\n", fault_line(rollouts, *summary.first_faulted));
+    fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
+               seconds_text(rollouts.seconds), rate_text(summary.steps_per_second),
+               rollouts.threads, rollouts.threads == 1 ? "" : "s");
+}
+
+nlohmann::ordered_json to_json(const Statistics& s) {
+    return {{"mean", json_number(s.mean)},
+            {"std", json_number(s.deviation)},
+            {"min", json_number(s.minimum)},
+            {"max", json_number(s.maximum)}};
+}
+
+void print_json(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
+                const LoadedProblem& problem) {
+    nlohmann::ordered_json out{{"problem", problem.files.name},
+                               {"policy", name_of(options.rollouts.policy)},
+                               {"engine", name_of(options.load.engine)},
+                               {"seed", options.rollouts.seed},
+                               {"episodes", summary.episodes},
+                               {"return", to_json(summary.undiscounted_return)},
+                               {"discounted_return", to_json(summary.discounted_return)},
+                               {"length", to_json(summary.length)},
+                               {"terminated", summary.terminated},
+                               {"truncated_horizon", summary.horizon},
+                               {"truncated_invariant", summary.invariant},
+                               {"faulted", summary.faulted},
+                               {"first_fault", nullptr},
+                               {"steps", rollouts.steps},
+                               {"seconds", rollouts.seconds},
+                               {"steps_per_second", summary.steps_per_second},
+                               {"threads", rollouts.threads}};
+    if (summary.first_faulted) out["first_fault"] = fault_line(rollouts, *summary.first_faulted);
+    fmt::print("{}\n", out.dump(2));
+}
+
+std::string header_line(const RunOptions& options, const LoadedProblem& problem,
+                        std::int64_t horizon) {
+    TraceHeader header;
+    header.problem = problem.files.name;
+    header.files = problem.files.all();
+    header.policy = name_of(options.rollouts.policy);
+    header.engine = name_of(options.load.engine);
+    header.seed = options.rollouts.seed;
+    header.episodes = options.rollouts.episodes;
+    header.horizon = horizon;
+    return trace_header_line(header, *problem.simulator->problem);
+}
+
+// An episode that nothing ends would keep the command busy for ever.
+void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
+    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
+        throw Failure(
+            "nothing ends an episode of this problem: it has no horizon, no termination "
+            "and no invariant",
+            "give one with --horizon", usage_error);
+}
+
+ExitStatus run(const RunOptions& options) {
+    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    const rddl_problem& description = *problem.simulator->problem;
+    const std::int64_t horizon =
+        options.rollouts.horizon < 0 ? description.horizon : options.rollouts.horizon;
+    require_an_end(description, horizon);
+
+    std::optional<LineWriter> trace;
+    TraceSink sink;
+    if (!options.trace.empty()) {
+        trace.emplace(options.trace);
+        trace->write(header_line(options, problem, horizon));
+        sink = [&](const std::string& lines) {
+            trace->write(lines);
+        };
+    }
+    const Rollouts rollouts =
+        run_episodes(*problem.simulator, options.rollouts, sink, !options.quiet);
+    if (trace) trace->flush();
+
+    const Summary summary = summarise(rollouts);
+    if (options.json)
+        print_json(options, summary, rollouts, problem);
+    else if (!options.quiet && options.trace != "-")
+        print_summary(options, summary, rollouts, problem);
+    if (!is_interrupted()) return success;
+    fmt::print(stderr, "rddl: interrupted after {} of {} episodes\n", summary.episodes,
+               options.rollouts.episodes);
+    return interrupted;
+}
+
+}  // namespace
+
+Command add_run_command(CLI::App& program) {
+    CLI::App* const app =
+        program.add_subcommand("run", "Run whole episodes and summarise their returns");
+    app->footer(
+        "Episode number e is environment e of the seed: its course does not depend on how many\n"
+        "episodes run, in which batches or on how many threads.\n\n"
+        "Examples:\n"
+        "  rddl run domain.rddl instance.rddl --episodes 1000\n"
+        "  rddl run MountainCar_ippc2023 1 --policy noop --json\n"
+        "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl");
+    const auto options = std::make_shared<RunOptions>();
+    add_problem_arguments(*app, options->problem);
+    const std::map<std::string, Policy> policies{{"random", Policy::Random},
+                                                 {"noop", Policy::Noop}};
+    app->add_option("--policy", options->rollouts.policy,
+                    "random (default): legal random actions; noop: default actions")
+        ->transform(CLI::CheckedTransformer(policies).description(""))
+        ->type_name("POLICY");
+    app->add_option("--episodes", options->rollouts.episodes, "How many (1)")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32).description(""))
+        ->type_name("N");
+    app->add_option("--seed", options->rollouts.seed, "Seed of all random numbers (0)")
+        ->type_name("S");
+    app->add_option("--horizon", options->rollouts.horizon,
+                    "Steps an episode; 0: no horizon (the instance's)")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->type_name("H");
+    app->add_option("--threads", options->rollouts.threads, "Threads (one per core)")
+        ->check(CLI::Range(1, 4096).description(""))
+        ->type_name("T");
+    app->add_option("--batch", options->rollouts.batch, "Episodes that a thread steps together")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24).description(""))
+        ->type_name("B");
+    add_engine_options(*app, options->load);
+    app->add_option("--trace", options->trace, "Write every step as a line of JSON; - is stdout")
+        ->type_name("FILE");
+    app->add_flag("--json", options->json, "Print the summary as JSON");
+    app->add_flag("--quiet", options->quiet, "Print neither progress nor summary");
+    return {app, [options] {
+                options->load.quiet = options->quiet;
+                return run(*options);
+            }};
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,117 @@
+#include "problem_lookup.hpp"
+
+#include "failure.hpp"
+#include "python_info.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace rddlc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, std::string_view text) {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+}
+
+class Lookup : public testing::Test {
+  protected:
+    Lookup() : root_(fs::path(testing::TempDir()) / "rddl-lookup-test") {
+        fs::remove_all(root_);
+        write(root_ / "archive/games/Chess/domain.rddl", "");
+        write(root_ / "archive/games/Chess/__init__.py",
+              "info = {\r\n    'name': 'Chess',\r\n    'description': 'It\\'s a \"game\".',\r\n"
+              "    'context': 'arcade', 'tags': [], 'viz': None\r\n}");
+        for (const char* instance : {"10", "2", "1", "b"})
+            write(root_ / "archive/games/Chess" / ("instance" + std::string(instance) + ".rddl"),
+                  "");
+        write(root_ / "archive/Lonely/domain.rddl", "");
+        write(root_ / "archive/Lonely/__init__.py", "info = {'name': 'Lonely', 'context': ''}");
+        write(root_ / "archive/Lonely/instance0.rddl", "");
+        write(root_ / "archive/Plain/Small/domain.rddl", "");
+        setenv("RDDL_REPOSITORY", root_.c_str(), 1);
+    }
+    ~Lookup() override {
+        unsetenv("RDDL_REPOSITORY");
+        fs::remove_all(root_);
+    }
+
+    static std::string failure(const std::string& first, const std::string& second) {
+        try {
+            find_files(first, second);
+        } catch (const Failure& failure) {
+            return std::string(failure.what()) + " | " + failure.hint;
+        }
+        return "found";
+    }
+
+    fs::path root_;
+};
+
+TEST_F(Lookup, NamesAreThoseOfTheRepository) {
+    const auto repository = find_repository();
+    ASSERT_TRUE(repository);
+    ASSERT_EQ(repository->problems.size(), 3u);
+    const RepositoryProblem& chess = repository->problems[0];
+    EXPECT_EQ(chess.name, "Chess_arcade");
+    EXPECT_EQ(chess.context, "arcade");
+    EXPECT_EQ(chess.description, "It's a \"game\".");
+    EXPECT_EQ(chess.instances, (std::vector<std::string>{"1", "2", "10", "b"}));
+    EXPECT_EQ(repository->problems[1].name, "Lonely");
+    EXPECT_EQ(repository->problems[1].context, "standalone");
+    EXPECT_EQ(repository->problems[2].name, "Plain/Small");
+}
+
+TEST_F(Lookup, FindsInstancesByName) {
+    const ProblemFiles files = find_files("Chess_arcade", "10");
+    EXPECT_EQ(files.domain, root_ / "archive/games/Chess/domain.rddl");
+    EXPECT_EQ(files.instance, root_ / "archive/games/Chess/instance10.rddl");
+    EXPECT_EQ(files.name, "Chess_arcade 10");
+}
+
+TEST_F(Lookup, TheArchiveItselfWillDo) {
+    setenv("RDDL_REPOSITORY", (root_ / "archive").c_str(), 1);
+    EXPECT_EQ(find_files("Lonely", "0").domain, root_ / "archive/Lonely/domain.rddl");
+}
+
+TEST_F(Lookup, TellsWhatIsWrong) {
+    EXPECT_NE(failure("Ches_arcade", "1").find("did you mean 'Chess_arcade'?"), std::string::npos);
+    EXPECT_EQ(failure("Chess_arcade", "3"),
+              "Chess_arcade has no instance '3' | it has 1, 2, 10, b");
+    EXPECT_EQ(failure("Chess_arcade", ""), "which instance of Chess_arcade? | it has 1, 2, 10, b");
+    EXPECT_NE(failure("Backgammon", "1").find("'rddl list' shows their names"), std::string::npos);
+    setenv("RDDL_REPOSITORY", "/no/such/folder", 1);
+    EXPECT_NE(failure("Chess_arcade", "1").find("is not a folder"), std::string::npos);
+}
+
+TEST_F(Lookup, PathsNeedNoRepository) {
+    setenv("RDDL_REPOSITORY", "/no/such/folder", 1);
+    const ProblemFiles files = find_files("a/domain.rddl", "b.rddl");
+    EXPECT_EQ(files.domain, "a/domain.rddl");
+    EXPECT_EQ(files.instance, "b.rddl");
+    EXPECT_FALSE(find_files("both.rddl", "").instance);
+}
+
+TEST(PythonInfo, ReadsStringsOnly) {
+    const auto info = read_python_info(
+        "import os\ninfo = {\"a\": 'one' \"two\",\n 'b': None, 'c': 'x,y', 'd' : [1, 2]}");
+    EXPECT_EQ(info.at("a"), "onetwo");
+    EXPECT_EQ(info.count("b"), 0u);
+    EXPECT_EQ(info.at("c"), "x,y");
+}
+
+TEST(PythonInfo, SurvivesAnything) {
+    EXPECT_TRUE(read_python_info("").empty());
+    EXPECT_TRUE(read_python_info("{").empty());
+    EXPECT_TRUE(read_python_info("{'a'").empty());
+    EXPECT_TRUE(read_python_info("{'a':").empty());
+    EXPECT_EQ(read_python_info("{'a': 'unfinished").at("a"), "unfinished");
+    EXPECT_EQ(read_python_info("{'a': 'b\\").at("a"), "b\\");
+}
+
+}  // namespace
+}  // namespace rddlc::cli

@@ -1,0 +1,130 @@
+#include "rollouts.hpp"
+
+#include "../runtime/tiny_simulator.hpp"
+#include "replay_session.hpp"
+#include "trace.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace rddlc::cli {
+namespace {
+
+using nlohmann::json;
+
+Rollouts run(RolloutOptions options, std::string* trace = nullptr) {
+    options.episodes = 37;
+    options.seed = 11;
+    TraceSink sink;
+    if (trace)
+        sink = [trace](const std::string& lines) {
+            *trace += lines;
+        };
+    return run_episodes(*tiny::simulator(), options, sink, false);
+}
+
+TEST(Rollouts, DoNotDependOnBatchAndThreads) {
+    const Rollouts alone = run({.threads = 1, .batch = 1});
+    ASSERT_EQ(alone.episodes.size(), 37u);
+    for (const auto& [threads, batch] : {std::pair{1, 37}, {2, 5}, {3, 64}, {8, 1}}) {
+        const Rollouts others = run({.threads = threads, .batch = batch});
+        EXPECT_EQ(others.steps, alone.steps);
+        for (std::size_t i = 0; i < alone.episodes.size(); ++i) {
+            EXPECT_EQ(others.episodes[i].undiscounted_return,
+                      alone.episodes[i].undiscounted_return);
+            EXPECT_EQ(others.episodes[i].length, alone.episodes[i].length);
+            EXPECT_EQ(others.episodes[i].causes, alone.episodes[i].causes);
+            EXPECT_EQ(others.episodes[i].fault, alone.episodes[i].fault);
+        }
+    }
+}
+
+TEST(Rollouts, TracesDoNotDependOnBatchAndThreads) {
+    std::string alone, together;
+    run({.threads = 1, .batch = 1}, &alone);
+    run({.threads = 4, .batch = 7}, &together);
+    EXPECT_FALSE(alone.empty());
+    EXPECT_EQ(alone, together);
+}
+
+TEST(Rollouts, StopAtTheHorizon) {
+    const Rollouts rollouts = run({.policy = Policy::Noop, .horizon = 3});
+    for (const Episode& episode : rollouts.episodes) {
+        EXPECT_TRUE(episode.finished);
+        EXPECT_LE(episode.length, 3);
+        if (episode.length == 3 && !(episode.causes & RDDL_FAULTED)) {
+            EXPECT_TRUE(episode.causes & RDDL_TRUNCATED_HORIZON);
+        }
+    }
+}
+
+TEST(Rollouts, DiscountReturns) {
+    std::string trace;
+    const Rollouts rollouts = run({.policy = Policy::Noop, .batch = 64}, &trace);
+    std::vector<double> plain(37), discounted(37);
+    std::istringstream lines(trace);
+    for (std::string text; std::getline(lines, text);) {
+        const json line = json::parse(text);
+        const auto episode = line["episode"].get<std::size_t>();
+        plain[episode] += line["reward"].get<double>();
+        discounted[episode] +=
+            line["reward"].get<double>() * std::pow(0.9, line["step"].get<double>());
+    }
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_DOUBLE_EQ(rollouts.episodes[i].undiscounted_return, plain[i]);
+        EXPECT_NEAR(rollouts.episodes[i].discounted_return, discounted[i], 1e-12);
+    }
+}
+
+TEST(Rollouts, FaultsEndAnEpisodeAndAreCounted) {
+    // A random hazard, added to a probability, is out of range half of the time.
+    const Rollouts rollouts = run({.threads = 1});
+    bool any = false;
+    for (const Episode& episode : rollouts.episodes) {
+        EXPECT_EQ((episode.causes & RDDL_FAULTED) != 0, !episode.fault.empty());
+        if (episode.fault.empty()) continue;
+        any = true;
+        EXPECT_NE(episode.fault.find("tiny.rddl:22:24: Bernoulli"), std::string::npos);
+    }
+    EXPECT_TRUE(any);
+}
+
+TEST(Trace, ReplaysBitForBit) {
+    std::string trace;
+    run({.threads = 1, .batch = 4}, &trace);
+    TraceHeader header;
+    header.seed = 11;
+    header.horizon = tiny::problem.horizon;
+    ReplaySession session(*tiny::simulator(), {});
+    EXPECT_EQ(session.answer(trace_header_line(header, tiny::problem)), "");
+    std::istringstream lines(trace);
+    int steps = 0;
+    for (std::string text; std::getline(lines, text); ++steps) {
+        const json before = json::parse(text);
+        const json after = json::parse(session.answer(text));
+        ASSERT_FALSE(after.contains("error")) << after;
+        EXPECT_EQ(after["state"], before["next_state"]);
+        EXPECT_EQ(after["reward"], before["reward"]);
+        EXPECT_EQ(after["terminated"], before["terminated"]);
+        EXPECT_EQ(after["truncated"], before["truncated"]);
+        EXPECT_EQ(after.contains("fault"), before.contains("fault"));
+    }
+    EXPECT_GT(steps, 37);
+}
+
+TEST(Trace, HeaderTellsWhereItComesFrom) {
+    TraceHeader header;
+    header.problem = "tiny 1";
+    header.files = {__FILE__};
+    header.seed = 18446744073709551615u;
+    const json line = json::parse(trace_header_line(header, tiny::problem));
+    EXPECT_EQ(line["rddl_trace"], 1);
+    EXPECT_EQ(line["domain"], "tiny");
+    EXPECT_EQ(line["seed"], 18446744073709551615u);
+    EXPECT_EQ(line["files"][0]["sha256"].get<std::string>().size(), 64u);
+}
+
+}  // namespace
+}  // namespace rddlc::cli
