@@ -102,10 +102,17 @@ void warn_of_long_body(const ast::Aggregation& aggregation, Reduction op,
                                    aggregation.op.text)));
 }
 
-void warn_of_unused_variables(const std::vector<model::VariableId>& variables, Span body,
-                              std::string_view what, Scope& scope) {
+bool is_number(const ast::Expr& e) {
+    return std::holds_alternative<ast::Integer>(e.node) ||
+           std::holds_alternative<ast::Real>(e.node);
+}
+
+// `sum_{?o : t} 1` counts objects on purpose.
+void warn_of_unused_variables(const std::vector<model::VariableId>& variables,
+                              const ast::Expr& body, std::string_view what, Scope& scope) {
+    if (is_number(without_groups(body))) return;
     for (const model::VariableId id : variables) {
-        if (uses_any(body, {id}, scope)) continue;
+        if (uses_any(body.span, {id}, scope)) continue;
         const model::Variable& variable = scope.context.model.variables[id];
         scope.context.report(
             {unused_variable, variable.span,
@@ -150,7 +157,7 @@ Typed check_aggregation(const ast::Aggregation& aggregation, Span span, Scope& s
     if (!body || !variables || !single) return std::nullopt;
     if (needs_objects(*op) && !check_nonempty(*variables, name, context)) return std::nullopt;
     warn_of_long_body(aggregation, *op, *variables, scope);
-    warn_of_unused_variables(*variables, aggregation.body->span, name.text, scope);
+    warn_of_unused_variables(*variables, *aggregation.body, name.text, scope);
 
     model::ValueType type = body->type;
     if (is_arg_reduction(*op))

@@ -167,7 +167,8 @@ void warn(Span span, model::ValueType found, const Need& need, Context& context)
 }
 
 std::string hint_for(model::ValueType found, const Need& need) {
-    if (need.type == model::bool_type && !is_object(found)) return "compare it: '... > 0'";
+    if (need.type == model::bool_type && !is_object(found))
+        return "compare it with something, as in '... > 0'";
     if (need.type == model::int_type && found == model::real_type)
         return "'round[...]', 'floor[...]' and 'ceil[...]' give an int; '/' always gives a real, "
                "'div[a, b]' an int";

@@ -95,7 +95,7 @@ class CpfChecker {
                                        "value '{0}''",
                                        fluent.name)}
                     .note(fluent.span, "declared here")
-                    .with_hint(fmt::format("you forgot a prime: write '{}'{} = ...'", fluent.name,
+                    .with_hint(fmt::format("you forgot a prime: {}'{} = ...", fluent.name,
                                            cpf.parameters.empty() ? "" : "(...)")));
             return false;
         }
