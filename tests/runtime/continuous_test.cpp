@@ -15,7 +15,7 @@ namespace {
 using fit::draws_of;
 using fit::expect_continuous_fit;
 using fit::expect_mean;
-using Draw = Context<Scalar>&;
+using fit::with_each;
 
 TEST(NormalQuantile, AgreesWithBoost) {
     const boost::math::normal law;
@@ -32,16 +32,17 @@ TEST(NormalQuantile, IsSymmetric) {
 }
 
 TEST(Uniform, FitsItsLaw) {
-    for (const auto& [lower, upper] : {std::pair(0.0, 1.0), {-3.0, 5.0}, {1e9, 1e9 + 1}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{0.0, 1.0}, {-3.0, 5.0}, {1e9, 1e9 + 1}}, [](double lower, double upper) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::uniform(context, place, lower, upper);
                               }),
                               [&](double x) { return (x - lower) / (upper - lower); });
+    });
 }
 
 TEST(Uniform, StaysBelowItsUpperBound) {
     const double upper = std::nextafter(1.0, 2.0);
-    for (const double x : draws_of([&](Draw context, Place place) {
+    for (const double x : draws_of([&](auto&context, Place place) {
              return sample::uniform(context, place, 1.0, upper);
          }))
         EXPECT_EQ(x, 1.0);
@@ -51,14 +52,14 @@ TEST(Uniform, StaysBelowItsUpperBound) {
 }
 
 TEST(Normal, FitsItsLawByVariance) {
-    for (const auto& [mean, variance] : {std::pair(0.0, 1.0), {-3.0, 4.0}, {100.0, 1e-6}}) {
+    with_each({{0.0, 1.0}, {-3.0, 4.0}, {100.0, 1e-6}}, [](double mean, double variance) {
         const boost::math::normal law(mean, std::sqrt(variance));
-        const auto draws = draws_of([&](Draw context, Place place) {
+        const auto draws = draws_of([&](auto& context, Place place) {
             return sample::normal(context, place, mean, variance);
         });
         expect_continuous_fit(draws, [&](double x) { return cdf(law, x); });
         expect_mean(draws, mean, std::sqrt(variance));
-    }
+    });
 }
 
 TEST(Normal, OfVarianceZeroIsItsMean) {
@@ -71,80 +72,86 @@ TEST(Normal, OfVarianceZeroIsItsMean) {
 TEST(Exponential, FitsItsLawByMean) {
     for (const double mean : {1.0, 20.0, 1e-9}) {
         const auto draws = draws_of(
-            [&](Draw context, Place place) { return sample::exponential(context, place, mean); });
+            [&](auto& context, Place place) { return sample::exponential(context, place, mean); });
         expect_continuous_fit(draws, [&](double x) { return -std::expm1(-x / mean); });
         expect_mean(draws, mean, mean);
     }
 }
 
 TEST(Weibull, FitsItsLaw) {
-    for (const auto& [shape, scale] : {std::pair(1.0, 1.0), {0.2, 3.0}, {7.0, 0.5}, {200.0, 1.0}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{1.0, 1.0}, {0.2, 3.0}, {7.0, 0.5}, {200.0, 1.0}}, [](double shape, double scale) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::weibull(context, place, shape, scale);
                               }),
                               [&](double x) { return -std::expm1(-std::pow(x / scale, shape)); });
+    });
 }
 
 TEST(Pareto, FitsLomaxLaw) {
-    for (const auto& [shape, scale] : {std::pair(1.0, 1.0), {0.3, 2.0}, {50.0, 10.0}})
+    with_each({{1.0, 1.0}, {0.3, 2.0}, {50.0, 10.0}}, [](double shape, double scale) {
         expect_continuous_fit(
-            draws_of([&](Draw context, Place place) {
+            draws_of([&](auto& context, Place place) {
                 return sample::pareto(context, place, shape, scale);
             }),
             [&](double x) { return -std::expm1(-shape * std::log1p(x / scale)); });
+    });
     const auto draws = draws_of(
-        [](Draw context, Place place) { return sample::pareto(context, place, 5.0, 2.0); });
+        [](auto& context, Place place) { return sample::pareto(context, place, 5.0, 2.0); });
     expect_mean(draws, 2.0 / 4.0, std::sqrt(4.0 * 5.0 / (16.0 * 3.0)));
 }
 
 TEST(Gumbel, FitsTheLawOfMaxima) {
-    for (const auto& [location, scale] : {std::pair(0.0, 1.0), {-5.0, 3.0}}) {
-        const auto draws = draws_of([&](Draw context, Place place) {
+    with_each({{0.0, 1.0}, {-5.0, 3.0}}, [](double location, double scale) {
+        const auto draws = draws_of([&](auto& context, Place place) {
             return sample::gumbel(context, place, location, scale);
         });
         expect_continuous_fit(
             draws, [&](double x) { return std::exp(-std::exp(-(x - location) / scale)); });
         expect_mean(draws, location + std::numbers::egamma * scale,
                     std::numbers::pi / std::sqrt(6.0) * scale);
-    }
+    });
 }
 
 TEST(Laplace, FitsItsLaw) {
-    for (const auto& [location, scale] : {std::pair(0.0, 1.0), {2.0, 0.1}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{0.0, 1.0}, {2.0, 0.1}}, [](double location, double scale) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::laplace(context, place, location, scale);
                               }),
                               [&](double x) {
                                   const double z = (x - location) / scale;
                                   return z < 0 ? 0.5 * std::exp(z) : 1 - 0.5 * std::exp(-z);
                               });
+    });
 }
 
 TEST(Cauchy, FitsItsLaw) {
-    for (const auto& [location, scale] : {std::pair(0.0, 1.0), {2.0, 30.0}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{0.0, 1.0}, {2.0, 30.0}}, [](double location, double scale) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::cauchy(context, place, location, scale);
                               }),
                               [&](double x) {
                                   const double z = (x - location) / scale;
                                   return 0.5 + std::atan(z) / std::numbers::pi;
                               });
+    });
 }
 
 TEST(Gompertz, FitsItsLaw) {
-    for (const auto& [shape, rate] : {std::pair(1.0, 1.0), {0.01, 2.0}, {30.0, 0.1}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{1.0, 1.0}, {0.01, 2.0}, {30.0, 0.1}}, [](double shape, double rate) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::gompertz(context, place, shape, rate);
                               }),
                               [&](double x) { return -std::expm1(-shape * std::expm1(rate * x)); });
+    });
 }
 
 TEST(Kumaraswamy, FitsItsLaw) {
-    for (const auto& [a, b] : {std::pair(1.0, 1.0), {2.0, 5.0}, {0.5, 0.5}, {8.0, 0.3}, {0.3, 9.0}})
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+    with_each({{1.0, 1.0}, {2.0, 5.0}, {0.5, 0.5}, {8.0, 0.3}, {0.3, 9.0}}, [](double a, double b) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::kumaraswamy(context, place, a, b);
                               }),
                               [&](double x) { return 1 - std::pow(1 - std::pow(x, a), b); });
+    });
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 using fit::draws_of;
 using fit::expect_count_fit;
 using fit::expect_mean;
-using Draw = Context<Scalar>&;
+using fit::with_each;
 
 double real(std::int64_t k) {
     return static_cast<double>(k);
@@ -58,7 +58,7 @@ TEST(Poisson, FitsItsLaw) {
         SCOPED_TRACE(rate);
         const boost::math::poisson law(rate);
         const auto draws = draws_of(
-            [&](Draw context, Place place) { return sample::poisson(context, place, rate); });
+            [&](auto& context, Place place) { return sample::poisson(context, place, rate); });
         expect_count_fit(draws, [&](std::int64_t k) { return cdf(law, real(k)); });
         expect_mean(draws, rate, std::sqrt(rate));
     }
@@ -80,7 +80,7 @@ TEST(Binomial, FitsItsLaw) {
             SCOPED_TRACE(testing::Message() << n << ", " << p);
             const boost::math::binomial law(real(n), p);
             const auto draws = draws_of(
-                [&](Draw context, Place place) { return sample::binomial(context, place, n, p); });
+                [&](auto& context, Place place) { return sample::binomial(context, place, n, p); });
             expect_count_fit(draws,
                              [&](std::int64_t k) { return k < n ? cdf(law, real(k)) : 1.0; });
             expect_mean(draws, real(n) * p, std::sqrt(real(n) * p * (1 - p)) + 1e-3);
@@ -100,16 +100,15 @@ TEST(Binomial, OfCertainties) {
 }
 
 TEST(NegativeBinomial, CountsFailuresBeforeTheSuccesses) {
-    for (const auto& [r, p] :
-         {std::pair(1.0, 0.5), {3.0, 0.2}, {0.5, 0.3}, {2.5, 0.9}, {40.0, 0.01}, {1000.0, 0.999}}) {
-        SCOPED_TRACE(testing::Message() << r << ", " << p);
-        const boost::math::negative_binomial law(r, p);
-        const auto draws = draws_of([&](Draw context, Place place) {
-            return sample::negative_binomial(context, place, r, p);
-        });
-        expect_count_fit(draws, [&](std::int64_t k) { return cdf(law, real(k)); });
-        expect_mean(draws, r * (1 - p) / p, std::sqrt(r * (1 - p)) / p);
-    }
+    with_each({{1.0, 0.5}, {3.0, 0.2}, {0.5, 0.3}, {2.5, 0.9}, {40.0, 0.01}, {1000.0, 0.999}},
+              [](double r, double p) {
+                  const boost::math::negative_binomial law(r, p);
+                  const auto draws = draws_of([&](auto& context, Place place) {
+                      return sample::negative_binomial(context, place, r, p);
+                  });
+                  expect_count_fit(draws, [&](std::int64_t k) { return cdf(law, real(k)); });
+                  expect_mean(draws, r * (1 - p) / p, std::sqrt(r * (1 - p)) / p);
+              });
     Context<Scalar> context;
     EXPECT_EQ(sample::negative_binomial(context, {}, 3.0, 1.0), 0);
     EXPECT_FALSE(context.fault);
@@ -120,7 +119,7 @@ TEST(Geometric, CountsTrialsFromOne) {
         SCOPED_TRACE(p);
         const boost::math::geometric law(p);
         const auto draws = draws_of(
-            [&](Draw context, Place place) { return sample::geometric(context, place, p); });
+            [&](auto& context, Place place) { return sample::geometric(context, place, p); });
         expect_count_fit(draws,
                          [&](std::int64_t k) { return k < 1 ? 0.0 : cdf(law, real(k - 1)); });
         expect_mean(draws, 1 / p, std::sqrt(1 - p) / p);

@@ -14,7 +14,6 @@ namespace rddl {
 namespace {
 
 using fit::draws_of;
-using Draw = Context<Scalar>&;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -40,7 +39,7 @@ TEST(Bernoulli, IsTrueAsOftenAsItShouldBe) {
         SCOPED_TRACE(p);
         std::vector<std::int64_t> draws;
         for (const bool draw : draws_of(
-                 [&](Draw context, Place place) { return sample::bernoulli(context, place, p); }))
+                 [&](auto&context, Place place) { return sample::bernoulli(context, place, p); }))
             draws.push_back(draw);
         expect_indices_fit(draws, {1 - p, p});
     }
@@ -48,7 +47,7 @@ TEST(Bernoulli, IsTrueAsOftenAsItShouldBe) {
 
 TEST(Discrete, FollowsItsProbabilities) {
     const std::array<double, 5> weights{0.1, 0.0, 0.25, 0.6, 0.05};
-    expect_indices_fit(draws_of([&](Draw context, Place place) {
+    expect_indices_fit(draws_of([&](auto& context, Place place) {
                            return sample::discrete(context, place, weights);
                        }),
                        {0.1, 0.0, 0.25, 0.6, 0.05});
@@ -95,7 +94,7 @@ TEST(Discrete, ChecksTheSum) {
 
 TEST(UnnormalisedDiscrete, FollowsItsWeights) {
     const std::array<double, 6> weights{0.0, 3.0, 1.0, 0.0, 4.0, 0.0};
-    expect_indices_fit(draws_of([&](Draw context, Place place) {
+    expect_indices_fit(draws_of([&](auto& context, Place place) {
                            return sample::unnormalised_discrete(context, place, weights);
                        }),
                        {0.0, 0.375, 0.125, 0.0, 0.5, 0.0});

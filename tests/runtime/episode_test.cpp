@@ -11,8 +11,6 @@
 namespace rddl {
 namespace {
 
-constexpr std::int64_t never = CounterEngine::never;
-
 // A batch with the arrays that a step reads and writes.
 struct Counters {
     Counters(const CounterEngine& engine, BatchOptions options)

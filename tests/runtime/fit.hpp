@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 namespace rddl::fit {
@@ -25,6 +27,15 @@ auto draws_of(Draw draw, std::uint64_t seed = 1) {
     for (int i = 0; i < draw_count; ++i) draws.push_back(draw(context, Place{0, i}));
     EXPECT_FALSE(context.fault);
     return draws;
+}
+
+// Calls test(a, b) for each pair of parameters.
+template <class Test>
+void with_each(std::initializer_list<std::pair<double, double>> parameters, Test test) {
+    for (const auto& [a, b] : parameters) {
+        SCOPED_TRACE(testing::Message() << "parameters " << a << ", " << b);
+        test(a, b);
+    }
 }
 
 // Pearson's statistic of observed and expected counts against its distribution.

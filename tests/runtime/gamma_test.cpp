@@ -18,15 +18,16 @@ namespace {
 using fit::draws_of;
 using fit::expect_continuous_fit;
 using fit::expect_mean;
-using Draw = Context<Scalar>&;
+using fit::with_each;
 
 TEST(Gamma, FitsItsLawByShapeAndScale) {
     for (const double shape : {0.02, 0.1, 0.5, 0.99, 1.0, 1.01, 2.5, 30.0, 1e4, 1e8}) {
         SCOPED_TRACE(shape);
         const double scale = 3.0;
         const boost::math::gamma_distribution<> law(shape, scale);
-        const auto draws = draws_of(
-            [&](Draw context, Place place) { return sample::gamma(context, place, shape, scale); });
+        const auto draws = draws_of([&](auto& context, Place place) {
+            return sample::gamma(context, place, shape, scale);
+        });
         expect_continuous_fit(draws, [&](double x) { return cdf(law, x); });
         expect_mean(draws, shape * scale, std::sqrt(shape) * scale);
     }
@@ -36,7 +37,7 @@ TEST(Gamma, FitsItsLawByShapeAndScale) {
 TEST(Gamma, OfTinyShapeIsTiny) {
     int zeros = 0;
     for (const double x : draws_of(
-             [](Draw context, Place place) { return sample::gamma(context, place, 1e-4, 1.0); }))
+             [](auto&context, Place place) { return sample::gamma(context, place, 1e-4, 1.0); }))
         zeros += x == 0;
     const double expected = fit::draw_count * std::pow(0x1p-1074, 1e-4);
     EXPECT_NEAR(zeros, expected, 5 * std::sqrt(expected));
@@ -54,34 +55,30 @@ TEST(ChiSquare, FitsItsLaw) {
     for (const double degrees : {0.1, 1.0, 2.0, 7.5, 1000.0}) {
         SCOPED_TRACE(degrees);
         const boost::math::chi_squared law(degrees);
-        const auto draws = draws_of(
-            [&](Draw context, Place place) { return sample::chi_square(context, place, degrees); });
+        const auto draws = draws_of([&](auto& context, Place place) {
+            return sample::chi_square(context, place, degrees);
+        });
         expect_continuous_fit(draws, [&](double x) { return cdf(law, x); });
         expect_mean(draws, degrees, std::sqrt(2 * degrees));
     }
 }
 
 TEST(Beta, FitsItsLaw) {
-    for (const auto& [a, b] : {std::pair(1.0, 1.0),
-                               {0.5, 0.5},
-                               {0.1, 3.0},
-                               {4.0, 0.3},
-                               {2.0, 5.0},
-                               {300.0, 20.0},
-                               {1e6, 1e6}}) {
-        SCOPED_TRACE(a);
-        const boost::math::beta_distribution<> law(a, b);
-        const auto draws =
-            draws_of([&](Draw context, Place place) { return sample::beta(context, place, a, b); });
-        expect_continuous_fit(draws, [&](double x) { return cdf(law, x); });
-        expect_mean(draws, mean(law), standard_deviation(law));
-    }
+    with_each(
+        {{1.0, 1.0}, {0.5, 0.5}, {0.1, 3.0}, {4.0, 0.3}, {2.0, 5.0}, {300.0, 20.0}, {1e6, 1e6}},
+        [](double a, double b) {
+            const boost::math::beta_distribution<> law(a, b);
+            const auto draws = draws_of(
+                [&](auto& context, Place place) { return sample::beta(context, place, a, b); });
+            expect_continuous_fit(draws, [&](double x) { return cdf(law, x); });
+            expect_mean(draws, mean(law), standard_deviation(law));
+        });
 }
 
 TEST(Beta, OfTinyShapesIsACoin) {
     int ones = 0;
     for (const double x : draws_of(
-             [](Draw context, Place place) { return sample::beta(context, place, 1e-5, 3e-5); })) {
+             [](auto&context, Place place) { return sample::beta(context, place, 1e-5, 3e-5); })) {
         EXPECT_TRUE(x >= 0 && x <= 1) << x;
         ones += x > 0.5;
     }
@@ -92,7 +89,7 @@ TEST(Student, FitsItsLaw) {
     for (const double degrees : {0.2, 1.0, 2.0, 5.0, 100.0, 1e9}) {
         SCOPED_TRACE(degrees);
         const boost::math::students_t law(degrees);
-        expect_continuous_fit(draws_of([&](Draw context, Place place) {
+        expect_continuous_fit(draws_of([&](auto& context, Place place) {
                                   return sample::student(context, place, degrees);
                               }),
                               [&](double x) { return cdf(law, x); });
