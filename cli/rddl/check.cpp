@@ -33,9 +33,8 @@ std::size_t warning_count(const Diagnostics& diagnostics) {
 }
 
 ExitStatus check_one(const ProblemFiles& files) {
-    const CheckedProblem problem = check_problem(files);
-    report(problem);
-    const std::size_t warnings = warning_count(problem.diagnostics);
+    const Compilation compilation = compile_and_report(files, Stage::Check);
+    const std::size_t warnings = warning_count(compilation.diagnostics);
     fmt::print("{}: no errors{}\n", files.name,
                warnings == 0 ? "" : fmt::format(", {}", counted(warnings, "warning")));
     return success;
@@ -50,13 +49,9 @@ struct Outcome {
 };
 
 Outcome check_quietly(const ProblemFiles& files) {
-    try {
-        const CheckedProblem problem = check_problem(files);
-        return {true, problem.diagnostics.error_count(), warning_count(problem.diagnostics),
-                render(problem.diagnostics, problem.sources, {})};
-    } catch (const Failure& failure) {
-        return {true, 1, 0, fmt::format("{}: error: {}\n", files.name, failure.what())};
-    }
+    const Compilation compilation = compile_problem(files, Stage::Check);
+    return {true, compilation.diagnostics.error_count(), warning_count(compilation.diagnostics),
+            render(compilation.diagnostics, compilation.sources, {})};
 }
 
 // In parallel; outcomes in the order of the files. Stops early on an interrupt.

@@ -1,11 +1,12 @@
 #include "compiled_simulator.hpp"
 
-#include "cxx_compiler.hpp"
-#include "emit/emit.hpp"
+#include "driver/process.hpp"
+#include "driver/shared_object.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "progress.hpp"
 #include "sha256.hpp"
-#include "version.hpp"
+#include "support/render.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <vector>
 
 namespace rddlc::cli {
@@ -32,27 +34,37 @@ std::string read_text(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// All headers of the runtime, by name.
+// All headers of the runtime, by name; empty if there are none.
 std::string runtime_text() {
-    const fs::path folder = runtime_folder() / "rddl";
-    if (!fs::is_directory(folder))
-        throw Failure(fmt::format("the runtime's headers are not in '{}'", folder.string()),
-                      "set RDDLC_RUNTIME to the folder that holds rddl/simulator.hpp");
+    const auto folder = runtime_include_folder();
+    if (!folder) return {};
     std::vector<fs::path> headers;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
+    for (const auto& entry : fs::recursive_directory_iterator(*folder / "rddl"))
         if (entry.is_regular_file()) headers.push_back(entry.path());
     std::sort(headers.begin(), headers.end());
     std::string text;
     for (const fs::path& header : headers)
-        text += header.lexically_relative(folder).string() + '\0' + read_text(header) + '\0';
+        text += header.lexically_relative(*folder).string() + '\0' + read_text(header) + '\0';
     return text;
 }
 
+// What the compiler of a command says about itself: the words before its options are asked.
+std::string compiler_version(const std::vector<std::string>& command) {
+    const auto is_option = [](const std::string& word) {
+        return word.starts_with('-');
+    };
+    const auto end = std::find_if(command.begin(), command.end(), is_option);
+    std::vector<std::string> question(command.begin(), end);
+    question.emplace_back("--version");
+    const auto answer = run_process(question);
+    return answer ? answer->output : "";
+}
+
 // Everything that the compiled code depends on.
-std::string content_key(const std::string& source, const CxxCompiler& compiler) {
-    return sha256(fmt::format("{}\n{}\n{}\n{}\n{}", source, runtime_text(),
-                              fmt::join(compiler.command, " "), compiler.version,
-                              fmt::join(simulator_flags(), " ")));
+std::string content_key(const std::string& text) {
+    const auto command = shared_object_command("simulator.cpp", "simulator.so");
+    return sha256(fmt::format("{}\n{}\n{}\n{}", text, runtime_text(), fmt::join(command, " "),
+                              compiler_version(command)));
 }
 
 // A folder of our own beside the final place, so that a rename is atomic; removed at the end.
@@ -113,13 +125,41 @@ bool is_sealed(const fs::path& object) {
     return sha256(std::string_view(content).substr(0, end)) == content.substr(end);
 }
 
-void compile(const std::string& source, const CxxCompiler& compiler, const fs::path& target) {
+void build(const std::string& text, const fs::path& target) {
     const WorkFolder work(target.parent_path());
-    const fs::path text = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
-    std::ofstream(text, std::ios::binary) << source;
-    compile_simulator(compiler, text, object);
+    const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
+    std::ofstream(source, std::ios::binary) << text;
+    Diagnostics diagnostics;
+    bool built = false;
+    try {
+        built = build_shared_object(source, object, diagnostics);
+    } catch (const std::logic_error&) {
+        // Ctrl-C reaches the compiler, too.
+        if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+        throw;
+    }
+    if (!built) {
+        fmt::print(stderr, "{}", render(diagnostics, {}, {}));
+        throw Failure("the simulator cannot be compiled", "--engine=interpreter needs no compiler");
+    }
     seal(object);
     fs::rename(object, target);
+}
+
+// A simulator from a shared object; null if the file is not one of this ABI version.
+std::shared_ptr<const rddl_simulator> load(const fs::path& object) {
+    const auto close = [](void* handle) {
+        if (handle) dlclose(handle);
+    };
+    const std::shared_ptr<void> library(dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL), close);
+    if (!library) return nullptr;
+    const auto entry = reinterpret_cast<rddl_simulator_entry_function>(
+        dlsym(library.get(), "rddl_simulator_entry"));
+    const rddl_simulator* const simulator = entry ? entry() : nullptr;
+    if (!simulator || simulator->abi_version != RDDL_ABI_VERSION ||
+        simulator->struct_size < sizeof(rddl_simulator))
+        return nullptr;
+    return {library, simulator};
 }
 
 }  // namespace
@@ -133,39 +173,19 @@ fs::path cache_folder() {
         "there is no place for compiled simulators: neither XDG_CACHE_HOME nor HOME is set");
 }
 
-std::shared_ptr<const rddl_simulator> load_shared_object(const fs::path& path) {
-    const std::shared_ptr<void> library(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL),
-                                        [](void* handle) {
-                                            if (handle) dlclose(handle);
-                                        });
-    if (!library) return nullptr;
-    const auto entry = reinterpret_cast<rddl_simulator_entry_function>(
-        dlsym(library.get(), "rddl_simulator_entry"));
-    const rddl_simulator* const simulator = entry ? entry() : nullptr;
-    if (!simulator || simulator->abi_version != RDDL_ABI_VERSION ||
-        simulator->struct_size < sizeof(rddl_simulator))
-        return nullptr;
-    return {library, simulator};
-}
-
-std::shared_ptr<const rddl_simulator> compiled_simulator(const ir::Program& program,
-                                                         const Sources& sources,
-                                                         const CompileOptions& options) {
-    const auto compiler = find_cxx_compiler();
-    if (!compiler)
-        throw Failure("no C++ compiler was found (tried c++, g++ and clang++)",
-                      "install one, name it in CXX, or use --engine=interpreter");
-    const std::string source = emit(program, sources, {.compiler_version = version});
-    const fs::path target = cache_folder() / (content_key(source, *compiler) + ".so");
+std::shared_ptr<const rddl_simulator> compiled_simulator(const std::string& text,
+                                                         const CacheOptions& options) {
+    const fs::path target = cache_folder() / (content_key(text) + ".so");
     if (!options.ignore_cache && is_sealed(target))
-        if (auto simulator = load_shared_object(target)) return simulator;
+        if (auto simulator = load(target)) return simulator;
 
     const CompilingMessage message(options.problem, !options.quiet);
-    compile(source, *compiler, target);
+    build(text, target);
     message.done();
-    if (auto simulator = load_shared_object(target)) return simulator;
+    if (auto simulator = load(target)) return simulator;
+    const char* const why = dlerror();
     throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}", target.string(),
-                              dlerror()));
+                              why ? why : "it is not a simulator of this version"));
 }
 
 }  // namespace rddlc::cli

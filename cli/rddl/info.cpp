@@ -1,6 +1,8 @@
 // rddl info: what a problem is made of, as someone who picks a solver asks.
 #include "commands.hpp"
 #include "description.hpp"
+#include "front_end.hpp"
+#include "interpreted_simulator.hpp"
 #include "options.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +17,13 @@ struct InfoOptions {
 };
 
 ExitStatus info(const InfoOptions& options) {
-    CheckedProblem problem = check_problem(options.problem.files());
-    report(problem);
     ProblemDescription description;
-    description.files = problem.files;
-    description.model = *problem.model;
+    description.files = options.problem.files();
+    Compilation compilation = compile_and_report(description.files, Stage::Optimise);
+    description.model = *std::move(compilation.model);
     description.characteristics = characteristics_of(description.model);
-    description.simulator = load_simulator(std::move(problem), {Engine::Interpreter, false, true});
+    description.simulator =
+        interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
     if (options.json)
         fmt::print("{}\n", description_json(description).dump(2));
     else

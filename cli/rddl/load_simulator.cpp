@@ -1,6 +1,7 @@
 #include "load_simulator.hpp"
 
 #include "compiled_simulator.hpp"
+#include "front_end.hpp"
 #include "interpreted_simulator.hpp"
 
 #include <utility>
@@ -11,18 +12,15 @@ std::string_view name_of(Engine engine) {
     return engine == Engine::Compiled ? "compiled" : "interpreter";
 }
 
-Simulator load_simulator(CheckedProblem problem, const LoadOptions& options) {
-    ir::Program program = ground_problem(problem);
-    if (options.engine == Engine::Interpreter)
-        return interpreted_simulator(std::move(program), std::move(problem.sources));
-    return compiled_simulator(program, problem.sources,
-                              {problem.files.name, options.ignore_cache, options.quiet});
-}
-
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
-    CheckedProblem problem = check_problem(files);
-    report(problem);
-    return {files, load_simulator(std::move(problem), options)};
+    if (options.engine == Engine::Interpreter) {
+        Compilation compilation = compile_and_report(files, Stage::Optimise);
+        return {files, interpreted_simulator(*std::move(compilation.program),
+                                             std::move(compilation.sources))};
+    }
+    const Compilation compilation = compile_and_report(files, Stage::Emit);
+    return {files, compiled_simulator(compilation.text,
+                                      {files.name, options.ignore_cache, options.quiet})};
 }
 
 }  // namespace rddlc::cli

@@ -1,7 +1,6 @@
 // A problem as a simulator, whichever engine runs it.
 #pragma once
 
-#include "front_end.hpp"
 #include "problem_lookup.hpp"
 
 #include <rddl/simulator.h>
@@ -28,11 +27,8 @@ struct LoadedProblem {
     Simulator simulator;
 };
 
-// Prints the diagnostics and throws Diagnosed if there are errors; Failure if there is no C++
-// compiler or it fails.
+// Prints the diagnostics and throws Diagnosed if there are errors, among them a missing C++
+// compiler.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);
-
-// From the checked problem, which is used up.
-Simulator load_simulator(CheckedProblem problem, const LoadOptions& options);
 
 }  // namespace rddlc::cli

@@ -1,7 +1,7 @@
 // `rddl`: RDDL problems at work. Each subcommand has a file of its own.
 #include "commands.hpp"
+#include "driver/version.hpp"
 #include "interrupt.hpp"
-#include "version.hpp"
 
 #include <fmt/format.h>
 

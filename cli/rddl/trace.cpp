@@ -1,7 +1,7 @@
 #include "trace.hpp"
 
+#include "driver/version.hpp"
 #include "sha256.hpp"
-#include "version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
