@@ -77,7 +77,7 @@ class Describer {
         default_action();
         problem();
         sites();
-        return std::move(text_);
+        return with_joined_regions(std::move(text_));
     }
 
   private:
@@ -89,11 +89,12 @@ class Describer {
                std::to_string(position.column) + "}";
     }
 
-    // `name[] = { rows };`, and a pointer to it with its length for the problem.
+    // `name[] = { rows };`, with the columns' names above.
     void rows(const std::string& type, const std::string& name,
-              const std::vector<std::vector<std::string>>& rows) {
+              const std::vector<std::vector<std::string>>& rows, const std::string& columns = "") {
         if (rows.empty()) return;
         std::string text = "inline constexpr " + type + " " + name + "[] = {\n";
+        if (!columns.empty()) text += std::string(indentation, ' ') + "// " + columns + "\n";
         for (const auto& row : rows) {
             for (const std::string& line : fill_call("{", row, "},", indentation)) {
                 text += std::string(indentation, ' ') + line + "\n";
@@ -156,7 +157,7 @@ class Describer {
         const std::string type = "std::array<double, " + std::to_string(values.size()) + ">";
         const std::vector<ir::Value> entries(values.begin(), values.end());
         if (entries.size() > 1 && are_equal(entries)) {
-            add("inline constexpr " + type + " " + name + " =\n    rddl::repeated<" +
+            add("inline constexpr auto " + name + " = rddl::repeated<" +
                 std::to_string(values.size()) + ">(" + literal(entries.front()) + ");\n");
         } else {
             const auto count = static_cast<std::int64_t>(values.size());
@@ -189,18 +190,16 @@ class Describer {
                 count *= static_cast<std::int64_t>(unit_.program.types[type].objects.size());
             }
             const int range = fluent.object_type ? static_cast<int>(*fluent.object_type) : -1;
-            table.push_back({".name = " + literal(std::string_view(fluent.name)),
-                             ".role = " + role_constant(fluent.role),
-                             ".scalar = " + scalar_constant(fluent.scalar),
-                             ".range_type = " + std::to_string(range),
-                             ".rank = " + std::to_string(fluent.parameter_types.size()),
-                             ".parameter_types = " + parameter_types(fluent),
-                             ".count = " + std::to_string(count), ".offset = " + offset(fluent),
-                             ".lower = " + bounds(fluent, "lower", fluent.lower),
-                             ".upper = " + bounds(fluent, "upper", fluent.upper),
-                             ".source = " + source(fluent.span)});
+            table.push_back({literal(std::string_view(fluent.name)), role_constant(fluent.role),
+                             scalar_constant(fluent.scalar), std::to_string(range),
+                             std::to_string(fluent.parameter_types.size()),
+                             parameter_types(fluent), std::to_string(count), offset(fluent),
+                             bounds(fluent, "lower", fluent.lower),
+                             bounds(fluent, "upper", fluent.upper), source(fluent.span)});
         }
-        rows("rddl_fluent", "fluents", table);
+        rows("rddl_fluent", "fluents", table,
+             "name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, "
+             "source");
     }
 
     void conditions(const std::string& name, const std::vector<ir::Computation>& conditions) {
@@ -296,6 +295,7 @@ class Describer {
     const Unit& unit_;
     Scope scope_;
     std::string text_;
+    bool after_line_ = false;
     std::map<FileId, std::string> files_;
     std::map<std::vector<std::uint32_t>, std::string> parameter_types_;
     std::map<std::string, std::string> scope_tables_;

@@ -9,8 +9,10 @@
 namespace rddlc::cpp {
 namespace {
 
+// Longer conditions get a name.
+constexpr std::size_t longest_condition = 45;
 // Longer operands of a chain get a name of their own instead of a line of their own.
-constexpr std::size_t longest_operand = 45;
+constexpr std::size_t longest_operand = 75;
 // Shorter texts are not worth a name.
 constexpr std::size_t shortest_named = 12;
 
@@ -118,19 +120,21 @@ void FunctionBody::statement(const ir::Loop& loop) {
 }
 
 void FunctionBody::value(const std::string& lead, ir::NodeId id) {
-    prepare(lead.size(), id);
+    prepare(lead, id);
     write(lead, id);
 }
 
 // --------------------------------------------------------------------------- preparation
 
-void FunctionBody::prepare(std::size_t lead_length, ir::NodeId id) {
+void FunctionBody::prepare(const std::string& lead, ir::NodeId id) {
     name_blocks_within(id);
     if (const ir::Select* select = lazy_select(id)) return prepare_branch(*select);
     if (is_block(id)) return;
     const ir::Node& node = program()[id];
     do {
-        if (fits_on_one_line(lead_length, id) || fits_as_chain(lead_length, id)) return;
+        const std::size_t length = expressions_.text(id).size() + 1;
+        const bool fits_behind_break = lead.ends_with("= ") && fits(length, 1);
+        if (fits(lead.size() + length) || fits_behind_break || fits_as_chain(lead, id)) return;
         if (is_binder(node)) return;
         if (const auto* discrete = std::get_if<ir::Discrete>(&node.form)) {
             return prepare_discrete(*discrete);
@@ -139,7 +143,7 @@ void FunctionBody::prepare(std::size_t lead_length, ir::NodeId id) {
 }
 
 void FunctionBody::prepare_branch(const ir::Select& select) {
-    const bool is_long = expressions_.text(select.condition).size() > longest_operand;
+    const bool is_long = expressions_.text(select.condition).size() > longest_condition;
     if (is_long) name_value(select.condition);
 }
 
@@ -168,17 +172,18 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     if (parts.empty()) parts = chain_parts(id);
     if (parts.size() == 1) parts = eager_parts(id);
 
-    const ir::NodeId* longest = nullptr;
-    std::size_t length = shortest_named - 1;
+    std::vector<std::size_t> lengths;
     for (const ir::NodeId& part : parts) {
-        if (expressions_.is_named(part) || is_leaf(program()[part])) continue;
-        const std::size_t part_length = expressions_.text(part).size();
-        if (part_length <= length) continue;
-        longest = &part;
-        length = part_length;
+        const bool has_name = expressions_.is_named(part) || is_leaf(program()[part]);
+        lengths.push_back(has_name ? 0 : expressions_.text(part).size());
     }
-    if (longest) name_value(*longest);
-    return longest != nullptr;
+    const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);
+    if (longest < shortest_named) return false;
+    // The first of those that are about as long, so that names come in the order of the text.
+    const auto first = std::ranges::find_if(
+        lengths, [&](std::size_t length) { return 3 * length >= 2 * longest; });
+    name_value(parts[static_cast<std::size_t>(first - lengths.begin())]);
+    return true;
 }
 
 void FunctionBody::name_value(ir::NodeId id) {
@@ -189,10 +194,11 @@ void FunctionBody::name_value(ir::NodeId id) {
 std::string FunctionBody::declare(ir::NodeId id) {
     const ir::Node& node = program()[id];
     const std::string_view wish = wish_for(node);
-    const std::string_view room_for_number = "_99";
-    prepare(sizeof "const Real  = " - 1 + wish.size() + room_for_number.size(), id);
+    const std::string type = "const " + expressions_.type(node.type) + " ";
+    // The parts that need names get them first, so that numbers grow from top to bottom.
+    prepare(type + std::string(wish) + "_99 = ", id);
     const std::string name = expressions_.claim(wish);
-    write("const " + expressions_.type(node.type) + " " + name + " = ", id);
+    write(type + name + " = ", id);
     return name;
 }
 
@@ -223,55 +229,74 @@ void FunctionBody::write(const std::string& lead, ir::NodeId id) {
     for (const std::string& each : lines) line(each);
 }
 
+// In the order of clang-format's preferences.
 void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     const ir::Node& node = program()[id];
-    const ir::VariableId variable = *ir::bound_variable(node);
     const ir::NodeId body = ir::operands_of(node).front();
     const std::string head = expressions_.call_head(node) + ",";
+    const std::size_t bracket = head.find('(') + 1;
+    const std::string function = lead + head.substr(0, bracket);
+    const std::string arguments = head.substr(bracket);
 
     const auto before = expressions_.mark();
-    expressions_.enter(variable);
-    const std::string lambda = expressions_.lambda_head(variable, body);
-    if (!is_block(body)) {
-        const std::string whole = lambda + " { return " + expressions_.result(body) + "; });";
-        const std::size_t column = lead.size() + head.find('(') + 1;
-        const std::size_t arguments = head.size() - head.find('(') + whole.size();
-        if (fits(column + whole.size())) {
-            line(lead + head);
-            line(std::string(column, ' ') + whole);
-            return expressions_.return_to(before);
+    expressions_.enter(*ir::bound_variable(node));
+    const std::string lambda = expressions_.lambda_head(*ir::bound_variable(node), body);
+    const std::string whole =
+        is_block(body) ? "" : lambda + " { return " + expressions_.result(body) + "; });";
+    const bool has_whole = !whole.empty();
+    const std::string opening = function + arguments + " " + lambda + " {";
+    if (has_whole && fits(function.size() + whole.size())) {
+        line(function + arguments);
+        line(std::string(function.size(), ' ') + whole);
+    } else if (has_whole && fits(arguments.size() + 1 + whole.size(), 1)) {
+        line(function);
+        line(std::string(indentation, ' ') + arguments + " " + whole);
+    } else if (fits(opening.size())) {
+        line(opening);
+        write_lambda_body(body);
+        line("});");
+    } else {
+        line(function);
+        ++level_;
+        if (has_whole && fits(whole.size())) {
+            line(arguments);
+            line(whole);
+        } else {
+            line(arguments + " " + lambda + " {");
+            write_lambda_body(body);
+            line("});");
         }
-        if (fits(arguments, 1)) {
-            line(lead + head.substr(0, head.find('(') + 1));
-            line(std::string(indentation, ' ') + head.substr(head.find('(') + 1) + " " + whole);
-            return expressions_.return_to(before);
-        }
+        --level_;
     }
-    line(lead + head + " " + lambda + " {");
-    write_lambda_body(body);
-    line("});");
     expressions_.return_to(before);
 }
 
 void FunctionBody::write_branch(const std::string& lead, const ir::Select& select) {
     expressions_.uses().context = true;
-    const std::string head = "rddl::branch(";
-    const std::string condition = "context, " + expressions_.text(select.condition) + ", ";
-    if (!is_block(select.then_value) && !is_block(select.else_value)) {
-        const std::string arguments =
-            condition + "[&] { return " + expressions_.result(select.then_value) +
-            "; }, [&] { return " + expressions_.result(select.else_value) + "; });";
-        if (fits(arguments.size(), 1)) {
-            line(lead + head);
-            ++level_;
-            line(arguments);
-            --level_;
+    line(lead + "rddl::branch(");
+    ++level_;
+    std::string current = "context, " + expressions_.text(select.condition) + ",";
+    const auto add_lambda = [&](ir::NodeId body, const std::string& tail) {
+        const std::string whole =
+            is_block(body) ? "" : "[&] { return " + expressions_.result(body) + "; }" + tail;
+        // Of two lambdas, clang-format breaks one that has a braced list inside.
+        const bool stays_whole =
+            !whole.empty() && whole.find(", {") == std::string::npos && fits(whole.size());
+        if (stays_whole && !current.starts_with('}') && fits(current.size() + 1 + whole.size())) {
+            current += " " + whole;
             return;
         }
-    }
-    const std::string then_value = write_lambda("then_value", select.then_value);
-    const std::string else_value = write_lambda("else_value", select.else_value);
-    line(lead + head + condition + then_value + ", " + else_value + ");");
+        line(current);
+        current = whole;
+        if (stays_whole) return;
+        line("[&] {");
+        write_lambda_body(body);
+        current = "}" + tail;
+    };
+    add_lambda(select.then_value, ",");
+    add_lambda(select.else_value, ");");
+    line(current);
+    --level_;
 }
 
 void FunctionBody::write_discrete(const std::string& lead, const ir::Discrete& discrete) {
@@ -285,21 +310,12 @@ void FunctionBody::write_discrete(const std::string& lead, const ir::Discrete& d
     line(lead + expressions_.discrete_call(discrete, name) + ";");
 }
 
-// const auto then_value = [&] { ... };
-std::string FunctionBody::write_lambda(std::string_view wish, ir::NodeId body) {
-    const std::string name = expressions_.claim(wish);
-    line("const auto " + name + " = [&] {");
-    const auto before = expressions_.mark();
-    write_lambda_body(body);
-    expressions_.return_to(before);
-    line("};");
-    return name;
-}
-
 void FunctionBody::write_lambda_body(ir::NodeId body) {
+    const auto before = expressions_.mark();
     ++level_;
     value("return ", body);
     --level_;
+    expressions_.return_to(before);
 }
 
 // ------------------------------------------------------------------------------ questions
@@ -308,16 +324,15 @@ bool FunctionBody::fits(std::size_t length, int levels_deeper) const {
     return static_cast<std::size_t>((level_ + levels_deeper) * indentation) + length <= line_width;
 }
 
-bool FunctionBody::fits_on_one_line(std::size_t lead_length, ir::NodeId id) {
-    return fits(lead_length + expressions_.text(id).size() + 1);
-}
-
-bool FunctionBody::fits_as_chain(std::size_t lead_length, ir::NodeId id) {
+bool FunctionBody::fits_as_chain(const std::string& lead, ir::NodeId id) {
     const std::vector<ir::NodeId> parts = chain_parts(id);
-    if (parts.size() < 2 || !fits(lead_length + longest_operand)) return false;
+    if (parts.size() < 2) return false;
+    const std::size_t column = lead.ends_with("= ") ? indentation : lead.size();
+    const std::string_view operator_and_brackets = "() &&";
     return std::ranges::all_of(parts, [&](ir::NodeId part) {
         const std::string text = expressions_.text(part);
-        return text.size() <= longest_operand && text.find("[&]") == std::string::npos;
+        return text.size() <= longest_operand && text.find("[&]") == std::string::npos &&
+               fits(column + text.size() + operator_and_brackets.size());
     });
 }
 

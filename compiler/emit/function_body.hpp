@@ -9,9 +9,8 @@
 //                                           });
 //     next.x[r] = state.x[r] + action.in[r] -
 //                 action.out[r];
-//                                           const auto then_value = [&] {
-//     next.x[r] = rddl::branch(                 return ...;
-//         context, c, [&] { return ...; },  };
+//     next.x[r] = rddl::branch(
+//         context, c, [&] { return ...; },
 //         [&] { return ...; });
 #pragma once
 
@@ -43,8 +42,8 @@ class FunctionBody {
     // `lead` and the value; a lead is "return " or ends with "= ".
     void value(const std::string& lead, ir::NodeId id);
 
-    // Names parts of `id` until one of the forms has room for it after a lead of this length.
-    void prepare(std::size_t lead_length, ir::NodeId id);
+    // Names parts of `id` until one of the forms has room for it after the lead.
+    void prepare(const std::string& lead, ir::NodeId id);
     void prepare_branch(const ir::Select& select);
     void prepare_discrete(const ir::Discrete& discrete);
     void name_blocks_within(ir::NodeId id);
@@ -57,11 +56,9 @@ class FunctionBody {
     void write_lambda_call(const std::string& lead, ir::NodeId id);
     void write_branch(const std::string& lead, const ir::Select& select);
     void write_discrete(const std::string& lead, const ir::Discrete& discrete);
-    std::string write_lambda(std::string_view wish, ir::NodeId body);
     void write_lambda_body(ir::NodeId body);
 
-    bool fits_on_one_line(std::size_t lead_length, ir::NodeId id);
-    bool fits_as_chain(std::size_t lead_length, ir::NodeId id);
+    bool fits_as_chain(const std::string& lead, ir::NodeId id);
     bool fits(std::size_t length, int levels_deeper = 0) const;
 
     // Must be a statement of its own: it contains a branch that is not named yet.

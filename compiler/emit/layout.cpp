@@ -59,7 +59,9 @@ std::vector<std::string> fill_chain(const std::string& lead, const std::string& 
     std::vector<std::string> broken = fill(pieces, column + indentation, 1);
     for (std::string& line : broken) line.insert(0, indentation, ' ');
     broken.insert(broken.begin(), lead.substr(0, lead.size() - 1));
-    return broken.size() == 2 || broken.size() < aligned.size() ? broken : aligned;
+    const bool too_wide = std::ranges::any_of(
+        aligned, [&](const std::string& line) { return column + line.size() > line_width; });
+    return too_wide || broken.size() == 2 || broken.size() < aligned.size() ? broken : aligned;
 }
 
 std::vector<std::string> fill_call(const std::string& head,

@@ -15,6 +15,18 @@ namespace {
 const std::string format_off = "// clang-format off\n";
 const std::string format_on = "// clang-format on\n";
 
+std::string lane_type(ir::Scalar scalar) {
+    switch (scalar) {
+        case ir::Scalar::Bool:
+            return "typename L::Bool";
+        case ir::Scalar::Int:
+            return "typename L::Int";
+        case ir::Scalar::Real:
+            break;
+    }
+    return "typename L::Real";
+}
+
 std::string indented(const std::string& text, std::size_t columns) {
     return std::string(columns, ' ') + text;
 }
@@ -85,21 +97,27 @@ class TableWriter {
 };
 
 std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
-    std::string members;
+    std::vector<CommentedLine> members;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage) continue;
-        const char* element = buffer.scalar == ir::Scalar::Bool  ? "typename L::Bool"
-                              : buffer.scalar == ir::Scalar::Int ? "typename L::Int"
-                                                                 : "typename L::Real";
-        const std::string member =
-            "    " + array_type(unit, buffer, element) + " " + unit.names.buffers[index] + ";";
-        const std::string place = "  // " + unit.where(buffer.span);
-        const bool fits = member.size() + place.size() <= line_width;
-        members += member + (fits ? place : "") + "\n";
+        const std::string type = array_type(unit, buffer, lane_type(buffer.scalar));
+        members.push_back(
+            {"    " + type + " " + unit.names.buffers[index] + ";", unit.where(buffer.span)});
     }
     const std::string head = "template <class L>\nstruct " + name + " {";
-    return head + (members.empty() ? "" : "\n" + members) + "};\n";
+    return head + (members.empty() ? "" : "\n" + with_comments(members)) + "};\n";
+}
+
+// "north, lake, ...", cut to the width.
+std::string object_list(const ir::ObjectType& type, std::size_t width) {
+    std::string text;
+    for (const std::string& object : type.objects) {
+        const std::string next = (text.empty() ? "" : ", ") + comment_text(object);
+        if (text.size() + next.size() + 5 > width) return text.empty() ? "..." : text + ", ...";
+        text += next;
+    }
+    return text;
 }
 
 std::string size_assert(const Unit& unit, const std::string& name, ir::Storage storage) {
@@ -122,6 +140,31 @@ std::string section(const std::string& title, const std::string& text) {
     if (text.empty()) return "";
     const std::size_t width = 92;
     return "// " + std::string(width - 4 - title.size(), '-') + " " + title + "\n\n" + text;
+}
+
+std::string with_comments(const std::vector<CommentedLine>& lines) {
+    std::size_t column = 0, width = 0;
+    for (const CommentedLine& line : lines) {
+        column = std::max(column, line.text.size() + 2);
+        width = std::max(width, 3 + line.comment.size());
+    }
+    std::string result;
+    for (const auto& [text, comment] : lines) {
+        result += text;
+        if (column + width <= line_width) {
+            result += std::string(column - text.size(), ' ') + "// " + comment;
+        }
+        result += "\n";
+    }
+    return result;
+}
+
+std::string with_joined_regions(std::string text) {
+    const std::string seam = format_on + "\n" + format_off;
+    for (std::size_t at; (at = text.find(seam)) != std::string::npos;) {
+        text.replace(at, seam.size(), "\n");
+    }
+    return text;
 }
 
 std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::string& element) {
@@ -194,12 +237,19 @@ std::string list(const std::string& declaration, const std::vector<std::string>&
 }
 
 std::string objects(const Unit& unit) {
-    std::string text;
+    std::vector<CommentedLine> lines;
+    std::size_t width = 0;
     for (std::size_t type = 0; type < unit.program.types.size(); ++type) {
-        text += "inline constexpr rddl::Index " + unit.names.counts[type] + " = " +
-                std::to_string(unit.program.types[type].objects.size()) + ";\n";
+        lines.push_back({"inline constexpr rddl::Index " + unit.names.counts[type] + " = " +
+                             std::to_string(unit.program.types[type].objects.size()) + ";",
+                         ""});
+        width = std::max(width, lines.back().text.size());
     }
-    return section("objects", text);
+    for (std::size_t type = 0; type < lines.size(); ++type) {
+        const std::size_t room = line_width - std::min(line_width, width + 5);
+        lines[type].comment = object_list(unit.program.types[type], room);
+    }
+    return section("objects", with_comments(lines));
 }
 
 std::string tables(const Unit& unit) {
@@ -214,7 +264,7 @@ std::string tables(const Unit& unit) {
                 unit.where(buffer.span) + "\n";
         text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values);
     }
-    return section("tables", text);
+    return section("tables", with_joined_regions(std::move(text)));
 }
 
 std::string records(const Unit& unit) {

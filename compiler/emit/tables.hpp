@@ -21,6 +21,17 @@ std::string table_type(ir::Scalar scalar);
 bool is_zero(const ir::Value& value);
 bool are_equal(std::span<const ir::Value> values);
 
+// `text` with the comments of neighbouring lines under each other, as clang-format has them; without
+// them where there is no room. Both are given without the blanks between them.
+struct CommentedLine {
+    std::string text;
+    std::string comment;
+};
+std::string with_comments(const std::vector<CommentedLine>& lines);
+
+// Joins neighbouring parts that clang-format must not touch.
+std::string with_joined_regions(std::string text);
+
 // A definition with its initialiser, in lines of at most 100 columns. Tables that need several
 // lines keep their rows, out of clang-format's reach.
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
