@@ -201,6 +201,7 @@ DEFAULT : 'default' ;
 LEVEL : 'level' ;
 POS_INF : 'pos-inf' ;
 NEG_INF : 'neg-inf' ;
+TERMINATE_WHEN : 'terminate-when' ;
 IF : 'if' ;
 THEN : 'then' ;
 ELSE : 'else' ;

@@ -89,6 +89,34 @@ std::string_view spelling(const Binary& binary) {
     return "/";
 }
 
+// Larger binds tighter.
+int precedence(BinaryOperator op) {
+    switch (op) {
+        case BinaryOperator::Equivalent:
+            return 1;
+        case BinaryOperator::Implies:
+            return 2;
+        case BinaryOperator::Or:
+            return 3;
+        case BinaryOperator::And:
+            return 4;
+        case BinaryOperator::Equal:
+        case BinaryOperator::NotEqual:
+        case BinaryOperator::Less:
+        case BinaryOperator::LessEqual:
+        case BinaryOperator::Greater:
+        case BinaryOperator::GreaterEqual:
+            return 5;
+        case BinaryOperator::Add:
+        case BinaryOperator::Subtract:
+            return 6;
+        case BinaryOperator::Multiply:
+        case BinaryOperator::Divide:
+            break;
+    }
+    return 7;
+}
+
 // "sum_{?x : t} " and its like: everything that stands before the body.
 std::string binder(const Name& op, const std::vector<TypedVariable>& variables) {
     return fmt::format("{}_{{{}}}", op.text, list(variables, typed));
@@ -266,11 +294,12 @@ class WrappingPrinter {
                            group.square ? "]" : ")");
     }
 
-    // The operands of a left-deep chain, a line each.
+    // The operands of a chain of operators of one precedence, a line each.
     std::string print_chain(const Expr& expr) const {
         std::vector<const Binary*> chain;
         const Expr* leftmost = &expr;
         while (const auto* binary = std::get_if<Binary>(&leftmost->node)) {
+            if (!chain.empty() && precedence(binary->op) != precedence(chain.back()->op)) break;
             chain.push_back(binary);
             leftmost = &*binary->left;
         }

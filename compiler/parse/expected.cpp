@@ -90,17 +90,13 @@ bool ends_operand(const Token* token) {
 bool operator_possible(const SyntaxError& error) {
     static const TokenTypes follows = {Parser::SEMICOLON, Parser::CLOSE_ROUND, Parser::CLOSE_SQUARE,
                                        Parser::THEN, Parser::ELSE};
-    const bool in_expression =
-        dynamic_cast<const Parser::SymbolsContext*>(error.context) == nullptr &&
-        dynamic_cast<const Parser::AssignmentContext*>(error.context) == nullptr &&
-        error.context->getRuleIndex() != Parser::RuleTypeDeclaration &&
-        error.context->getRuleIndex() != Parser::RulePvariable &&
-        error.context->getRuleIndex() != Parser::RuleObjectList &&
-        error.context->getRuleIndex() != Parser::RuleSimpleTerm &&
-        error.context->getRuleIndex() != Parser::RuleDomainSection &&
-        error.context->getRuleIndex() != Parser::RuleInstanceSection &&
-        error.context->getRuleIndex() != Parser::RuleNonFluentsSection;
-    return in_expression && ends_operand(error.before(1)) &&
+    const std::size_t rule = error.context->getRuleIndex();
+    const bool holds_expression =
+        rule == Parser::RuleExpr || rule == Parser::RuleCondition ||
+        rule == Parser::RuleTerminateWhen ||
+        (rule == Parser::RuleCpf && error.expects(Parser::SEMICOLON)) ||
+        dynamic_cast<const Parser::RewardContext*>(error.context) != nullptr;
+    return holds_expression && ends_operand(error.before(1)) &&
            std::any_of(error.expected.begin(), error.expected.end(),
                        [](std::size_t type) { return follows.contains(type); });
 }

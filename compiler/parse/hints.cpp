@@ -41,7 +41,8 @@ std::string round_brackets_of_a_function(const SyntaxError& error) {
     if (contains(functions, name.getText()))
         return fmt::format("functions take square brackets: {}[...]", name.getText());
     if (inside(error, Parser::RuleSymbols) || inside(error, Parser::RulePvariable)) return "";
-    if (inside(error, Parser::RuleSimpleTerm))
+    static const TokenTypes terms = {Parser::VAR, Parser::ENUM, Parser::ID};
+    if (inside(error, Parser::RuleSimpleTerm) && !terms.contains(error.found().getType()))
         return fmt::format(
             "'{}(...)' is a fluent, and the arguments of a fluent are variables, "
             "@values and fluents, not expressions",

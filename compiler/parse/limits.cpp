@@ -12,8 +12,9 @@ namespace rddlc {
 
 namespace {
 
-// A bracket that is open, and the tree under construction inside it. A ',' or ';' ends a chunk,
-// whose depth is at most that of all its operators in a row upon its deepest bracket.
+// A bracket that is open, and the tree under construction inside it. A ',' ends a chunk, whose
+// depth is at most that of all its operators in a row upon its deepest bracket. A ';' ends it all:
+// the bracket is that of a section, and a new tree begins.
 struct Level {
     std::size_t opened_at = 0;
     std::size_t chunk_begin = 0;  // its first token
@@ -77,7 +78,8 @@ class Scanner {
         if (is_digit(c)) return number();
         if (c == '(' || c == '[' || c == '{') open();
         if (c == ')' || c == ']' || c == '}') close();
-        if (c == ',' || c == ';') levels_.back().end_chunk();
+        if (c == ',') levels_.back().end_chunk();
+        if (c == ';') levels_.back() = {.opened_at = levels_.back().opened_at};
         if (is_operator(c)) ++levels_.back().operators;
         ++at_;
     }
@@ -98,11 +100,12 @@ class Scanner {
         while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
     }
 
-    // "<=>" and its like count once; "_" is that of "sum_{".
+    // "<=>" and its like count once; "_" is that of "sum_{"; a single "=" defines.
     bool is_operator(char c) const {
         const bool continues =
             at_ > 0 && (c == '=' || c == '>') && is_one_of(text_[at_ - 1], "<=>~");
-        return !continues && is_one_of(c, "^&|~+-*/=<>_");
+        const bool defines = c == '=' && !is_one_of(peek(), "=>");
+        return !continues && !defines && is_one_of(c, "^&|~+-*/=<>_");
     }
 
     void open() { levels_.push_back({.opened_at = at_}); }

@@ -11,7 +11,8 @@ namespace rddlc {
 // Brackets inside brackets.
 inline constexpr std::size_t max_nesting = 256;
 // Depth of an expression's tree: brackets, prefixes and operators on one path to a leaf. A sum of
-// n terms is n deep.
+// n terms is n deep. At this depth parsing, printing and comparing take 1 MB of stack, and 4 MB
+// without optimisation under the address sanitizer.
 inline constexpr std::size_t max_depth = 1000;
 // Words, numbers and marks in one file.
 inline constexpr std::size_t max_tokens = 2'000'000;

@@ -119,12 +119,12 @@ Token* ErrorStrategy::recoverInline(antlr4::Parser* parser) {
 bool ErrorStrategy::may_insert(antlr4::Parser& parser, std::size_t missing) const {
     const std::size_t index = parser.getCurrentToken()->getTokenIndex();
     const bool ends_section = missing == Parser::CLOSE_CURLY || missing == Parser::SEMICOLON;
-    if (ends_section &&
-        (begins_section(index) || begins_block(index) || type_at(index) == Token::EOF))
+    if (ends_section && (begins_section(tokens_, index) || begins_block(tokens_, index) ||
+                         type_at(tokens_, index) == Token::EOF))
         return true;
     if (missing == Parser::SEMICOLON)
-        return begins_line(tokens_, index) || type_at(index) == Parser::CLOSE_CURLY;
-    return missing == Parser::ID && type_at(index) == Parser::OPEN_CURLY &&
+        return begins_line(tokens_, index) || type_at(tokens_, index) == Parser::CLOSE_CURLY;
+    return missing == Parser::ID && type_at(tokens_, index) == Parser::OPEN_CURLY &&
            is_block(parser.getContext()->getRuleIndex());
 }
 
@@ -177,12 +177,13 @@ void ErrorStrategy::skip_item(antlr4::Parser& parser, std::size_t begin,
         if (type == Parser::CLOSE_CURLY && depth > 0) --depth;
     };
     std::size_t index = parser.getCurrentToken()->getTokenIndex();
-    for (std::size_t i = begin; i < index; ++i) descend(type_at(i));
-    while (type_at(index) != Token::EOF) {
-        const std::size_t type = type_at(index);
+    for (std::size_t i = begin; i < index; ++i) descend(type_at(tokens_, i));
+    while (type_at(tokens_, index) != Token::EOF) {
+        const std::size_t type = type_at(tokens_, index);
         const bool outside = depth == 0 || nested_semicolons_end;
         if (type == Parser::CLOSE_CURLY && depth == 0) return;
-        if (index > begin && (begins_section(index) || begins_block(index))) return;
+        if (index > begin && (begins_section(tokens_, index) || begins_block(tokens_, index)))
+            return;
         descend(type);
         parser.consume();
         ++index;
@@ -196,38 +197,13 @@ void ErrorStrategy::skip_to_loop(antlr4::Parser& parser, const TokenTypes& next)
     const bool items = is_section(parser.getContext()->getRuleIndex());
     while (true) {
         const std::size_t index = parser.getCurrentToken()->getTokenIndex();
-        const std::size_t type = type_at(index);
+        const std::size_t type = type_at(tokens_, index);
         if (type == Token::EOF || next.contains(type)) return;
-        if (begins_block(index) || (items && begins_section(index))) return;
+        if (begins_block(tokens_, index) || (items && begins_section(tokens_, index))) return;
         const std::size_t before = index;
         skip_item(parser, index, items);
         if (parser.getCurrentToken()->getTokenIndex() == before) parser.consume();
     }
-}
-
-// ------------------------------------------------------------------------------ looking around
-
-std::size_t ErrorStrategy::type_at(std::size_t index) const {
-    return index < tokens_.size() ? tokens_[index]->getType() : Token::EOF;
-}
-
-// A keyword alone proves nothing: it may be misused as a name.
-bool ErrorStrategy::begins_section(std::size_t index) const {
-    static const TokenTypes keywords = {
-        Parser::REQUIREMENTS, Parser::TYPES,      Parser::PVARIABLES,
-        Parser::CPFS,         Parser::REWARD,     Parser::CONSTRAINTS,
-        Parser::OBJECTS,      Parser::INIT_STATE, Parser::MAX_NONDEF_ACTIONS,
-        Parser::HORIZON,      Parser::DISCOUNT,   Parser::NON_FLUENTS,
-        Parser::DOMAIN};
-    const std::size_t next = type_at(index + 1);
-    return keywords.contains(type_at(index)) &&
-           (next == Parser::OPEN_CURLY || next == Parser::ASSIGN);
-}
-
-bool ErrorStrategy::begins_block(std::size_t index) const {
-    static const TokenTypes keywords = {Parser::DOMAIN, Parser::NON_FLUENTS, Parser::INSTANCE,
-                                        Parser::POLICY};
-    return keywords.contains(type_at(index)) && type_at(index + 1) == Parser::ID;
 }
 
 }  // namespace rddlc

@@ -26,9 +26,6 @@ class ErrorStrategy final : public antlr4::ANTLRErrorStrategy {
     void report(antlr4::Parser& parser, std::size_t index, TokenTypes expected);
     bool follows_lexical_error(std::size_t index) const;
     bool may_insert(antlr4::Parser& parser, std::size_t missing) const;
-    std::size_t type_at(std::size_t index) const;
-    bool begins_section(std::size_t index) const;
-    bool begins_block(std::size_t index) const;
     Token* conjure(std::size_t type, const Token& at);
     void skip_item(antlr4::Parser& parser, std::size_t begin, bool nested_semicolons_end);
     void skip_to_loop(antlr4::Parser& parser, const TokenTypes& next);

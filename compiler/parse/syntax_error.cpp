@@ -69,9 +69,9 @@ std::optional<Diagnostic> lacking_semicolon(const SyntaxError& error) {
 // What cannot stand inside a bracket, so that the bracket must have been forgotten before it.
 bool ends_bracket(const SyntaxError& error, std::size_t opener) {
     const std::size_t found = error.found().getType();
-    const bool next_line = begins_line(error.tokens, error.index);
     return found == Parser::SEMICOLON || found == Token::EOF || is_closer(found) ||
-           (next_line && (opener != Parser::OPEN_CURLY || is_reserved_word(error.found())));
+           begins_section(error.tokens, error.index) || begins_block(error.tokens, error.index) ||
+           (opener != Parser::OPEN_CURLY && begins_line(error.tokens, error.index));
 }
 
 std::optional<Diagnostic> unclosed_bracket(const SyntaxError& error) {
@@ -195,6 +195,28 @@ std::optional<std::size_t> innermost_open(const std::vector<Token*>& tokens, std
 
 bool begins_line(const std::vector<Token*>& tokens, std::size_t index) {
     return index == 0 || tokens[index - 1]->getLine() < tokens[index]->getLine();
+}
+
+std::size_t type_at(const std::vector<Token*>& tokens, std::size_t index) {
+    return index < tokens.size() ? tokens[index]->getType() : Token::EOF;
+}
+
+bool begins_section(const std::vector<Token*>& tokens, std::size_t index) {
+    static const TokenTypes keywords = {
+        Parser::REQUIREMENTS, Parser::TYPES,      Parser::PVARIABLES,
+        Parser::CPFS,         Parser::REWARD,     Parser::CONSTRAINTS,
+        Parser::OBJECTS,      Parser::INIT_STATE, Parser::MAX_NONDEF_ACTIONS,
+        Parser::HORIZON,      Parser::DISCOUNT,   Parser::NON_FLUENTS,
+        Parser::DOMAIN};
+    const std::size_t next = type_at(tokens, index + 1);
+    return keywords.contains(type_at(tokens, index)) &&
+           (next == Parser::OPEN_CURLY || next == Parser::ASSIGN);
+}
+
+bool begins_block(const std::vector<Token*>& tokens, std::size_t index) {
+    static const TokenTypes keywords = {Parser::DOMAIN, Parser::NON_FLUENTS, Parser::INSTANCE,
+                                        Parser::POLICY};
+    return keywords.contains(type_at(tokens, index)) && type_at(tokens, index + 1) == Parser::ID;
 }
 
 }  // namespace rddlc

@@ -29,6 +29,12 @@ Diagnostic describe(const SyntaxError& error);
 
 // The innermost bracket that is open before `tokens[index]`.
 std::optional<std::size_t> innermost_open(const std::vector<Token*>& tokens, std::size_t index);
+// The end of the file, from the last token on.
+std::size_t type_at(const std::vector<Token*>& tokens, std::size_t index);
 bool begins_line(const std::vector<Token*>& tokens, std::size_t index);
+// Whether a section or block begins at a token. Its keyword alone proves nothing: it may be
+// misused as a name.
+bool begins_section(const std::vector<Token*>& tokens, std::size_t index);
+bool begins_block(const std::vector<Token*>& tokens, std::size_t index);
 
 }  // namespace rddlc
