@@ -8,6 +8,8 @@
  * a plain C struct of the fluents in declaration order, every fluent a row-major array over its
  * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
  * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
+ * States and actions with a bool other than 0 and 1, or with an object that does not exist, are
+ * refused with RDDL_BAD_ARGUMENT, and nothing has changed then.
  */
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H
@@ -135,7 +137,7 @@ typedef struct {
 /* The first fault of an environment's current (or just ended) episode. */
 typedef struct {
     int32_t faulty; /* 0: none; the rest is unset then */
-    int32_t step;
+    int32_t step;   /* steps made in the episode before it */
     rddl_source source;
     char message[512]; /* names the cause, the ground objects and the value */
 } rddl_fault;
