@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
 
 namespace rddlc::ir {
@@ -147,6 +148,8 @@ NodeId Builder::intern(Node node) {
 }
 
 NodeId Builder::constant(Value value) {
+    const double* real = std::get_if<double>(&value);
+    if (real && *real != *real) value = std::numeric_limits<double>::quiet_NaN();
     return intern({scalar_of(value), Constant{value}});
 }
 

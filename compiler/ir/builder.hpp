@@ -24,6 +24,7 @@ class Builder {
     const Program& program() const { return program_; }
     const Facts& facts(NodeId id) const { return facts_[id.index]; }
 
+    // All nans are one.
     NodeId constant(Value value);
     // 0 for a variable over one object.
     NodeId index(VariableId variable);

@@ -11,9 +11,8 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations. What leaves a loop is a function or an aggregation, not a sum of two.
-constexpr double worth_sharing = 6;
-constexpr double worth_hoisting = 12;
+// In operations (Facts::cost).
+constexpr double worth_a_name = 6;
 
 std::set<ir::BufferId> stored_buffers(const ir::Block& block) {
     std::set<ir::BufferId> stored;
@@ -167,10 +166,9 @@ class Sharing {
         std::vector<ir::NodeId> chosen;
         for (std::uint32_t index = 0; index < fixed.size(); ++index) {
             if (!fixed[index] || !uses.always[index] || is_plain_index({index})) continue;
-            const double cost = builder_.facts({index}).cost;
-            const bool shared = uses.count[index] > 1 && cost >= worth_sharing;
-            const bool hoisted = uses.repeated[index] && exposed[index] && cost >= worth_hoisting;
-            if (shared || hoisted) chosen.push_back({index});
+            if (builder_.facts({index}).cost < worth_a_name) continue;
+            const bool hoisted = uses.repeated[index] && exposed[index];
+            if (uses.count[index] > 1 || hoisted) chosen.push_back({index});
         }
         return chosen;
     }

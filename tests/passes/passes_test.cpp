@@ -1,0 +1,126 @@
+// The text before and after each pass; sharing has a file of its own.
+#include "passes/passes.hpp"
+
+#include "passes/fold_constant_expressions.hpp"
+#include "passes/fold_uniform_tables.hpp"
+#include "passes/remove_unused_buffers.hpp"
+#include "problem.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rddlc {
+namespace {
+
+std::string names(const ir::Program& program, ir::Storage storage) {
+    std::string text;
+    for (const ir::Buffer& buffer : program.buffers) {
+        if (buffer.storage == storage) text += (text.empty() ? "" : " ") + buffer.name;
+    }
+    return text;
+}
+
+ir::Program valid(ir::Program program) {
+    for (const std::string& complaint : ir::verify(program)) ADD_FAILURE() << complaint;
+    return program;
+}
+
+Problem with_tables(const std::string& cpf_of_x) {
+    return {.pvariables =
+                "SAME(obj) : { non-fluent, real, default = 1.5 };\n"
+                "NONE(obj, obj) : { non-fluent, bool, default = false };\n"
+                "W(obj) : { non-fluent, real, default = 1.0 };\n"
+                "E(obj) : { non-fluent, int, default = -1 };\n"
+                "x : { state-fluent, real, default = 0.0 };\n"
+                "v(obj) : { state-fluent, real, default = 0.0 };\n"
+                "p(obj) : { state-fluent, bool, default = false };",
+            .cpfs = "x' = " + cpf_of_x + ";\nv'(?o) = v(?o);\np'(?o) = p(?o);",
+            .non_fluents = "W(b2) = 4.0; E(b3) = 2;"};
+}
+
+struct Texts {
+    std::string before, after;
+};
+Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program)) {
+    ir::Program program = grounded(with_tables(cpf_of_x));
+    const std::string before = value_of_x(program);
+    return {before, value_of_x(valid(pass(std::move(program))))};
+}
+
+TEST(FoldUniformTables, ReplacesLoadsByTheValue) {
+    const Texts x = of_x("sum_{?o : obj} v(?o) * SAME(?o) * W(?o)", passes::fold_uniform_tables);
+    EXPECT_EQ(x.before, "sum[o in obj](state.v[o] * SAME[o] * W[o])");
+    EXPECT_EQ(x.after, "sum[o in obj](state.v[o] * 1.5 * W[o])");
+}
+
+TEST(FoldUniformTables, FoldsWhatFollows) {
+    const Texts x = of_x(
+        "sum_{?o : obj} [v(?o) + (if (exists_{?u : obj} [NONE(?o, ?u) ^ p(?u)]) "
+        "then 1 else 2)]",
+        passes::fold_uniform_tables);
+    EXPECT_EQ(x.before,
+              "sum[o in obj](state.v[o] + "
+              "real(select(exists[u in obj](NONE[o, u] && state.p[u]), 1, 2)))");
+    EXPECT_EQ(x.after, "sum[o in obj](state.v[o] + 2.0)");
+}
+
+TEST(FoldUniformTables, KeepsTheTableWhereAnIndexDraws) {
+    const Texts x = of_x("SAME(Discrete_{?o : obj} v(?o))", passes::fold_uniform_tables);
+    EXPECT_EQ(x.before, "SAME[sample discrete@0[0][o in obj](state.v[o])]");
+    EXPECT_EQ(x.after, x.before);
+}
+
+TEST(FoldConstantExpressions, EvaluatesWhatOnlyTablesDecide) {
+    const Texts x = of_x(
+        "x + (sum_{?o : obj} W(?o)) * W(argmax_{?o : obj} W(?o)) + sum_{?o : obj} v(?o) * "
+        "W(?o)",
+        passes::fold_constant_expressions);
+    EXPECT_EQ(x.before,
+              "state.x + sum[o in obj](W[o]) * W[argmax[o in obj](W[o])] + "
+              "sum[o in obj](state.v[o] * W[o])");
+    EXPECT_EQ(x.after, "state.x + 24.0 + sum[o in obj](state.v[o] * W[o])");
+}
+
+TEST(FoldConstantExpressions, LeavesFaultsToTheRun) {
+    const Texts x = of_x("sum_{?o : obj} pow[2, E(?o)]", passes::fold_constant_expressions);
+    EXPECT_EQ(x.before, "real(sum[o in obj](power@0[o](2, E[o])))");
+    EXPECT_EQ(x.after, x.before);
+}
+
+TEST(RemoveUnusedBuffers, DropsTablesThatNobodyReads) {
+    ir::Program program = grounded(with_tables("sum_{?o : obj} v(?o) * W(?o)"));
+    EXPECT_EQ(names(program, ir::Storage::Constant), "SAME NONE W E");
+    program = valid(passes::remove_unused_buffers(std::move(program)));
+    EXPECT_EQ(names(program, ir::Storage::Constant), "W");
+    EXPECT_EQ(value_of_x(program), "sum[o in obj](state.v[o] * W[o])");
+    EXPECT_EQ(program.fluents.size(), 7u);
+    EXPECT_FALSE(program.fluents[0].buffer);
+    EXPECT_EQ(program[*program.fluents[2].buffer].name, "W");
+}
+
+TEST(RemoveUnusedBuffers, DropsIntermFluentsThatNobodyReads) {
+    ir::Program program =
+        grounded({.pvariables = "x : { state-fluent, real, default = 1.0 };\n"
+                                "used : { interm-fluent, real };\n"
+                                "first : { interm-fluent, real };\n"
+                                "second : { interm-fluent, real };\n"
+                                "drawn : { interm-fluent, real };\n"
+                                "risky : { interm-fluent, bool };",
+                  .cpfs = "x' = used;\nused = x + 1;\nfirst = x * 2;\nsecond = first * 2;\n"
+                          "drawn = Normal(0, 1);\nrisky = Bernoulli(x);"});
+    EXPECT_EQ(names(program, ir::Storage::Scratch), "used first second drawn risky");
+    program = valid(passes::remove_unused_buffers(std::move(program)));
+    EXPECT_EQ(names(program, ir::Storage::Scratch), "used risky");
+    EXPECT_EQ(step_text(program),
+              "scratch.risky = sample bernoulli@1[0](state.x)\n"
+              "scratch.used = state.x + 1.0\n"
+              "next.x = scratch.used\n");
+}
+
+TEST(Optimise, RunsAllPasses) {
+    const ir::Program program =
+        valid(optimise(grounded(with_tables("sum_{?o : obj} [v(?o) * SAME(?o)]"))));
+    EXPECT_EQ(names(program, ir::Storage::Constant), "");
+}
+
+}  // namespace
+}  // namespace rddlc
