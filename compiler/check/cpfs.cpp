@@ -62,7 +62,7 @@ class CpfChecker {
             context_.report(
                 Diagnostic{missing_cpf, fluent.span,
                            fmt::format("{} '{}' has no CPF", name_of(fluent.role), fluent.name)}
-                    .with_hint(fmt::format("define '{}' in 'cpfs {{ ... }};'", name)));
+                    .with_hint(fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name)));
         }
     }
 

@@ -62,20 +62,6 @@ bool resolve_parameters(const ast::PVariable& declaration, model::Fluent& fluent
     return known;
 }
 
-void check_default_allowed(const ast::PVariable& declaration, Role role, Context& context) {
-    const bool given = declaration.default_value.has_value();
-    if (role == Role::Action && !given)
-        context.report(
-            Diagnostic{illegal_declaration, declaration.name.span,
-                       fmt::format("action-fluent '{}' has no default", declaration.name.text)}
-                .with_hint("the default is its value where the agent does nothing: "
-                           "'default = false'"));
-    if (given && !has_initial_values(role))
-        context.report({illegal_declaration, declaration.default_value->span,
-                        fmt::format("{} cannot have a default: its CPF gives it its value",
-                                    with_article(role))});
-}
-
 // Of the instance's objects, which the domain cannot name.
 bool has_object_range(const model::Fluent& fluent, const Context& context) {
     return fluent.range.kind == model::ValueType::Kind::Object &&
@@ -152,7 +138,6 @@ void declare_fluent(const ast::PVariable& declaration, Context& context) {
     bool sound = resolve_parameters(declaration, fluent, context);
     fluent.role = role.value_or(Role::NonFluent);
     fluent.range = range.value_or(model::bool_type);
-    if (role) check_default_allowed(declaration, *role, context);
     if (role && range) {
         check_range_of_role(declaration, fluent, context);
         resolve_default(declaration, fluent, context);

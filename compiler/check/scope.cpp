@@ -18,6 +18,15 @@ Span last_character(Span span) {
     return {span.file, span.end - 1, span.end};
 }
 
+std::string hint_for_unknown(const std::string& name, const Scope& scope) {
+    std::vector<std::string> names;
+    for (const Binding& binding : scope.bindings) names.push_back(binding.name);
+    if (names.empty()) return "no variable is bound here";
+    if (const auto near = did_you_mean(name, names))
+        return fmt::format("did you mean '?{}'?", *near);
+    return fmt::format("bound here: ?{}", fmt::join(names, ", ?"));
+}
+
 void report_unknown(const std::string& name, Span span, Scope& scope) {
     Diagnostic diagnostic{unknown_variable, span,
                           fmt::format("variable '?{}' is not bound here", name)};
@@ -27,12 +36,7 @@ void report_unknown(const std::string& name, Span span, Scope& scope) {
             {last_character(ended->span),
              fmt::format("the '{}' that binds '?{}' ends here", ended->binder, name)});
     } else {
-        std::vector<std::string> names;
-        for (const Binding& binding : scope.bindings) names.push_back("?" + binding.name);
-        diagnostic.hint = suggestion(scope.context, "?" + name, names);
-        if (diagnostic.hint.empty() && names.empty()) diagnostic.hint = "no variable is bound here";
-        if (diagnostic.hint.empty())
-            diagnostic.hint = fmt::format("bound here: {}", fmt::join(names, ", "));
+        diagnostic.hint = hint_for_unknown(name, scope);
     }
     scope.context.report(std::move(diagnostic));
 }

@@ -47,7 +47,9 @@ void add_objects(model::TypeId id, const std::vector<ast::Name>& objects, Contex
     }
 }
 
-void declare_type(const ast::TypeDeclaration& declaration, ObjectLists& lists, Context& context) {
+// Without its objects.
+std::optional<model::TypeId> declare_type(const ast::TypeDeclaration& declaration,
+                                          Context& context) {
     const std::string& name = declaration.name.text;
     const auto id = static_cast<model::TypeId>(context.model.types.size());
     const auto [entry, is_new] = context.names.types.try_emplace(name, id);
@@ -55,34 +57,36 @@ void declare_type(const ast::TypeDeclaration& declaration, ObjectLists& lists, C
         context.report(Diagnostic{repeated_type, declaration.name.span,
                                   fmt::format("type '{}' is declared twice", name)}
                            .note(context.type(entry->second).span, "first declared here"));
-        return;
+        return std::nullopt;
     }
-    const bool enumerated = declaration.members.has_value();
-    context.model.types.push_back({name, enumerated, {}, declaration.name.span});
-    const auto list = lists.find(name);
-    if (enumerated) {
-        add_objects(id, *declaration.members, context);
-        if (list != lists.end())
-            context.report(Diagnostic{ignored_objects, list->second->type.span,
-                                      fmt::format("these objects are ignored: type '{}' is "
-                                                  "enumerated in the domain",
-                                                  name)}
-                               .note(declaration.name.span, "declared here"));
-    } else if (list != lists.end()) {
-        add_objects(id, list->second->objects, context);
-    } else {
-        context.names.broken_types.insert(id);
-        context.report(Diagnostic{type_without_objects, declaration.name.span,
-                                  fmt::format("type '{}' has no objects in the instance", name)}
-                           .with_hint(fmt::format("add '{} : {{ ... }};' to its 'objects'", name)));
-    }
-    lists.erase(name);
+    context.model.types.push_back(
+        {name, declaration.members.has_value(), {}, declaration.name.span});
+    return id;
 }
 
-void report_undeclared(const ObjectLists& lists, const ast::Objects* objects, Context& context) {
-    if (lists.empty()) return;
-    for (const ast::ObjectList& list : objects->lists)
-        if (lists.contains(list.type.text) && !context.names.types.contains(list.type.text))
+void add_listed_objects(model::TypeId id, const ObjectLists& lists, Context& context) {
+    const model::Type& type = context.type(id);
+    const auto list = lists.find(type.name);
+    if (list != lists.end() && type.enumerated) {
+        context.report(Diagnostic{ignored_objects, list->second->type.span,
+                                  fmt::format("these objects are ignored: type '{}' is enumerated "
+                                              "in the domain",
+                                              type.name)}
+                           .note(type.span, "declared here"));
+    } else if (list != lists.end()) {
+        add_objects(id, list->second->objects, context);
+    } else if (!type.enumerated) {
+        context.names.broken_types.insert(id);
+        context.report(
+            Diagnostic{type_without_objects, type.span,
+                       fmt::format("type '{}' has no objects in the instance", type.name)}
+                .with_hint(fmt::format("add '{} : {{ ... }};' to its 'objects'", type.name)));
+    }
+}
+
+void report_undeclared(const ast::Objects& objects, Context& context) {
+    for (const ast::ObjectList& list : objects.lists)
+        if (!context.names.types.contains(list.type.text))
             context.report(
                 Diagnostic{objects_of_unknown_type, list.type.span,
                            fmt::format("type '{}' is not declared in the domain", list.type.text)}
@@ -92,11 +96,15 @@ void report_undeclared(const ObjectLists& lists, const ast::Objects* objects, Co
 }  // namespace
 
 void declare_types(const Blocks& blocks, Context& context) {
-    ObjectLists lists = collect_lists(blocks.objects, context);
+    const ObjectLists lists = collect_lists(blocks.objects, context);
+    // The domain's members first, so that a clash is reported where the instance causes it.
     if (blocks.types)
         for (const ast::TypeDeclaration& declaration : blocks.types->declarations)
-            declare_type(declaration, lists, context);
-    report_undeclared(lists, blocks.objects, context);
+            if (const auto id = declare_type(declaration, context); id && declaration.members)
+                add_objects(*id, *declaration.members, context);
+    for (model::TypeId id = 0; id < context.model.types.size(); ++id)
+        add_listed_objects(id, lists, context);
+    if (blocks.objects) report_undeclared(*blocks.objects, context);
 }
 
 std::optional<model::TypeId> resolve_type(const ast::Name& name, Context& context) {

@@ -38,6 +38,9 @@ std::optional<model::Value> cast(double value, Kind kind) {
 }
 
 std::string fluent_is(const model::Fluent& fluent, const Context& context) {
+    if (fluent.range.kind == Kind::Object)
+        return fmt::format("'{}' takes objects of type '{}'", fluent.name,
+                           context.type(fluent.range.type).name);
     return fmt::format("'{}' is {}", fluent.name, describe(context, fluent.range));
 }
 

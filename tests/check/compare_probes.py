@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs every probe of probes/expressions.txt in pyRDDLGym and compares with what the file says.
+"""Runs every probe of probes/*.txt in pyRDDLGym and compares with what the files say.
 
 Development only: the C++ tests check rddlc's side of the same file. Needs pyRDDLGym.
     python tests/check/compare_probes.py [part of a probe]
@@ -14,13 +14,17 @@ import tempfile
 import warnings
 
 FOLDER = pathlib.Path(__file__).parent / "probes"
-PROBE = re.compile(r"^(?P<text>.*?;|.*?\};)\s*// (?P<said>.*)$")
+PROBE = re.compile(r"^(?P<text>[^#].*?)\s*// (?P<said>.*)$")
 STEPS = 5
 
 
 def problem_with(probe: str) -> str:
-    """The problem with the probe in the place of the definition of the same name."""
+    """The problem with the change, or with the definition in the place of the one of its name."""
     text = (FOLDER / "problem.rddl").read_text()
+    if " ==>" in probe:
+        old, new = (part.strip().replace("\\n", "\n") for part in probe.split(" ==>"))
+        assert old in text, old
+        return text.replace(old, new, 1)
     head, cpfs_on = text.split("    cpfs {\n", 1)
     cpfs, tail = cpfs_on.split("    };\n", 1)
     name = re.match(r"[\w-]+", probe).group()
@@ -60,12 +64,14 @@ def outcome(text: str) -> tuple[str, str]:
 def main() -> int:
     wanted = sys.argv[1] if len(sys.argv) > 1 else ""
     differences = 0
-    for line in (FOLDER / "expressions.txt").read_text().splitlines():
+    lines = [line for file in sorted(FOLDER.glob("*.txt")) for line in file.read_text().splitlines()]
+    for line in lines:
         match = PROBE.match(line)
         if not match or wanted not in line:
             continue
         words = match["said"].split(",")[0].split()
         codes = [word for word in words if re.fullmatch(r"[EW]\d{4}|ok", word)]
+        assert codes, line
         said = words[len(codes)] if len(words) > len(codes) else "accepts"
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()), warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -64,7 +64,23 @@ std::vector<Probe> read_probes(const std::string& file) {
     return probes;
 }
 
-std::string problem_with(const std::string& definition) {
+namespace {
+
+// "\\n" stands for a line break.
+std::string with_line_breaks(std::string text) {
+    for (std::size_t at = text.find("\\n"); at != std::string::npos; at = text.find("\\n"))
+        text.replace(at, 2, "\n");
+    return text;
+}
+
+std::string problem_with_change(const std::string& old_text, const std::string& new_text) {
+    std::string text = read("problem.rddl");
+    const std::size_t at = text.find(old_text);
+    if (at == std::string::npos) throw std::runtime_error("problem.rddl has no " + old_text);
+    return text.replace(at, old_text.size(), new_text);
+}
+
+std::string problem_with_definition(const std::string& definition) {
     const std::string name = name_of(definition);
     const bool section = definition.ends_with("};") && definition[name.size() + 1] == '{';
     std::string text;
@@ -81,6 +97,15 @@ std::string problem_with(const std::string& definition) {
         if (line == "    };") in_cpfs = false;
     }
     return text;
+}
+
+}  // namespace
+
+std::string problem_with(const std::string& probe) {
+    const std::size_t arrow = probe.find(" ==>");
+    if (arrow == std::string::npos) return problem_with_definition(probe);
+    return problem_with_change(with_line_breaks(probe.substr(0, arrow)),
+                               with_line_breaks(trimmed(probe.substr(arrow + 4))));
 }
 
 }  // namespace rddlc::testing

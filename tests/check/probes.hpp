@@ -1,4 +1,4 @@
-// probes/: definitions, one a line, that are put into the same small problem.
+// probes/: small changes to the same problem, one a line.
 #pragma once
 
 #include <ostream>
@@ -8,7 +8,7 @@
 namespace rddlc::testing {
 
 struct Probe {
-    std::string text;      // "x' = 1 + 2;"
+    std::string text;      // "x' = 1 + 2;" or "old ==> new"
     std::string expected;  // "ok" or codes: "E0307", "W0301 W0301"
     int line;
 
@@ -17,10 +17,11 @@ struct Probe {
     }
 };
 
-// The probes of a file: "definition;  // expected ...".
+// The probes of a file: "text  // expected ...".
 std::vector<Probe> read_probes(const std::string& file);
 
-// probes/problem.rddl with the definition in the place of the one of the same name.
-std::string problem_with(const std::string& definition);
+// probes/problem.rddl with the definition in the place of the one of the same name, or with the
+// first "old" replaced by "new".
+std::string problem_with(const std::string& probe);
 
 }  // namespace rddlc::testing

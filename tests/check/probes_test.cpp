@@ -19,11 +19,14 @@ TEST_P(ProbeTest, HasTheExpectedCodes) {
     EXPECT_EQ(checked.model.has_value(), !checked.diagnostics.has_errors());
 }
 
+std::string name_of_line(const ::testing::TestParamInfo<Probe>& probe) {
+    return "line" + std::to_string(probe.param.line);
+}
+
 INSTANTIATE_TEST_SUITE_P(Expressions, ProbeTest,
-                         ::testing::ValuesIn(read_probes("expressions.txt")),
-                         [](const auto& probe) {
-                             return "line" + std::to_string(probe.param.line);
-                         });
+                         ::testing::ValuesIn(read_probes("expressions.txt")), name_of_line);
+INSTANTIATE_TEST_SUITE_P(Edits, ProbeTest, ::testing::ValuesIn(read_probes("edits.txt")),
+                         name_of_line);
 
 }  // namespace
 }  // namespace rddlc::testing

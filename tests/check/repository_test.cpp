@@ -1,0 +1,59 @@
+// Every instance of rddlrepository: accepted, and fast.
+#include "checking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+namespace rddlc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder of the installed Python package, or of RDDL_REPOSITORY.
+fs::path repository() {
+    if (const char* folder = std::getenv("RDDL_REPOSITORY")) return folder;
+    std::string text;
+    constexpr auto command =
+        "python3 -c 'import rddlrepository; print(rddlrepository.__path__[0])' 2>/dev/null";
+    if (FILE* pipe = popen(command, "r")) {
+        for (int c = fgetc(pipe); c != EOF && c != '\n'; c = fgetc(pipe))
+            text += static_cast<char>(c);
+        pclose(pipe);
+    }
+    return text;
+}
+
+void expect_accepted(const fs::path& domain, const fs::path& instance) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const std::vector<FileId> files{sources.load(domain).value(), sources.load(instance).value()};
+    const ast::Program program = parse(sources, files, diagnostics);
+    ASSERT_FALSE(diagnostics.has_errors()) << render(diagnostics, sources, {});
+    const auto begin = std::chrono::steady_clock::now();
+    const std::optional<model::Model> model = check(program, sources, diagnostics);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    EXPECT_TRUE(model) << render(diagnostics, sources, {});
+    EXPECT_LT(seconds.count(), 5.0) << instance;
+}
+
+TEST(Repository, IsAccepted) {
+    const fs::path folder = repository();
+    if (folder.empty() || !fs::exists(folder)) GTEST_SKIP() << "no rddlrepository here";
+    std::size_t instances = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+        const fs::path domain = entry.path().parent_path() / "domain.rddl";
+        const bool instance = entry.path().filename().string().starts_with("instance") &&
+                              entry.path().extension() == ".rddl";
+        if (!instance || !fs::exists(domain)) continue;
+        ++instances;
+        expect_accepted(domain, entry.path());
+    }
+    EXPECT_GT(instances, 0u) << folder;
+}
+
+}  // namespace
+}  // namespace rddlc::testing
