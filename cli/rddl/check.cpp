@@ -3,16 +3,13 @@
 #include "front_end.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
-#include "progress.hpp"
+#include "parallel.hpp"
 #include "support/render.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <map>
-#include <thread>
 
 namespace rddlc::cli {
 
@@ -57,18 +54,8 @@ Outcome check_quietly(const ProblemFiles& files) {
 // In parallel; outcomes in the order of the files. Stops early on an interrupt.
 std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
     std::vector<Outcome> outcomes(files.size());
-    Progress progress("checking", static_cast<std::int64_t>(files.size()));
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < files.size() && !is_interrupted(); i = next++) {
-            outcomes[i] = check_quietly(files[i]);
-            progress.advance();
-        }
-    };
-    std::vector<std::thread> others;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(work);
-    work();
-    for (std::thread& thread : others) thread.join();
+    for_each_in_parallel("checking", files.size(),
+                         [&](std::size_t i) { outcomes[i] = check_quietly(files[i]); });
     return outcomes;
 }
 

@@ -1,9 +1,13 @@
 // rddl list: the problems of rddlrepository.
+#include "characteristics.hpp"
 #include "commands.hpp"
+#include "front_end.hpp"
+#include "parallel.hpp"
 #include "problem_lookup.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -53,38 +57,89 @@ std::string instances_text(const std::vector<std::string>& instances) {
     return out;
 }
 
-void print_table(const std::vector<RepositoryProblem>& problems, const Repository& repository) {
-    constexpr std::size_t description_width = 44;
-    Table table({{"problem"}, {"instances"}, {"description"}});
-    std::size_t instances = 0;
-    for (const RepositoryProblem& problem : problems) {
-        table.add_row({problem.name, instances_text(problem.instances),
-                       shortened(problem.description, description_width)});
-        instances += problem.instances.size();
-    }
+// What one instance shows of a problem; instances hardly differ in it.
+struct ListedProblem {
+    RepositoryProblem problem;
+    std::optional<Characteristics> characteristics;  // absent if there are errors
+};
+
+std::vector<ListedProblem> look_at(const std::vector<RepositoryProblem>& problems) {
+    std::vector<ListedProblem> listed;
+    for (const RepositoryProblem& problem : problems) listed.push_back({problem, std::nullopt});
+    for_each_in_parallel("looking at problems", listed.size(), [&](std::size_t i) {
+        const RepositoryProblem& problem = listed[i].problem;
+        if (problem.instances.empty()) return;
+        const Compilation compilation =
+            compile_problem(find_instance(problem, problem.instances.front()), Stage::Check);
+        if (compilation.model) listed[i].characteristics = characteristics_of(*compilation.model);
+    });
+    return listed;
+}
+
+std::string kind_text(const ListedProblem& listed) {
+    if (!listed.characteristics) return "has errors";
+    const Characteristics& c = *listed.characteristics;
+    return std::string(c.stochastic() ? "stochastic" : "deterministic") +
+           (c.partially_observed ? " POMDP" : " MDP");
+}
+
+std::string actions_text(const ListedProblem& listed) {
+    return listed.characteristics ? listed.characteristics->action.text() : "";
+}
+
+std::size_t instance_count(const std::vector<ListedProblem>& all) {
+    std::size_t count = 0;
+    for (const ListedProblem& listed : all) count += listed.problem.instances.size();
+    return count;
+}
+
+void print_table(const std::vector<ListedProblem>& all, const Repository& repository) {
+    constexpr std::size_t description_width = 32;
+    Table table({{"problem"}, {"instances"}, {"kind"}, {"actions"}, {"description"}});
+    for (const ListedProblem& listed : all)
+        table.add_row({listed.problem.name, instances_text(listed.problem.instances),
+                       kind_text(listed), actions_text(listed),
+                       shortened(listed.problem.description, description_width)});
     if (!table.empty()) fmt::print("{}\n", table.text());
-    fmt::print("{} problems, {} instances in {}\n", problems.size(), instances,
+    fmt::print("{} problems, {} instances in {}\n", all.size(), instance_count(all),
                repository.folder.string());
 }
 
-void print_descriptions(const std::vector<RepositoryProblem>& problems) {
-    for (const RepositoryProblem& problem : problems) {
+void print_descriptions(const std::vector<ListedProblem>& all) {
+    for (const auto& [problem, characteristics] : all) {
         fmt::print("{}\n", problem.name);
         for (const std::string& line : wrapped(problem.description, 94))
             fmt::print("    {}\n", line);
+        if (characteristics && !characteristics->features.empty())
+            for (const std::string& line :
+                 wrapped(fmt::format("uses {}", fmt::join(characteristics->features, ", ")), 94))
+                fmt::print("    {}\n", line);
         fmt::print("    context {}; instances {}; {}\n\n", problem.context,
                    instances_text(problem.instances), problem.folder.string());
     }
 }
 
-void print_json(const std::vector<RepositoryProblem>& problems) {
+nlohmann::ordered_json problem_json(const ListedProblem& listed) {
+    const RepositoryProblem& problem = listed.problem;
+    nlohmann::ordered_json out{{"name", problem.name},
+                               {"context", problem.context},
+                               {"description", problem.description},
+                               {"folder", problem.folder.string()},
+                               {"instances", problem.instances}};
+    if (!listed.characteristics) return out;
+    const Characteristics& c = *listed.characteristics;
+    out["stochastic"] = c.stochastic();
+    out["partially_observed"] = c.partially_observed;
+    out["state"] = c.state.text();
+    out["actions"] = c.action.text();
+    out["concurrent"] = c.concurrent();
+    out["features"] = c.features;
+    return out;
+}
+
+void print_json(const std::vector<ListedProblem>& all) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const RepositoryProblem& problem : problems)
-        out.push_back({{"name", problem.name},
-                       {"context", problem.context},
-                       {"description", problem.description},
-                       {"folder", problem.folder.string()},
-                       {"instances", problem.instances}});
+    for (const ListedProblem& listed : all) out.push_back(problem_json(listed));
     fmt::print("{}\n", out.dump(2));
 }
 
@@ -94,12 +149,13 @@ ExitStatus list(const ListOptions& options) {
     const std::string filter = lower_case(options.filter);
     std::copy_if(repository.problems.begin(), repository.problems.end(), std::back_inserter(chosen),
                  [&](const RepositoryProblem& problem) { return matches(problem, filter); });
+    const std::vector<ListedProblem> listed = look_at(chosen);
     if (options.json)
-        print_json(chosen);
+        print_json(listed);
     else if (options.verbose)
-        print_descriptions(chosen);
+        print_descriptions(listed);
     else
-        print_table(chosen, repository);
+        print_table(listed, repository);
     if (chosen.empty() && !options.filter.empty())
         throw Failure(
             fmt::format("no problem's name or description contains '{}'", options.filter));

@@ -2,12 +2,16 @@
 #include "commands.hpp"
 #include "driver/version.hpp"
 #include "interrupt.hpp"
+#include "support/diagnostic.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 namespace rddlc::cli {
 
@@ -26,16 +30,56 @@ constexpr const char* examples =
     "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n\n"
     "'rddl COMMAND --help' tells more about a command.";
 
+std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
+    const auto near = did_you_mean(name, known);
+    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+}
+
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// What is wrong with the command line, in words that help.
+std::string usage_message(const CLI::App& program, const CLI::App* command,
+                          const CLI::ParseError& error) {
+    const std::vector<std::string> left = program.remaining(true);
+    const auto is_option = [](const std::string& word) {
+        return word.starts_with('-');
+    };
+    if (!command && !left.empty() && !is_option(left.front()))
+        return fmt::format(
+            "no command is called '{}'{}", left.front(),
+            did_you_mean_text(left.front(), names_of(program.get_subcommands(nullptr))));
+    const auto unknown = std::find_if(left.begin(), left.end(), is_option);
+    if (unknown != left.end()) {
+        const std::string name = unknown->substr(0, unknown->find('='));
+        return fmt::format("unknown option '{}'{}", name,
+                           did_you_mean_text(name, option_names(command ? *command : program)));
+    }
+    if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
+    if (!command) return "name a command, such as 'rddl run'";
+    return error.what();
+}
+
 // Help and version end with 0, everything else that stops the parsing is a usage error.
-ExitStatus report(const CLI::App& program, const CLI::ParseError& error) {
+ExitStatus report_usage(const CLI::App& program, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
         program.exit(error);
         return success;
     }
-    fmt::print(stderr, "rddl: error: {}\n", error.what());
     const auto chosen = program.get_subcommands();
-    fmt::print(stderr, "'rddl{} --help' shows the usage\n",
-               chosen.empty() ? "" : " " + chosen.front()->get_name());
+    const CLI::App* const command = chosen.empty() ? nullptr : chosen.front();
+    fmt::print(stderr, "rddl: error: {}\n'rddl{} --help' shows the usage\n",
+               usage_message(program, command, error), command ? " " + command->get_name() : "");
     return usage_error;
 }
 
@@ -52,7 +96,7 @@ ExitStatus run(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return report(program, error);
+        return report_usage(program, error);
     }
     catch_interrupts();
     for (const Command& command : commands)

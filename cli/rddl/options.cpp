@@ -1,7 +1,5 @@
 #include "options.hpp"
 
-#include <map>
-
 namespace rddlc::cli {
 
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required) {
@@ -13,10 +11,14 @@ void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool 
 }
 
 void add_engine_options(CLI::App& command, LoadOptions& options) {
-    const std::map<std::string, Engine> engines{{"compiled", Engine::Compiled},
-                                                {"interpreter", Engine::Interpreter}};
-    command.add_option("--engine", options.engine, "compiled (default) or interpreter")
-        ->transform(CLI::CheckedTransformer(engines).description(""))
+    command
+        .add_option_function<std::string>(
+            "--engine",
+            [&options](const std::string& name) {
+                options.engine = name == "compiled" ? Engine::Compiled : Engine::Interpreter;
+            },
+            "compiled (default), or interpreter, which needs no C++ compiler")
+        ->check(CLI::IsMember({"compiled", "interpreter"}).description(""))
         ->type_name("ENGINE");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -24,17 +25,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* standalone = "standalone";  // the context of problems that have none
+
 std::string read_text(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// "instance12.rddl" -> "12"; nothing for other files.
+// "instance12.rddl" -> "12", "instance.rddl" -> "1"; nothing for other files.
 std::optional<std::string> instance_of(const fs::path& file) {
     const std::string stem = file.stem().string();
     constexpr std::string_view prefix = "instance";
     if (file.extension() != ".rddl" || !stem.starts_with(prefix)) return std::nullopt;
-    return stem.substr(prefix.size());
+    return stem == prefix ? "1" : stem.substr(prefix.size());
 }
 
 // Numbers by value, before all other texts.
@@ -48,18 +51,34 @@ bool instance_before(const std::string& a, const std::string& b) {
     return key(a) < key(b);
 }
 
+// For folders without an info: archive/[competitions/]CONTEXT/A/B is A_B_context, as the info of
+// the others says.
+void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
+    std::vector<std::string> parts(relative.begin(), relative.end());
+    if (parts.size() > 1 && parts.front() == "competitions") parts.erase(parts.begin());
+    if (parts.size() > 1) {
+        problem.context = parts.front();
+        for (char& c : problem.context) c = static_cast<char>(std::tolower(c));
+        parts.erase(parts.begin());
+    }
+    problem.name = fmt::format("{}", fmt::join(parts, "_"));
+}
+
 RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) {
     RepositoryProblem problem;
     problem.folder = folder;
     auto info = read_python_info(read_text(folder / "__init__.py"));
     problem.name = info["name"];
-    if (problem.name.empty()) problem.name = folder.lexically_relative(archive).generic_string();
-    if (!info["context"].empty()) problem.name += "_" + info["context"];
-    problem.context = info["context"].empty() ? "standalone" : info["context"];
+    problem.context = info["context"];
     problem.description = info["description"];
+    if (problem.name.empty()) name_by_folder(problem, folder.lexically_relative(archive));
+    if (problem.context.empty()) problem.context = standalone;
+    if (problem.context != standalone) problem.name += "_" + problem.context;
     for (const auto& file : fs::directory_iterator(folder))
         if (const auto instance = instance_of(file.path())) problem.instances.push_back(*instance);
-    std::sort(problem.instances.begin(), problem.instances.end(), instance_before);
+    auto& all = problem.instances;
+    std::sort(all.begin(), all.end(), instance_before);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return problem;
 }
 
@@ -98,7 +117,8 @@ std::vector<fs::path> ProblemFiles::all() const {
 }
 
 fs::path RepositoryProblem::instance_file(std::string_view instance) const {
-    return folder / fmt::format("instance{}.rddl", instance);
+    const fs::path file = folder / fmt::format("instance{}.rddl", instance);
+    return instance == "1" && !fs::exists(file) ? folder / "instance.rddl" : file;
 }
 
 Repository scan_repository(const fs::path& folder) {
@@ -110,7 +130,9 @@ Repository scan_repository(const fs::path& folder) {
         if (entry.path().filename() == "domain.rddl")
             repository.problems.push_back(read_problem(archive, entry.path().parent_path()));
     std::sort(repository.problems.begin(), repository.problems.end(),
-              [](const auto& a, const auto& b) { return a.name < b.name; });
+              [](const auto& a, const auto& b) {
+                  return strverscmp(a.name.c_str(), b.name.c_str()) < 0;  // p9 before p10
+              });
     return repository;
 }
 

@@ -40,8 +40,9 @@ std::optional<Repository> find_repository();
 // The same, failing with how to install it.
 Repository require_repository();
 
-// All problems below `folder`: sub-folders with a domain.rddl. Names and descriptions come from
-// the `info = {...}` of their __init__.py; without one the name is the folder's path.
+// All problems below `folder`: sub-folders with a domain.rddl and instances: instance7.rddl is "7",
+// instance.rddl is "1". Names and descriptions come from the `info = {...}` of their __init__.py,
+// or else from the folder.
 Repository scan_repository(const std::filesystem::path& folder);
 
 // Fails, with the names that are near, if there is no such problem.

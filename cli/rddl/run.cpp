@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 
 namespace rddlc::cli {
@@ -198,11 +197,13 @@ Command add_run_command(CLI::App& program) {
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl");
     const auto options = std::make_shared<RunOptions>();
     add_problem_arguments(*app, options->problem);
-    const std::map<std::string, Policy> policies{{"random", Policy::Random},
-                                                 {"noop", Policy::Noop}};
-    app->add_option("--policy", options->rollouts.policy,
-                    "random (default): legal random actions; noop: default actions")
-        ->transform(CLI::CheckedTransformer(policies).description(""))
+    app->add_option_function<std::string>(
+           "--policy",
+           [options](const std::string& name) {
+               options->rollouts.policy = name == "random" ? Policy::Random : Policy::Noop;
+           },
+           "random (default): legal random actions; noop: default actions")
+        ->check(CLI::IsMember({"random", "noop"}).description(""))
         ->type_name("POLICY");
     app->add_option("--episodes", options->rollouts.episodes, "How many (1)")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32).description(""))

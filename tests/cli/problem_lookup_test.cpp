@@ -32,7 +32,8 @@ class Lookup : public testing::Test {
         write(root_ / "archive/Lonely/domain.rddl", "");
         write(root_ / "archive/Lonely/__init__.py", "info = {'name': 'Lonely', 'context': ''}");
         write(root_ / "archive/Lonely/instance0.rddl", "");
-        write(root_ / "archive/Plain/Small/domain.rddl", "");
+        for (const char* file : {"domain.rddl", "instance.rddl", "instance2.rddl"})
+            write(root_ / "archive/competitions/IPPC2030/Snow/p3" / file, "");
         setenv("RDDL_REPOSITORY", root_.c_str(), 1);
     }
     ~Lookup() override {
@@ -63,7 +64,8 @@ TEST_F(Lookup, NamesAreThoseOfTheRepository) {
     EXPECT_EQ(chess.instances, (std::vector<std::string>{"1", "2", "10", "b"}));
     EXPECT_EQ(repository->problems[1].name, "Lonely");
     EXPECT_EQ(repository->problems[1].context, "standalone");
-    EXPECT_EQ(repository->problems[2].name, "Plain/Small");
+    EXPECT_EQ(repository->problems[2].name, "Snow_p3_ippc2030") << "without __init__.py";
+    EXPECT_EQ(repository->problems[2].context, "ippc2030");
 }
 
 TEST_F(Lookup, FindsInstancesByName) {
@@ -71,6 +73,12 @@ TEST_F(Lookup, FindsInstancesByName) {
     EXPECT_EQ(files.domain, root_ / "archive/games/Chess/domain.rddl");
     EXPECT_EQ(files.instance, root_ / "archive/games/Chess/instance10.rddl");
     EXPECT_EQ(files.name, "Chess_arcade 10");
+}
+
+TEST_F(Lookup, AnInstanceWithoutNumberIsTheFirst) {
+    const fs::path folder = root_ / "archive/competitions/IPPC2030/Snow/p3";
+    EXPECT_EQ(find_files("Snow_p3_ippc2030", "1").instance, folder / "instance.rddl");
+    EXPECT_EQ(find_files("Snow_p3_ippc2030", "2").instance, folder / "instance2.rddl");
 }
 
 TEST_F(Lookup, TheArchiveItselfWillDo) {
