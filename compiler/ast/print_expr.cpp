@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
+#include <utility>
 
 namespace rddlc::ast {
 
@@ -303,8 +303,9 @@ class WrappingPrinter {
             chain.push_back(binary);
             leftmost = &*binary->left;
         }
+        std::reverse(chain.begin(), chain.end());
         std::string text = print(*leftmost);
-        for (const Binary* binary : chain | std::views::reverse)
+        for (const Binary* binary : chain)
             text += fmt::format("\n{} {}", spelling(*binary), hanging(print(*binary->right)));
         return text;
     }
