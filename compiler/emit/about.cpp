@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace rddlc::cpp {
@@ -103,14 +104,20 @@ class Describer {
         add("// clang-format off\n" + text + "};\n// clang-format on\n");
     }
 
+    // The files that descriptions refer to.
     void files() {
-        std::string text;
-        for (FileId file = 0; file < unit_.sources.size(); ++file) {
-            files_[file] = scope_.claim(file == 0 ? "domain_file" : "instance_file");
-            text += "inline constexpr const char* " + files_[file] + " = " +
-                    literal(std::string_view(unit_.sources[file].path())) + ";\n";
+        std::set<FileId> used;
+        for (const ir::Fluent& fluent : unit_.program.fluents) used.insert(fluent.span.file);
+        for (const ir::Site& site : unit_.program.sites) used.insert(site.span.file);
+        for (const auto* conditions : {&unit_.program.preconditions, &unit_.program.invariants,
+                                       &unit_.program.terminations}) {
+            for (const ir::Computation& condition : *conditions) used.insert(condition.span.file);
         }
-        add(text);
+        for (FileId file : used) {
+            files_[file] = scope_.claim("source_file");
+            add("inline constexpr const char* " + files_[file] + " = " +
+                literal(std::string_view(unit_.sources[file].path())) + ";\n");
+        }
     }
 
     void types() {
@@ -192,8 +199,8 @@ class Describer {
             const int range = fluent.object_type ? static_cast<int>(*fluent.object_type) : -1;
             table.push_back({literal(std::string_view(fluent.name)), role_constant(fluent.role),
                              scalar_constant(fluent.scalar), std::to_string(range),
-                             std::to_string(fluent.parameter_types.size()),
-                             parameter_types(fluent), std::to_string(count), offset(fluent),
+                             std::to_string(fluent.parameter_types.size()), parameter_types(fluent),
+                             std::to_string(count), offset(fluent),
                              bounds(fluent, "lower", fluent.lower),
                              bounds(fluent, "upper", fluent.upper), source(fluent.span)});
         }

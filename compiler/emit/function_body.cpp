@@ -167,11 +167,7 @@ void FunctionBody::name_blocks_within(ir::NodeId id) {
 
 // False if no part is worth a name.
 bool FunctionBody::name_longest_part(ir::NodeId id) {
-    std::vector<ir::NodeId> parts;
-    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, parts);
-    if (parts.empty()) parts = chain_parts(id);
-    if (parts.size() == 1) parts = eager_parts(id);
-
+    const std::vector<ir::NodeId> parts = nameable_parts(id);
     std::vector<std::size_t> lengths;
     for (const ir::NodeId& part : parts) {
         const bool has_name = expressions_.is_named(part) || is_leaf(program()[part]);
@@ -224,8 +220,10 @@ void FunctionBody::write(const std::string& lead, ir::NodeId id) {
         return write_discrete(lead, *discrete);
     }
     const auto column = static_cast<std::size_t>(level_ * indentation);
-    std::vector<std::string> lines = fill_chain(lead, text, chain_operators(node), column);
-    lines.back() += ';';
+    const std::vector<std::string_view> operators = chain_operators(node);
+    const std::vector<std::string> lines = operators.empty()
+                                               ? fill_call(lead + text + ";", lead.size(), column)
+                                               : fill_chain(lead, text + ";", operators, column);
     for (const std::string& each : lines) line(each);
 }
 
@@ -255,6 +253,13 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
         line(opening);
         write_lambda_body(body);
         line("});");
+    } else if (!has_whole && lead.ends_with("= ") && fits(opening.size() - lead.size(), 1)) {
+        line(lead.substr(0, lead.size() - 1));
+        ++level_;
+        line(opening.substr(lead.size()));
+        write_lambda_body(body);
+        line("});");
+        --level_;
     } else {
         line(function);
         ++level_;
@@ -271,32 +276,46 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     expressions_.return_to(before);
 }
 
+// A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
 void FunctionBody::write_branch(const std::string& lead, const ir::Select& select) {
     expressions_.uses().context = true;
+    std::vector<ir::NodeId> lambdas = {select.then_value};
+    ir::NodeId last = select.else_value;
+    while (const ir::Select* next = lazy_select(last)) {
+        lambdas.insert(lambdas.end(), {next->condition, next->then_value});
+        last = next->else_value;
+    }
+    lambdas.push_back(last);
+
     line(lead + "rddl::branch(");
     ++level_;
     std::string current = "context, " + expressions_.text(select.condition) + ",";
-    const auto add_lambda = [&](ir::NodeId body, const std::string& tail) {
-        const std::string whole =
-            is_block(body) ? "" : "[&] { return " + expressions_.result(body) + "; }" + tail;
-        // Of two lambdas, clang-format breaks one that has a braced list inside.
-        const bool stays_whole =
-            !whole.empty() && whole.find(", {") == std::string::npos && fits(whole.size());
-        if (stays_whole && !current.starts_with('}') && fits(current.size() + 1 + whole.size())) {
-            current += " " + whole;
-            return;
-        }
-        line(current);
-        current = whole;
-        if (stays_whole) return;
-        line("[&] {");
-        write_lambda_body(body);
-        current = "}" + tail;
-    };
-    add_lambda(select.then_value, ",");
-    add_lambda(select.else_value, ");");
+    for (std::size_t k = 0; k < lambdas.size(); ++k) {
+        const bool is_last = k + 1 == lambdas.size();
+        add_lambda(current, lambdas[k], is_last ? ");" : ",");
+    }
     line(current);
     --level_;
+}
+
+// Behind what stands in the current line, or in lines of its own.
+void FunctionBody::add_lambda(std::string& current, ir::NodeId body, const std::string& tail) {
+    const std::string whole =
+        is_block(body) ? "" : "[&] { return " + expressions_.result(body) + "; }" + tail;
+    // Of several lambdas, clang-format breaks one that has a braced list inside.
+    const bool stays_whole =
+        !whole.empty() && whole.find(", {") == std::string::npos && fits(whole.size());
+    const bool has_room = fits(current.size() + 1 + whole.size());
+    if (stays_whole && has_room && !current.starts_with('}')) {
+        current += " " + whole;
+        return;
+    }
+    line(current);
+    current = whole;
+    if (stays_whole) return;
+    line("[&] {");
+    write_lambda_body(body);
+    current = "}" + tail;
 }
 
 void FunctionBody::write_discrete(const std::string& lead, const ir::Discrete& discrete) {
@@ -369,6 +388,15 @@ std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
     if (expressions_.is_named(id) || is_binder(program()[id])) return {};
     if (const ir::Select* select = lazy_select(id)) return {select->condition};
     return ir::operands_of(program()[id]);
+}
+
+// Calls with lambdas inside of it first, since they take many lines; else its operands.
+std::vector<ir::NodeId> FunctionBody::nameable_parts(ir::NodeId id) const {
+    std::vector<ir::NodeId> parts;
+    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, parts);
+    if (parts.empty()) parts = chain_parts(id);
+    const bool is_itself = parts.size() == 1 && parts.front() == id;
+    return is_itself ? eager_parts(id) : parts;
 }
 
 // The outermost ones.

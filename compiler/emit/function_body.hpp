@@ -55,6 +55,7 @@ class FunctionBody {
     void write(const std::string& lead, ir::NodeId id);
     void write_lambda_call(const std::string& lead, ir::NodeId id);
     void write_branch(const std::string& lead, const ir::Select& select);
+    void add_lambda(std::string& current, ir::NodeId body, const std::string& tail);
     void write_discrete(const std::string& lead, const ir::Discrete& discrete);
     void write_lambda_body(ir::NodeId body);
 
@@ -66,6 +67,7 @@ class FunctionBody {
     const ir::Select* lazy_select(ir::NodeId id) const;
     std::vector<ir::NodeId> chain_parts(ir::NodeId id) const;
     std::vector<ir::NodeId> eager_parts(ir::NodeId id) const;
+    std::vector<ir::NodeId> nameable_parts(ir::NodeId id) const;
     void collect_lambda_calls(ir::NodeId id, std::vector<ir::NodeId>& calls) const;
 
     void line(const std::string& text);

@@ -23,6 +23,10 @@ std::vector<std::string> fill_chain(const std::string& lead, const std::string& 
                                     const std::vector<std::string_view>& operators,
                                     std::size_t column);
 
+// A call with too many arguments for one line: they stand under each other where they have to, or
+// behind a break after the bracket. The call begins at `begin` in `text`.
+std::vector<std::string> fill_call(const std::string& text, std::size_t begin, std::size_t column);
+
 // "static void f(" + parameters + ") {" with the parameters under each other where they have to.
 std::vector<std::string> fill_call(const std::string& head,
                                    const std::vector<std::string>& arguments,

@@ -212,7 +212,12 @@ bool are_equal(std::span<const ir::Value> values) {
 
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
                   std::span<const ir::Value> values) {
-    const std::string lead = declaration + " = ";
+    // Long types have the name on a line of its own.
+    const bool too_wide = declaration.size() + std::string_view(" = {{").size() > line_width;
+    const std::size_t name = declaration.rfind(' ');
+    const std::string lead =
+        (too_wide ? declaration.substr(0, name) + "\n   " + declaration.substr(name) : declaration) +
+        " = ";
     const bool zero = std::ranges::all_of(values, is_zero);
     if (zero && !shape.empty()) return lead + "{};\n";
     const TableWriter writer(shape, values);

@@ -21,8 +21,8 @@ std::string table_type(ir::Scalar scalar);
 bool is_zero(const ir::Value& value);
 bool are_equal(std::span<const ir::Value> values);
 
-// `text` with the comments of neighbouring lines under each other, as clang-format has them; without
-// them where there is no room. Both are given without the blanks between them.
+// `text` with the comments of neighbouring lines under each other, as clang-format has them;
+// without them where there is no room. Both are given without the blanks between them.
 struct CommentedLine {
     std::string text;
     std::string comment;

@@ -32,6 +32,13 @@ template <class Then, class Else>
 constexpr auto branch(Context<Scalar>&, bool condition, Then&& then_value, Else&& else_value) {
     return condition ? then_value() : else_value();
 }
+// "if condition then ... else if next() then ... else ...": further conditions are functions too.
+template <class L, class Bool, class Then, class Next, class... Rest>
+requires(sizeof...(Rest) >= 2) constexpr auto branch(Context<L>& context, Bool condition,
+                                                     Then&& then_value, Next&& next,
+                                                     Rest&&... rest) {
+    return branch(context, condition, then_value, [&] { return branch(context, next(), rest...); });
+}
 
 // ---------------------------------------------------------------------------- conversions
 

@@ -1,0 +1,51 @@
+# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [NAME <name>] [HEADER] [OPTIONS <option>...])
+#
+# Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
+#
+#   DOMAIN, INSTANCE   relative to the current source folder; one file that holds both may be named
+#                      as DOMAIN alone
+#   NAME               of the emitted file (default: the target's name)
+#   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
+#   OPTIONS            more options for rddlc, such as -Werror
+#
+# A static library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
+function(rddl_add_simulator target)
+  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;NAME" "OPTIONS" ${ARGN})
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  if(NOT ARG_DOMAIN)
+    message(FATAL_ERROR "rddl_add_simulator(${target}): DOMAIN is missing")
+  endif()
+  if(NOT ARG_NAME)
+    set(ARG_NAME ${target})
+  endif()
+  set(inputs "")
+  foreach(file IN ITEMS ${ARG_DOMAIN} ${ARG_INSTANCE})
+    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND inputs ${file})
+  endforeach()
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rddl)
+  set(extension .cpp)
+  if(ARG_HEADER)
+    set(extension .hpp)
+  endif()
+  set(output ${folder}/${ARG_NAME}${extension})
+  file(MAKE_DIRECTORY ${folder})
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND rddlc::rddlc ${inputs} -o ${output} -MD -MF ${output}.d ${ARG_OPTIONS}
+    DEPENDS rddlc::rddlc ${inputs}
+    DEPFILE ${output}.d
+    COMMENT "Compiling ${ARG_DOMAIN} ${ARG_INSTANCE}" VERBATIM)
+
+  if(ARG_HEADER)
+    add_library(${target} INTERFACE ${output})
+    target_include_directories(${target} INTERFACE ${folder})
+    target_link_libraries(${target} INTERFACE rddlc::runtime)
+  else()
+    add_library(${target} STATIC ${output})
+    target_link_libraries(${target} PUBLIC rddlc::runtime)
+  endif()
+endfunction()

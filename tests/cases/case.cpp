@@ -1,0 +1,53 @@
+#include "case.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+
+namespace rddlc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A line may hold several marks.
+void add_marks(const std::string& file, int number, const std::string& line,
+               std::vector<Mark>& marks) {
+    static const std::regex form(
+        "// (error|warning) ([EW][0-9]{4}): (.*?)(?=\\s*// (?:error|warning)|$)");
+    const auto end = std::sregex_iterator();
+    for (auto it = std::sregex_iterator(line.begin(), line.end(), form); it != end; ++it) {
+        marks.push_back({file, number, (*it)[1], (*it)[2], (*it)[3]});
+    }
+}
+
+}  // namespace
+
+Case read_case(const fs::path& folder) {
+    Case result{folder, {}, {}};
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() != ".rddl") continue;
+        result.files.push_back(entry.path().filename().string());
+    }
+    std::ranges::sort(result.files);
+    for (const std::string& file : result.files) {
+        std::ifstream stream(folder / file);
+        std::string line;
+        for (int number = 1; std::getline(stream, line); ++number) {
+            add_marks(file, number, line, result.marks);
+        }
+    }
+    return result;
+}
+
+std::vector<fs::path> find_cases(const fs::path& folder) {
+    std::vector<fs::path> cases;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.is_directory() && !read_case(entry.path()).files.empty()) {
+            cases.push_back(entry.path());
+        }
+    }
+    std::ranges::sort(cases);
+    return cases;
+}
+
+}  // namespace rddlc::testing

@@ -1,0 +1,174 @@
+// Every folder beside this file is a case; none is registered anywhere. See README.md.
+#include "case.hpp"
+#include "driver/driver.hpp"
+#include "driver/process.hpp"
+#include "driver/shared_object.hpp"
+#include "golden.hpp"
+#include "interpreted_simulator.hpp"
+#include "trace.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+namespace rddlc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string describe(const Diagnostic& diagnostic, const Compilation& compilation) {
+    const std::string place =
+        diagnostic.span ? compilation.sources.location(*diagnostic.span) : "(no place)";
+    const char* kind = compilation.diagnostics.is_error(diagnostic) ? "error" : "warning";
+    return fmt::format("{}: {} {}: {}", place, kind, to_string(diagnostic.code),
+                       diagnostic.message);
+}
+
+// What has no place in the text may be marked anywhere.
+bool fits(const Mark& mark, const Diagnostic& diagnostic, const Compilation& compilation) {
+    const char* kind = compilation.diagnostics.is_error(diagnostic) ? "error" : "warning";
+    if (mark.kind != kind || mark.code != to_string(diagnostic.code)) return false;
+    if (diagnostic.message.find(mark.message) == std::string::npos) return false;
+    if (!diagnostic.span) return true;
+    return compilation.sources[diagnostic.span->file].path() == mark.file &&
+           compilation.sources.position(*diagnostic.span).line == mark.line;
+}
+
+void expect_marked_diagnostics(const Case& expected, const Compilation& compilation) {
+    std::vector<Mark> missing = expected.marks;
+    for (const Diagnostic& diagnostic : compilation.diagnostics.all()) {
+        const auto mark = std::ranges::find_if(
+            missing, [&](const Mark& each) { return fits(each, diagnostic, compilation); });
+        if (mark == missing.end()) {
+            ADD_FAILURE() << "not marked: " << describe(diagnostic, compilation);
+        } else {
+            missing.erase(mark);
+        }
+    }
+    for (const Mark& mark : missing) {
+        ADD_FAILURE() << fmt::format("{}:{}: did not occur: {} {}: {}", mark.file, mark.line,
+                                     mark.kind, mark.code, mark.message);
+    }
+}
+
+// The form of one file with an expectation.
+void expect_form(const Case& expected, const std::string& file, Form form) {
+    if (!expected.expects(file)) return;
+    CompileOptions options;
+    options.inputs.assign(expected.files.begin(), expected.files.end());
+    options.print = {form};
+    options.stop_after = stage_of(form);
+    expect_golden(expected.folder / file, compile(options).printed, "cases");
+}
+
+// A part of the emitted text, between two comments of its skeleton.
+void expect_part(const Case& expected, const std::string& file, const std::string& text,
+                 const std::string& begin, const std::string& end) {
+    if (!expected.expects(file)) return;
+    const std::size_t from = text.find(begin);
+    const std::size_t to = text.find(end);
+    const bool found = from != std::string::npos && to != std::string::npos;
+    expect_golden(expected.folder / file, found ? text.substr(from, to - from) : "", "cases");
+}
+
+// Compiled without any warning, and loaded.
+class LoadedSimulator {
+  public:
+    explicit LoadedSimulator(const std::string& name) {
+        const fs::path object = fs::absolute(name + ".so");
+        auto command = shared_object_command(name + ".cpp", object);
+        command.insert(command.end() - 1, {"-O1", "-Wall", "-Wextra", "-Wshadow", "-Werror"});
+        const auto result = run_process(command);
+        if (!result || result->status != 0) {
+            ADD_FAILURE() << "the emitted text does not compile:\n"
+                          << (result ? result->output : "no C++ compiler");
+            return;
+        }
+        library_ = ::dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (!library_) {
+            ADD_FAILURE() << ::dlerror();
+            return;
+        }
+        const auto entry = reinterpret_cast<rddl_simulator_entry_function>(
+            ::dlsym(library_, "rddl_simulator_entry"));
+        if (entry) simulator_ = entry();
+        if (!simulator_) ADD_FAILURE() << "rddl_simulator_entry is missing";
+    }
+    LoadedSimulator(const LoadedSimulator&) = delete;
+    LoadedSimulator& operator=(const LoadedSimulator&) = delete;
+    ~LoadedSimulator() {
+        if (library_) ::dlclose(library_);
+    }
+
+    const rddl_simulator* get() const { return simulator_; }
+
+  private:
+    void* library_ = nullptr;
+    const rddl_simulator* simulator_ = nullptr;
+};
+
+// The interpreter's trace is the expected one, and the compiled simulator makes the same.
+void expect_trace(const Case& expected, const Compilation& compilation) {
+    const auto interpreted = cli::interpreted_simulator(*compilation.program, compilation.sources);
+    const std::string trace = trace_of(*interpreted);
+    if (expected.expects("trace.exp")) expect_golden(expected.folder / "trace.exp", trace, "cases");
+
+    // A name of its own each: the loader knows what it has loaded by name.
+    const std::string case_name = expected.folder.filename().string();
+    const std::string name =
+        fs::temp_directory_path() / fmt::format("rddlc-{}-{}", case_name, ::getpid());
+    const auto written = std::unique_ptr<FILE, int (*)(FILE*)>(
+        std::fopen((name + ".cpp").c_str(), "w"), &std::fclose);
+    ASSERT_TRUE(written);
+    fmt::print(written.get(), "{}", compilation.text);
+    std::fflush(written.get());
+    const LoadedSimulator compiled(name);
+    if (compiled.get()) {
+        EXPECT_EQ(unified_diff(trace, trace_of(*compiled.get())), "") << "compiled differs";
+    }
+    fs::remove(name + ".cpp");
+    fs::remove(name + ".so");
+}
+
+class Cases : public ::testing::TestWithParam<fs::path> {};
+
+TEST_P(Cases, AreAsExpected) {
+    // Paths in texts and messages are relative to the case.
+    fs::current_path(GetParam());
+    const Case expected = read_case(GetParam());
+    CompileOptions options;
+    options.inputs.assign(expected.files.begin(), expected.files.end());
+    const Compilation compilation = compile(options);
+    expect_marked_diagnostics(expected, compilation);
+
+    expect_form(expected, "model.exp", Form::Model);
+    expect_form(expected, "ir.exp", Form::Ir);
+    expect_form(expected, "ir-opt.exp", Form::OptimisedIr);
+    expect_form(expected, "sim.cpp.exp", Form::Cpp);
+    expect_part(expected, "tables.exp", compilation.text, "namespace ", "template <class L>\nstruct State");
+    expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // Of the step");
+    const bool runs = std::ranges::any_of(
+        std::array{"sim.cpp.exp", "tables.exp", "step.exp", "trace.exp"},
+        [&](const char* file) { return expected.expects(file); });
+    if (runs && compilation.program) expect_trace(expected, compilation);
+}
+
+std::string name_of_case(const ::testing::TestParamInfo<fs::path>& info) {
+    std::string name = info.param.filename().string();
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Cases, ::testing::ValuesIn(find_cases(RDDLC_CASES_FOLDER)),
+                         name_of_case);
+
+}  // namespace
+}  // namespace rddlc::testing

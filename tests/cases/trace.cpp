@@ -1,0 +1,128 @@
+#include "trace.hpp"
+
+#include "records_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace rddlc::testing {
+namespace {
+
+constexpr int steps = 8;
+constexpr std::uint64_t seed = 42;
+
+using Record = std::vector<std::byte>;
+
+// Small numbers that look arbitrary, one for each step and value.
+std::uint64_t scrambled(std::uint64_t step, std::uint64_t value) {
+    std::uint64_t x = (step * 1000003 + value + 1) * 0x9e3779b97f4a7c15;
+    x ^= x >> 31;
+    return (x * 0xbf58476d1ce4e5b9) >> 33;
+}
+
+double real_between(double lower, double upper, std::uint64_t number) {
+    const double low = std::isfinite(lower) ? lower : -1.0;
+    const double high = std::isfinite(upper) ? upper : low + 2.0;
+    return low + (high - low) * static_cast<double>(number % 5) / 4.0;
+}
+
+// One value in three is not the default; at most one where the problem limits their number.
+Record action_at(const rddl_problem& problem, const cli::RecordLayout& layout, int step) {
+    Record record(layout.size());
+    if (record.empty()) return record;
+    std::memcpy(record.data(), problem.default_action, record.size());
+    std::uint64_t value = 0;
+    for (const cli::RecordEntry& entry : layout.entries()) {
+        const std::uint64_t number = scrambled(static_cast<std::uint64_t>(step), value++);
+        if (number % 3 != 0) continue;
+        std::byte* const target = record.data() + entry.offset;
+        const rddl_fluent& fluent = *entry.fluent;
+        const auto write = [&](auto element) {
+            std::memcpy(target, &element, sizeof element);
+        };
+        if (fluent.scalar == RDDL_BOOL) {
+            write(std::uint8_t{1});
+        } else if (fluent.scalar == RDDL_INT) {
+            const std::int64_t choices = entry.objects ? entry.objects->object_count : 3;
+            write(static_cast<std::int64_t>(number / 3) % choices);
+        } else {
+            const double lower = fluent.lower ? fluent.lower[entry.grounding] : -1.0;
+            const double upper = fluent.upper ? fluent.upper[entry.grounding] : 1.0;
+            write(real_between(lower, upper, number / 3));
+        }
+        if (problem.max_nondef_actions >= 0) break;
+    }
+    return record;
+}
+
+std::string ending(std::uint8_t causes) {
+    std::string text;
+    if (causes & RDDL_TERMINATED) text += " terminated";
+    if (causes & RDDL_TRUNCATED_HORIZON) text += " horizon";
+    if (causes & RDDL_TRUNCATED_INVARIANT) text += " invariant";
+    if (causes & RDDL_FAULTED) text += " fault";
+    return text;
+}
+
+}  // namespace
+
+std::string trace_of(const rddl_simulator& simulator) {
+    const rddl_problem& problem = *simulator.problem;
+    const cli::RecordLayout state_layout(problem, RDDL_STATE);
+    const cli::RecordLayout action_layout(problem, RDDL_ACTION);
+    const cli::RecordLayout observation_layout(problem, RDDL_OBSERVATION);
+    Record state(state_layout.size()), observation(observation_layout.size());
+
+    const rddl_batch_options options{.environment_count = 1,
+                                     .first_environment = 0,
+                                     .seed = seed,
+                                     .thread_count = 1,
+                                     .autoreset = RDDL_AUTORESET_DISABLED,
+                                     .horizon = -1};
+    rddl_batch* const batch = simulator.create(&simulator, &options);
+    if (!batch) return "no batch\n";
+
+    std::string text = "state ";
+    simulator.get_state(batch, 0, 1, state.data());
+    state_layout.write(text, state.data());
+    text += "\n";
+    std::uint8_t causes = RDDL_RUNNING;
+    for (int step = 0; step < steps && causes == RDDL_RUNNING; ++step) {
+        const Record action = action_at(problem, action_layout, step);
+        double reward = 0;
+        const rddl_transition out{.observations = observation.data(),
+                                  .rewards = &reward,
+                                  .terminated = nullptr,
+                                  .truncated = nullptr,
+                                  .causes = &causes,
+                                  .final_observations = nullptr};
+        const rddl_error error = simulator.step(batch, action.data(), &out);
+        if (error != RDDL_OK) {
+            text += fmt::format("error {}\n", static_cast<int>(error));
+            break;
+        }
+        text += "action ";
+        action_layout.write_changes(text, action.data(),
+                                    static_cast<const std::byte*>(problem.default_action));
+        simulator.get_state(batch, 0, 1, state.data());
+        text += "\n  state ";
+        state_layout.write(text, state.data());
+        if (problem.partially_observed) {
+            text += "\n  observation ";
+            observation_layout.write(text, observation.data());
+        }
+        text += fmt::format("\n  reward {}{}\n", reward, ending(causes));
+    }
+    rddl_fault fault{};
+    if (simulator.get_fault(batch, 0, &fault) == RDDL_OK && fault.faulty) {
+        text += fmt::format("fault in step {}: {}\n", fault.step, fault.message);
+    }
+    simulator.destroy(batch);
+    return text;
+}
+
+}  // namespace rddlc::testing
