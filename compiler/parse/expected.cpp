@@ -64,10 +64,6 @@ const std::vector<Group>& groups() {
     return all;
 }
 
-std::string literal(std::size_t type, const antlr4::dfa::Vocabulary& vocabulary) {
-    return vocabulary.getDisplayName(type);
-}
-
 // "a, b or c"
 std::string alternatives(const std::vector<std::string>& words) {
     std::string text;
@@ -104,7 +100,6 @@ bool operator_possible(const SyntaxError& error) {
 }  // namespace
 
 std::string describe_expected(const SyntaxError& error) {
-    static const Parser vocabulary_owner(nullptr);
     TokenTypes left = error.expected;
     std::vector<std::string> words;
     bool names_operator = false;
@@ -117,7 +112,7 @@ std::string describe_expected(const SyntaxError& error) {
     }
     for (const std::size_t type : left)
         words.push_back(type == Token::EOF ? "the end of the file"
-                                           : literal(type, vocabulary_owner.getVocabulary()));
+                                           : error.vocabulary.getDisplayName(type));
     if (!names_operator && operator_possible(error)) words.emplace_back("an operator");
     return alternatives(words);
 }

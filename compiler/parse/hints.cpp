@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace rddlc {
 
@@ -129,6 +130,29 @@ std::string fluent_kind(const SyntaxError& error) {
     return "write the declaration as in p(t) : { state-fluent, bool, default = false };";
 }
 
+// The words that could have stood here.
+std::vector<std::string> expected_words(const SyntaxError& error) {
+    std::vector<std::string> words;
+    for (const std::size_t type : error.expected) {
+        const std::string literal = error.vocabulary.getLiteralName(type);  // in quotes
+        if (literal.size() > 3) words.push_back(literal.substr(1, literal.size() - 2));
+    }
+    if (error.expects(Parser::CPFS)) words.emplace_back("cpfs");
+    if (error.expects(Parser::CONSTRAINTS))
+        words.insert(words.end(), {"termination", "action-preconditions",
+                                   "state-action-constraints", "state-invariants"});
+    if (error.expects(Parser::FLUENT_KIND))
+        words.insert(words.end(), {"state-fluent", "non-fluent", "action-fluent", "interm-fluent",
+                                   "derived-fluent", "observ-fluent"});
+    return words;
+}
+
+std::string misspelt_word(const SyntaxError& error) {
+    if (!is(&error.found(), Parser::ID)) return "";
+    const auto meant = did_you_mean(error.found().getText(), expected_words(error));
+    return meant ? fmt::format("did you mean '{}'?", *meant) : "";
+}
+
 std::string type_form(const SyntaxError& error) {
     if (error.expects(Parser::OBJECT)) return "a type is an 'object' or a list of values {@a, @b}";
     const bool value = error.expects(Parser::ENUM) && !error.expects(Parser::ID);
@@ -152,6 +176,7 @@ std::string hint_for(const SyntaxError& error) {
         cpf_parameters,
         separators,
         otherwise,
+        misspelt_word,
         fluent_kind,
         type_form,
     };

@@ -89,8 +89,8 @@ void ErrorStrategy::reportError(antlr4::Parser* parser, const antlr4::Recognitio
 void ErrorStrategy::report(antlr4::Parser& parser, std::size_t index, TokenTypes expected) {
     recovering_ = true;
     if (follows_lexical_error(index)) return;
-    diagnostics_.report(
-        describe({file_, tokens_, index, std::move(expected), parser.getContext()}));
+    diagnostics_.report(describe(
+        {file_, tokens_, index, std::move(expected), parser.getContext(), parser.getVocabulary()}));
     if (++reported_ == limit_) throw antlr4::ParseCancellationException();
 }
 

@@ -16,6 +16,7 @@ struct SyntaxError {
     std::size_t index;  // of the token that does not fit
     TokenTypes expected;
     const antlr4::ParserRuleContext* context;  // innermost
+    const antlr4::dfa::Vocabulary& vocabulary;
 
     const Token& found() const { return *tokens[index]; }
     // The token `distance` before the one that does not fit; null before the first.

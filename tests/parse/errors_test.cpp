@@ -38,10 +38,10 @@ TEST(Errors, SayWhatWasExpectedInWords) {
               "E0101: expected a type, found '1'");
     EXPECT_EQ(errors_in_domain("tipes { };"),
               "E0101: expected a section of the domain ('types', 'pvariables', 'cpfs', 'reward', "
-              "...) or '}', found 'tipes'");
+              "...) or '}', found 'tipes' | did you mean 'types'?");
     EXPECT_EQ(errors_in_instance("horizons = 3;"),
               "E0101: expected a section of the instance ('objects', 'init-state', 'horizon', "
-              "...) or '}', found 'horizons'");
+              "...) or '}', found 'horizons' | did you mean 'horizon'?");
     EXPECT_EQ(summary(parse_text("hello")),
               "E0101: expected a block ('domain', 'non-fluents' or 'instance') or the end of the "
               "file, found 'hello'");
@@ -255,8 +255,11 @@ TEST(Errors, PlacesOfConstructs) {
               "values {@a, @b}");
     EXPECT_EQ(errors_in_domain("pvariables { p : { statefluent, bool }; };"),
               "E0101: expected a kind of fluent ('state-fluent', 'non-fluent', ...), found "
-              "'statefluent' | write the declaration as in p(t) : { state-fluent, bool, default = "
-              "false };");
+              "'statefluent' | did you mean 'state-fluent'?");
+    EXPECT_EQ(
+        errors_in_domain("pvariables { p : { bool }; };"),
+        "E0101: expected a kind of fluent ('state-fluent', 'non-fluent', ...), found 'bool' | "
+        "write the declaration as in p(t) : { state-fluent, bool, default = false };");
 }
 
 TEST(Errors, Attributes) {
