@@ -29,9 +29,9 @@ bool check_nonempty(const std::vector<model::VariableId>& variables, const ast::
         const model::Type& type = context.model.type_of(context.model.variables[id]);
         if (!type.objects.empty()) continue;
         if (!context.names.broken_types.contains(context.model.variables[id].type))
-            context.report(Diagnostic{
-                empty_scope, name.span,
-                fmt::format("'{}' has no value over the empty type '{}'", name.text, type.name)}
+            context.report(diagnose(empty_scope, name.span,
+                                    fmt::format("'{}' has no value over the empty type '{}'",
+                                                name.text, type.name))
                                .note(type.span, "declared here"));
         return false;
     }
@@ -93,9 +93,9 @@ void warn_of_long_body(const ast::Aggregation& aggregation, Reduction op,
     }
     if (harmless || !rest || !std::holds_alternative<ast::Group>(left->node)) return;
     scope.context.report(
-        Diagnostic{long_body, rest,
-                   fmt::format("this belongs to the body of '{}', which goes on to the end",
-                               aggregation.op.text)}
+        diagnose(long_body, rest,
+                 fmt::format("this belongs to the body of '{}', which goes on to the end",
+                             aggregation.op.text))
             .note(left->span, "the body does not end with these brackets")
             .with_hint(fmt::format("to end the body, put brackets around the whole aggregation: "
                                    "'[{}_{{...}} ...]'",
@@ -134,8 +134,8 @@ void report_unknown_aggregation(const ast::Name& name, Context& context) {
     std::string hint = suggestion(context, name.text, reduction_names());
     if (function_named(name.text) && !reduction_named(name.text))
         hint = fmt::format("'{0}' is a function: '{0}[...]'", name.text);
-    context.report(Diagnostic{unknown_aggregation, name.span,
-                              fmt::format("there is no aggregation '{}'", name.text)}
+    context.report(diagnose(unknown_aggregation, name.span,
+                            fmt::format("there is no aggregation '{}'", name.text))
                        .with_hint(hint));
 }
 

@@ -19,10 +19,9 @@ struct Last {
 template <class T>
 void choose(Last<T>& last, const T& node, Span span, std::string_view what, Context& context) {
     if (last.node)
-        context.report(
-            Diagnostic{repeated_section, last.span,
-                       fmt::format("this '{}' is ignored: a later one replaces it", what)}
-                .note(span, "the one that counts"));
+        context.report(diagnose(repeated_section, last.span,
+                                fmt::format("this '{}' is ignored: a later one replaces it", what))
+                           .note(span, "the one that counts"));
     last = {&node, span};
 }
 
@@ -139,7 +138,7 @@ bool require_section(const Last<T>& last, std::string_view section, std::string_
                      Span block_span, std::string_view hint, Context& context) {
     if (last.node) return true;
     context.report(
-        Diagnostic{missing_section, block_span, fmt::format("the {} has no '{}'", block, section)}
+        diagnose(missing_section, block_span, fmt::format("the {} has no '{}'", block, section))
             .with_hint(std::string(hint)));
     return false;
 }
@@ -147,9 +146,9 @@ bool require_section(const Last<T>& last, std::string_view section, std::string_
 void warn_of_other_domain(const Last<ast::DomainName>& named, const ast::Domain& domain,
                           Context& context) {
     if (!named.node || named.node->name.text == domain.name.text) return;
-    context.report(Diagnostic{other_domain, named.node->name.span,
-                              fmt::format("this is for domain '{}', but the domain is '{}'",
-                                          named.node->name.text, domain.name.text)}
+    context.report(diagnose(other_domain, named.node->name.span,
+                            fmt::format("this is for domain '{}', but the domain is '{}'",
+                                        named.node->name.text, domain.name.text))
                        .note(domain.name.span, "the domain"));
 }
 
@@ -185,8 +184,8 @@ void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blo
             warn_of_other_domain(own.domain, *blocks.domain, context);
             if (sections.objects.node)
                 context.report(
-                    Diagnostic{ignored_objects, sections.objects.span,
-                               "these objects are ignored: objects come from the non-fluents block"}
+                    diagnose(ignored_objects, sections.objects.span,
+                             "these objects are ignored: objects come from the non-fluents block")
                         .note(block->name.span, "the non-fluents block"));
         },
         [&](const ast::Instance* instance) {
@@ -225,9 +224,8 @@ void take_instance(const ast::Instance& instance, const TopLevel& top, Blocks& b
 
 bool require_block(bool present, std::string_view block, std::string_view hint, Context& context) {
     if (present) return true;
-    context.report(
-        Diagnostic{missing_block, {}, fmt::format("there is no {} block", block)}.with_hint(
-            std::string(hint)));
+    context.report(diagnose(missing_block, {}, fmt::format("there is no {} block", block))
+                       .with_hint(std::string(hint)));
     return false;
 }
 
@@ -243,14 +241,12 @@ void check_horizon(const ast::Horizon& horizon, Span span, Context& context) {
                 context.report({unsupported_horizon, span, "the horizon must not be negative"});
         },
         [&](const ast::PosInf&) {
-            context.report(
-                Diagnostic{unsupported_horizon, span, "the horizon must be finite"}.with_hint(
-                    std::string(hint)));
+            context.report(diagnose(unsupported_horizon, span, "the horizon must be finite")
+                               .with_hint(std::string(hint)));
         },
         [&](const ast::Expr&) {
-            context.report(
-                Diagnostic{unsupported_horizon, span, "'terminate-when' is not supported"}
-                    .with_hint(std::string(hint)));
+            context.report(diagnose(unsupported_horizon, span, "'terminate-when' is not supported")
+                               .with_hint(std::string(hint)));
         });
 }
 
@@ -267,10 +263,10 @@ void check_action_limit(std::int64_t limit, Span span, Context& context) {
     for (const model::Fluent& fluent : context.model.fluents)
         if (fluent.role == Role::Action) actions += context.model.grounding_count(fluent);
     if (limit > actions)
-        context.report(Diagnostic{idle_action_limit, span,
-                                  fmt::format("the limit of {} non-default actions has no effect: "
-                                              "there are only {}",
-                                              limit, actions)}
+        context.report(diagnose(idle_action_limit, span,
+                                fmt::format("the limit of {} non-default actions has no effect: "
+                                            "there are only {}",
+                                            limit, actions))
                            .with_hint("'pos-inf' says that there is no limit"));
 }
 

@@ -64,10 +64,10 @@ std::string hint_for_arity(Operator op, std::size_t found) {
 bool check_call_arity(std::string_view name, std::size_t expected, const ast::Name& written,
                       std::size_t found, std::string hint, Context& context) {
     if (expected == found) return true;
-    context.report(Diagnostic{
-        wrong_call_arity, written.span,
-        fmt::format("'{}' takes {}, found {}", name, counted(expected, "argument"), found)}
-                       .with_hint(std::move(hint)));
+    context.report(
+        diagnose(wrong_call_arity, written.span,
+                 fmt::format("'{}' takes {}, found {}", name, counted(expected, "argument"), found))
+            .with_hint(std::move(hint)));
     return false;
 }
 
@@ -186,8 +186,8 @@ Typed check_call(const ast::Call& call, Span span, Scope& scope) {
     const std::string& name = call.function.text;
     const std::optional<Operator> op = function_named(name);
     if (!op) {
-        scope.context.report(Diagnostic{unknown_function, call.function.span,
-                                        fmt::format("there is no function '{}'", name)}
+        scope.context.report(diagnose(unknown_function, call.function.span,
+                                      fmt::format("there is no function '{}'", name))
                                  .with_hint(hint_for_unknown(name, scope.context)));
         return std::nullopt;
     }
@@ -202,8 +202,8 @@ Typed check_distribution(const ast::Distribution& call, Span span, Scope& scope)
     const std::string& name = call.name.text;
     const std::optional<Distribution> distribution = distribution_named(name);
     if (!distribution) {
-        scope.context.report(Diagnostic{unknown_function, call.name.span,
-                                        fmt::format("'{}' cannot be used like this", name)}
+        scope.context.report(diagnose(unknown_function, call.name.span,
+                                      fmt::format("'{}' cannot be used like this", name))
                                  .with_hint("random vectors are written 'NAME[?x](...)', discrete "
                                             "distributions 'Discrete(type, @a : p, ...)'"));
         return std::nullopt;

@@ -161,9 +161,8 @@ class Narrowing {
 };
 
 void warn(Span span, model::ValueType found, const Need& need, Context& context) {
-    context.report(
-        Diagnostic{type_fault, span, fault_message(span, found, need, context)}.with_hint(
-            "a run that gets here stops with a fault"));
+    context.report(diagnose(type_fault, span, fault_message(span, found, need, context))
+                       .with_hint("a run that gets here stops with a fault"));
 }
 
 std::string hint_for(model::ValueType found, const Need& need) {

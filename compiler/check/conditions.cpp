@@ -43,8 +43,8 @@ void check_conditions(const Blocks& blocks, Context& context) {
         check_all(blocks.terminations, Definition::Termination, "termination condition", context);
     const ast::Constraints* unenforced = blocks.state_action_constraints;
     if (unenforced && !unenforced->conditions.empty())
-        context.report(Diagnostic{constraints_not_enforced, blocks.state_action_constraints_span,
-                                  "'state-action-constraints' are not enforced"}
+        context.report(diagnose(constraints_not_enforced, blocks.state_action_constraints_span,
+                                "'state-action-constraints' are not enforced")
                            .with_hint("write conditions on actions in 'action-preconditions', and "
                                       "those on states in 'state-invariants'"));
 }

@@ -7,10 +7,12 @@
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace rddlc::checking {
@@ -45,6 +47,11 @@ struct Context {
     const model::Fluent& fluent(model::FluentId id) const { return model.fluents[id]; }
     const model::Type& type(model::TypeId id) const { return model.types[id]; }
 };
+
+// The beginning of a report: notes and a hint may follow.
+inline Diagnostic diagnose(Code code, std::optional<Span> span, std::string message) {
+    return {code, span, std::move(message)};
+}
 
 // Lookup in one of the maps of Names; nullptr if absent.
 template <class T>

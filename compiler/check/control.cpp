@@ -26,10 +26,10 @@ std::optional<model::ValueType> common_type(const std::vector<const model::Expr*
     for (const model::Expr* branch : branches) {
         const bool fits = is_object(type) || is_object(branch->type) ? type == branch->type : true;
         if (!fits) {
-            scope.context.report(Diagnostic{
-                branches_differ, branch->span,
-                fmt::format("the {} gives {} here, but {} before", what,
-                            describe(scope.context, branch->type), describe(scope.context, type))}
+            scope.context.report(diagnose(branches_differ, branch->span,
+                                          fmt::format("the {} gives {} here, but {} before", what,
+                                                      describe(scope.context, branch->type),
+                                                      describe(scope.context, type)))
                                      .note(branches.front()->span, "before"));
             return std::nullopt;
         }
@@ -55,9 +55,9 @@ std::optional<std::vector<std::optional<std::size_t>>> match_labels(
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const Object* object = find(context.names.objects, std::string(labels[i].name));
         if (!object || object->type != type_id) {
-            context.report(Diagnostic{
-                bad_label, labels[i].span,
-                fmt::format("'{}' is not a member of type '{}'", labels[i].name, type.name)}
+            context.report(diagnose(bad_label, labels[i].span,
+                                    fmt::format("'{}' is not a member of type '{}'", labels[i].name,
+                                                type.name))
                                .note(type.span, "declared here")
                                .with_hint(suggestion(context, labels[i].name, type.objects)));
             sound = false;
@@ -65,8 +65,8 @@ std::optional<std::vector<std::optional<std::size_t>>> match_labels(
         }
         std::optional<std::size_t>& slot = label_of[static_cast<std::size_t>(object->index)];
         if (slot) {
-            context.report(Diagnostic{repeated_label, labels[i].span,
-                                      fmt::format("'@{}' occurs twice", labels[i].name)}
+            context.report(diagnose(repeated_label, labels[i].span,
+                                    fmt::format("'@{}' occurs twice", labels[i].name))
                                .note(labels[*slot].span, "first here"));
             sound = false;
         }
@@ -83,8 +83,8 @@ bool check_complete(const std::vector<std::optional<std::size_t>>& label_of, mod
     for (std::size_t i = 0; i < label_of.size(); ++i)
         if (!label_of[i]) missing.push_back(fmt::format("'@{}'", type.objects[i]));
     if (missing.empty()) return true;
-    context.report(Diagnostic{
-        missing_label, span, fmt::format("no case for {} of type '{}'", joined(missing), type.name)}
+    context.report(diagnose(missing_label, span,
+                            fmt::format("no case for {} of type '{}'", joined(missing), type.name))
                        .note(type.span, "declared here")
                        .with_hint(std::string(hint)));
     return false;
@@ -100,11 +100,10 @@ Typed check_subject(const ast::Expr& expression, Scope& scope) {
         is_object(subject->type) && scope.context.type(subject->type.type).enumerated;
     if (std::holds_alternative<model::Reference>(subject->node) && enumerated) return subject;
     scope.context.report(
-        Diagnostic{bad_switch_subject, expression.span,
-                   enumerated
-                       ? "'switch' takes a fluent"
-                       : fmt::format("'switch' takes a fluent of an enumerated type, found {}",
-                                     describe(scope.context, subject->type))}
+        diagnose(bad_switch_subject, expression.span,
+                 enumerated ? "'switch' takes a fluent"
+                            : fmt::format("'switch' takes a fluent of an enumerated type, found {}",
+                                          describe(scope.context, subject->type)))
             .with_hint(enumerated ? "compare with '==' in an 'if', or make it an interm-fluent"
                                   : "use 'if (...) then ... else if ...'"));
     return std::nullopt;
@@ -118,8 +117,8 @@ bool collect_labels(const ast::Switch& choice, std::vector<Label>& labels,
     for (const ast::SwitchCase& item : choice.cases) {
         if (!item.label) {
             if (fallback) {
-                context.report(Diagnostic{repeated_label, item.span, "'default' occurs twice"}.note(
-                    fallback->span, "first here"));
+                context.report(diagnose(repeated_label, item.span, "'default' occurs twice")
+                                   .note(fallback->span, "first here"));
                 sound = false;
             }
             fallback = &item;
@@ -136,9 +135,8 @@ bool collect_labels(const ast::Switch& choice, std::vector<Label>& labels,
         const std::string hint = bare && find(context.names.objects, bare->name.text)
                                      ? fmt::format("write '@{}'", bare->name.text)
                                      : "";
-        context.report(
-            Diagnostic{bad_label, label.span, "a case is labelled with a literal '@...'"}.with_hint(
-                hint));
+        context.report(diagnose(bad_label, label.span, "a case is labelled with a literal '@...'")
+                           .with_hint(hint));
     }
     return sound;
 }
@@ -221,9 +219,9 @@ Typed check_discrete(const ast::DiscreteCases& discrete, Span span, Scope& scope
     if (!type) return std::nullopt;
     if (!context.type(*type).enumerated) {
         context.report(
-            Diagnostic{not_enumerated, discrete.type.span,
-                       fmt::format("'{}' lists members, but type '{}' is not enumerated",
-                                   discrete.name.text, discrete.type.text)}
+            diagnose(not_enumerated, discrete.type.span,
+                     fmt::format("'{}' lists members, but type '{}' is not enumerated",
+                                 discrete.name.text, discrete.type.text))
                 .note(context.type(*type).span, "declared here")
                 .with_hint(fmt::format("for objects of the instance: '{}_{{?x : {}}} ...'",
                                        discrete.name.text, discrete.type.text)));

@@ -4,6 +4,7 @@
 #include "check/types.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <unordered_map>
@@ -45,8 +46,8 @@ class CpfChecker {
         if (context_.names.broken_fluents.contains(*id)) return;
         bool sound = check_written(cpf, fluent);
         if (sound && !first) {
-            context_.report(Diagnostic{repeated_cpf, cpf.name.span,
-                                       fmt::format("'{}' has a CPF already", written_name(cpf))}
+            context_.report(diagnose(repeated_cpf, cpf.name.span,
+                                     fmt::format("'{}' has a CPF already", written_name(cpf)))
                                 .note(defined_[*id], "defined here"));
             sound = false;
         }
@@ -60,8 +61,8 @@ class CpfChecker {
             if (broken || !needs_cpf(fluent.role) || defined_.contains(id)) continue;
             const std::string name = checking::written_name(fluent, fluent.role == Role::State);
             context_.report(
-                Diagnostic{missing_cpf, fluent.span,
-                           fmt::format("{} '{}' has no CPF", name_of(fluent.role), fluent.name)}
+                diagnose(missing_cpf, fluent.span,
+                         fmt::format("{} '{}' has no CPF", name_of(fluent.role), fluent.name))
                     .with_hint(fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name)));
         }
     }
@@ -71,8 +72,8 @@ class CpfChecker {
   private:
     void report_undeclared(const ast::Cpf& cpf) {
         context_.report(
-            Diagnostic{undeclared_cpf, cpf.name.span,
-                       fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text)}
+            diagnose(undeclared_cpf, cpf.name.span,
+                     fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
                 .with_hint(suggestion(context_, cpf.name.text, keys(context_.names.fluents))));
     }
 
@@ -82,18 +83,18 @@ class CpfChecker {
             const std::string_view reason = fluent.role == Role::Action
                                                 ? "the agent chooses its value"
                                                 : "the instance gives its value";
-            context_.report(Diagnostic{cpf_not_allowed, cpf.name.span,
-                                       fmt::format("{} '{}' cannot have a CPF: {}",
-                                                   name_of(fluent.role), fluent.name, reason)}
+            context_.report(diagnose(cpf_not_allowed, cpf.name.span,
+                                     fmt::format("{} '{}' cannot have a CPF: {}",
+                                                 name_of(fluent.role), fluent.name, reason))
                                 .note(fluent.span, "declared here"));
             return false;
         }
         if (fluent.role == Role::State && !cpf.primed) {
             context_.report(
-                Diagnostic{forgotten_prime, cpf.name.span,
-                           fmt::format("the CPF of state-fluent '{0}' defines its next "
-                                       "value '{0}''",
-                                       fluent.name)}
+                diagnose(forgotten_prime, cpf.name.span,
+                         fmt::format("the CPF of state-fluent '{0}' defines its next "
+                                     "value '{0}''",
+                                     fluent.name))
                     .note(fluent.span, "declared here")
                     .with_hint(fmt::format("you forgot a prime: {}'{} = ...", fluent.name,
                                            cpf.parameters.empty() ? "" : "(...)")));
@@ -101,9 +102,9 @@ class CpfChecker {
         }
         if (fluent.role != Role::State && cpf.primed) {
             context_.report(
-                Diagnostic{misplaced_prime, cpf.name.span,
-                           fmt::format("'{}' is {}: only state-fluents have a next value",
-                                       fluent.name, with_article(fluent.role))}
+                diagnose(misplaced_prime, cpf.name.span,
+                         fmt::format("'{}' is {}: only state-fluents have a next value",
+                                     fluent.name, with_article(fluent.role)))
                     .note(fluent.span, "declared here")
                     .with_hint(fmt::format("write '{}' without the prime", fluent.name)));
             return false;
@@ -119,9 +120,9 @@ class CpfChecker {
             types.push_back(context_.type(type).name);
         const std::string list = types.empty() ? "" : fmt::format(" ({})", fmt::join(types, ", "));
         context_.report(
-            Diagnostic{wrong_cpf_arity, cpf.name.span,
-                       fmt::format("'{}' has {}{}, found {}", written_name(cpf),
-                                   counted(expected, "parameter"), list, cpf.parameters.size())}
+            diagnose(wrong_cpf_arity, cpf.name.span,
+                     fmt::format("'{}' has {}{}, found {}", written_name(cpf),
+                                 counted(expected, "parameter"), list, cpf.parameters.size()))
                 .note(fluent.span, "declared here"));
         return false;
     }

@@ -193,9 +193,9 @@ void check_dependencies(Definition definition, const std::string& what,
         if (allows(rule, fluent.role, use.next)) continue;
         if (!reported.insert({use.fluent, use.next}).second) continue;
         context.report(
-            Diagnostic{illegal_dependency, use.span,
-                       fmt::format("{} may not depend on '{}', {}", what,
-                                   written_name(fluent, use.next), role_of(fluent, use.next))}
+            diagnose(illegal_dependency, use.span,
+                     fmt::format("{} may not depend on '{}', {}", what,
+                                 written_name(fluent, use.next), role_of(fluent, use.next)))
                 .note(fluent.span, "declared here")
                 .with_hint(hint_for(rule, fluent, use.next)));
     }

@@ -18,7 +18,7 @@ std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& c
     if (const model::TypeId* id = find(context.names.types, range.text))
         return model::ValueType{model::ValueType::Kind::Object, *id};
     context.report(
-        Diagnostic{unknown_type, range.span, fmt::format("type '{}' is not declared", range.text)}
+        diagnose(unknown_type, range.span, fmt::format("type '{}' is not declared", range.text))
             .with_hint(suggestion(context, range.text, [&] {
                 std::vector<std::string> names = keys(context.names.types);
                 names.insert(names.end(), {"bool", "int", "real"});
@@ -34,12 +34,12 @@ bool has_initial_values(Role role) {
 void check_name(const ast::PVariable& declaration, Context& context) {
     const std::string& name = declaration.name.text;
     if (declaration.primed)
-        context.report(Diagnostic{illegal_fluent_name, declaration.name.span,
-                                  fmt::format("'{}'' is declared with a prime", name)}
+        context.report(diagnose(illegal_fluent_name, declaration.name.span,
+                                fmt::format("'{}'' is declared with a prime", name))
                            .with_hint("declare it without; its next value is written with one"));
     if (name.find("__") != std::string::npos)
-        context.report(Diagnostic{illegal_fluent_name, declaration.name.span,
-                                  fmt::format("'{}' contains '__'", name)}
+        context.report(diagnose(illegal_fluent_name, declaration.name.span,
+                                fmt::format("'{}' contains '__'", name))
                            .with_hint("'__' and '___' separate the parts of grounded names"));
 }
 
@@ -74,18 +74,17 @@ void check_range_of_role(const ast::PVariable& declaration, const model::Fluent&
     const std::string& type = context.type(fluent.range.type).name;
     if (fluent.role == Role::Action)
         context.report(
-            Diagnostic{
-                object_action, declaration.range.span,
-                fmt::format("action-fluent '{}' cannot have the object type '{}' as its range",
-                            fluent.name, type)}
+            diagnose(object_action, declaration.range.span,
+                     fmt::format("action-fluent '{}' cannot have the object type '{}' as its range",
+                                 fluent.name, type))
                 .with_hint(fmt::format("make it a bool action-fluent with a parameter of type '{}'",
                                        type)));
     else if (declaration.default_value)
         context.report(
-            Diagnostic{bad_default, declaration.default_value->span,
-                       fmt::format("'{}' cannot have a default: the domain cannot name an object "
-                                   "of type '{}'",
-                                   fluent.name, type)}
+            diagnose(bad_default, declaration.default_value->span,
+                     fmt::format("'{}' cannot have a default: the domain cannot name an object "
+                                 "of type '{}'",
+                                 fluent.name, type))
                 .with_hint("give its values in the instance"));
 }
 
@@ -106,9 +105,9 @@ bool check_grounding_count(const model::Fluent& fluent, Context& context) {
         const model::Type& type = context.type(parameter);
         if (type.objects.empty() && has_initial_values(fluent.role) &&
             !context.names.broken_types.contains(parameter))
-            context.report(Diagnostic{
-                empty_scope, fluent.span,
-                fmt::format("'{}' has no values: type '{}' is empty", fluent.name, type.name)}
+            context.report(diagnose(empty_scope, fluent.span,
+                                    fmt::format("'{}' has no values: type '{}' is empty",
+                                                fluent.name, type.name))
                                .note(type.span, "declared here"));
         count *= static_cast<std::int64_t>(type.objects.size());
         if (count <= max_groundings) continue;
@@ -126,8 +125,8 @@ void declare_fluent(const ast::PVariable& declaration, Context& context) {
     const auto id = static_cast<model::FluentId>(context.model.fluents.size());
     const auto [entry, is_new] = context.names.fluents.try_emplace(name, id);
     if (!is_new) {
-        context.report(Diagnostic{repeated_fluent, declaration.name.span,
-                                  fmt::format("'{}' is declared twice", name)}
+        context.report(diagnose(repeated_fluent, declaration.name.span,
+                                fmt::format("'{}' is declared twice", name))
                            .note(context.fluent(entry->second).span, "first declared here"));
         return;
     }
@@ -146,8 +145,8 @@ void declare_fluent(const ast::PVariable& declaration, Context& context) {
     if (!role || !range || !sound) context.names.broken_fluents.insert(id);
     if (role == Role::Derived)
         context.report(
-            Diagnostic{derived_is_interm, declaration.kind.span,
-                       fmt::format("derived-fluent '{}' is treated as an interm-fluent", name)}
+            diagnose(derived_is_interm, declaration.kind.span,
+                     fmt::format("derived-fluent '{}' is treated as an interm-fluent", name))
                 .with_hint("declare it 'interm-fluent'"));
     context.model.fluents.push_back(std::move(fluent));
 }

@@ -99,9 +99,9 @@ Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope&
         return std::nullopt;
     }
     if (objects && is_order(place.op)) {
-        scope.context.report(Diagnostic{
-            not_comparable, place.op_span,
-            fmt::format("objects have no order: '{}' compares numbers", source_name_of(place.op))}
+        scope.context.report(diagnose(not_comparable, place.op_span,
+                                      fmt::format("objects have no order: '{}' compares numbers",
+                                                  source_name_of(place.op)))
                                  .with_hint("only '==' and '~=' compare objects"));
         return std::nullopt;
     }

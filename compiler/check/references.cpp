@@ -4,6 +4,7 @@
 #include "check/types.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -19,9 +20,9 @@ Typed check_object(const std::string& name, const Object& object, Span span, Sco
     const model::Type& type = scope.context.type(object.type);
     if (!type.enumerated) {
         scope.context.report(
-            Diagnostic{
+            diagnose(
                 object_in_domain, span,
-                fmt::format("'{}' is an object of the instance: the domain cannot name it", name)}
+                fmt::format("'{}' is an object of the instance: the domain cannot name it", name))
                 .note(object.span, fmt::format("object of type '{}'", type.name))
                 .with_hint(
                     "use a variable, or a non-fluent that the instance sets for this object"));
@@ -40,19 +41,19 @@ std::string parameter_list(const model::Fluent& fluent, const Context& context) 
 bool check_arity(const model::Fluent& fluent, std::size_t found, Span span, Context& context) {
     const std::size_t expected = fluent.parameters.size();
     if (found == expected) return true;
-    context.report(Diagnostic{
-        wrong_arity, span,
-        fmt::format("'{}' takes {}{}, found {}", fluent.name, counted(expected, "argument"),
-                    parameter_list(fluent, context), found)}
-                       .note(fluent.span, "declared here"));
+    context.report(
+        diagnose(wrong_arity, span,
+                 fmt::format("'{}' takes {}{}, found {}", fluent.name,
+                             counted(expected, "argument"), parameter_list(fluent, context), found))
+            .note(fluent.span, "declared here"));
     return false;
 }
 
 bool check_prime(const ast::Reference& reference, const model::Fluent& fluent, Context& context) {
     if (!reference.primed || fluent.role == Role::State) return true;
-    context.report(Diagnostic{misplaced_prime, reference.name.span,
-                              fmt::format("'{}' is {}: only state-fluents have a next value",
-                                          fluent.name, with_article(fluent.role))}
+    context.report(diagnose(misplaced_prime, reference.name.span,
+                            fmt::format("'{}' is {}: only state-fluents have a next value",
+                                        fluent.name, with_article(fluent.role)))
                        .note(fluent.span, "declared here")
                        .with_hint(fmt::format("write '{}' without the prime", fluent.name)));
     return false;
@@ -80,7 +81,7 @@ std::optional<std::vector<model::Expr>> check_arguments(const ast::Reference& re
 void report_ambiguous(const std::string& name, const Object& object, const model::Fluent& fluent,
                       Span span, Context& context) {
     context.report(
-        Diagnostic{ambiguous_name, span, fmt::format("'{}' is both an object and a fluent", name)}
+        diagnose(ambiguous_name, span, fmt::format("'{}' is both an object and a fluent", name))
             .note(object.span, "the object")
             .note(fluent.span, "the fluent")
             .with_hint("rename one of them"));
@@ -99,7 +100,7 @@ Typed check_literal(const ast::Literal& literal, Span span, Scope& scope) {
     if (const Object* object = find(scope.context.names.objects, literal.name))
         return check_object("@" + literal.name, *object, span, scope);
     scope.context.report(
-        Diagnostic{unknown_literal, span, fmt::format("no type has the member '@{}'", literal.name)}
+        diagnose(unknown_literal, span, fmt::format("no type has the member '@{}'", literal.name))
             .with_hint(suggestion(scope.context, literal.name, enumerated_members(scope.context))));
     return std::nullopt;
 }

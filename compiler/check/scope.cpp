@@ -3,6 +3,7 @@
 #include "check/types.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -46,8 +47,8 @@ void report_unknown(const std::string& name, Span span, Scope& scope) {
 std::optional<model::VariableId> bind(const ast::Name& name, std::optional<model::TypeId> type,
                                       Scope& scope) {
     if (const Binding* outer = find_binding(scope, name.text)) {
-        scope.context.report(Diagnostic{repeated_variable, name.span,
-                                        fmt::format("variable '?{}' is bound already", name.text)}
+        scope.context.report(diagnose(repeated_variable, name.span,
+                                      fmt::format("variable '?{}' is bound already", name.text))
                                  .note(outer->span, "bound here")
                                  .with_hint("use another name"));
         return std::nullopt;

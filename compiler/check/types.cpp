@@ -16,10 +16,10 @@ ObjectLists collect_lists(const ast::Objects* objects, Context& context) {
     for (const ast::ObjectList& list : objects->lists) {
         const auto [entry, is_new] = lists.try_emplace(list.type.text, &list);
         if (is_new) continue;
-        context.report(Diagnostic{repeated_section, entry->second->type.span,
-                                  fmt::format("these objects of '{}' are ignored: a later list "
-                                              "replaces them",
-                                              list.type.text)}
+        context.report(diagnose(repeated_section, entry->second->type.span,
+                                fmt::format("these objects of '{}' are ignored: a later list "
+                                            "replaces them",
+                                            list.type.text))
                            .note(list.type.span, "the list that counts"));
         entry->second = &list;
     }
@@ -42,8 +42,8 @@ void add_objects(model::TypeId id, const std::vector<ast::Name>& objects, Contex
                 ? fmt::format("object '{}' occurs twice in type '{}'", object.text, type.name)
                 : fmt::format("object '{}' belongs to type '{}' already", object.text,
                               context.type(first.type).name);
-        context.report(Diagnostic{repeated_object, object.span, message}.note(
-            first.span, fmt::format("'{}' first listed here", object.text)));
+        context.report(diagnose(repeated_object, object.span, message)
+                           .note(first.span, fmt::format("'{}' first listed here", object.text)));
     }
 }
 
@@ -54,8 +54,8 @@ std::optional<model::TypeId> declare_type(const ast::TypeDeclaration& declaratio
     const auto id = static_cast<model::TypeId>(context.model.types.size());
     const auto [entry, is_new] = context.names.types.try_emplace(name, id);
     if (!is_new) {
-        context.report(Diagnostic{repeated_type, declaration.name.span,
-                                  fmt::format("type '{}' is declared twice", name)}
+        context.report(diagnose(repeated_type, declaration.name.span,
+                                fmt::format("type '{}' is declared twice", name))
                            .note(context.type(entry->second).span, "first declared here"));
         return std::nullopt;
     }
@@ -68,18 +68,18 @@ void add_listed_objects(model::TypeId id, const ObjectLists& lists, Context& con
     const model::Type& type = context.type(id);
     const auto list = lists.find(type.name);
     if (list != lists.end() && type.enumerated) {
-        context.report(Diagnostic{ignored_objects, list->second->type.span,
-                                  fmt::format("these objects are ignored: type '{}' is enumerated "
-                                              "in the domain",
-                                              type.name)}
+        context.report(diagnose(ignored_objects, list->second->type.span,
+                                fmt::format("these objects are ignored: type '{}' is enumerated "
+                                            "in the domain",
+                                            type.name))
                            .note(type.span, "declared here"));
     } else if (list != lists.end()) {
         add_objects(id, list->second->objects, context);
     } else if (!type.enumerated) {
         context.names.broken_types.insert(id);
         context.report(
-            Diagnostic{type_without_objects, type.span,
-                       fmt::format("type '{}' has no objects in the instance", type.name)}
+            diagnose(type_without_objects, type.span,
+                     fmt::format("type '{}' has no objects in the instance", type.name))
                 .with_hint(fmt::format("add '{} : {{ ... }};' to its 'objects'", type.name)));
     }
 }
@@ -88,8 +88,8 @@ void report_undeclared(const ast::Objects& objects, Context& context) {
     for (const ast::ObjectList& list : objects.lists)
         if (!context.names.types.contains(list.type.text))
             context.report(
-                Diagnostic{objects_of_unknown_type, list.type.span,
-                           fmt::format("type '{}' is not declared in the domain", list.type.text)}
+                diagnose(objects_of_unknown_type, list.type.span,
+                         fmt::format("type '{}' is not declared in the domain", list.type.text))
                     .with_hint(suggestion(context, list.type.text, keys(context.names.types))));
 }
 
@@ -115,7 +115,7 @@ std::optional<model::TypeId> resolve_type(const ast::Name& name, Context& contex
                   : suggestion(context, name.text, keys(context.names.types));
     const std::string message = primitive ? fmt::format("'{}' is not a type of objects", name.text)
                                           : fmt::format("type '{}' is not declared", name.text);
-    context.report(Diagnostic{unknown_type, name.span, message}.with_hint(hint));
+    context.report(diagnose(unknown_type, name.span, message).with_hint(hint));
     return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include "support/match.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -47,7 +48,7 @@ std::string fluent_is(const model::Fluent& fluent, const Context& context) {
 void report_value(Code code, Span span, const model::Fluent& fluent, std::string found,
                   std::string hint, Context& context) {
     context.report(
-        Diagnostic{code, span, fmt::format("{}, found {}", fluent_is(fluent, context), found)}
+        diagnose(code, span, fmt::format("{}, found {}", fluent_is(fluent, context), found))
             .note(fluent.span, "declared here")
             .with_hint(std::move(hint)));
 }
@@ -155,9 +156,9 @@ class Assigner {
         const ast::Assignment* earlier = std::exchange(given[*place], &assignment);
         if (!value) return;
         if (earlier && *value != fluent.values[*place])
-            context_.report(Diagnostic{conflicting_values, assignment.span,
-                                       fmt::format("'{}' is set twice, to different values",
-                                                   grounded_name(fluent, *place))}
+            context_.report(diagnose(conflicting_values, assignment.span,
+                                     fmt::format("'{}' is set twice, to different values",
+                                                 grounded_name(fluent, *place)))
                                 .note(earlier->span, "first set here"));
         fluent.values[*place] = *value;
     }
@@ -167,17 +168,17 @@ class Assigner {
         const model::FluentId* id = find(context_.names.fluents, name);
         if (!id) {
             context_.report(
-                Diagnostic{not_settable, assignment.name.span,
-                           fmt::format("there is no {} '{}'", name_of(section.role), name)}
+                diagnose(not_settable, assignment.name.span,
+                         fmt::format("there is no {} '{}'", name_of(section.role), name))
                     .with_hint(suggestion(context_, name, names_of(section.role))));
             return nullptr;
         }
         const model::Fluent& fluent = context_.fluent(*id);
         if (fluent.role == section.role || context_.names.broken_fluents.contains(*id)) return id;
         context_.report(
-            Diagnostic{not_settable, assignment.name.span,
-                       fmt::format("'{}' is {}; '{}' sets {}s only", name,
-                                   with_article(fluent.role), section.name, name_of(section.role))}
+            diagnose(not_settable, assignment.name.span,
+                     fmt::format("'{}' is {}; '{}' sets {}s only", name, with_article(fluent.role),
+                                 section.name, name_of(section.role)))
                 .note(fluent.span, "declared here"));
         return nullptr;
     }
@@ -218,10 +219,10 @@ class Assigner {
         for (const model::TypeId type : fluent.parameters)
             types.push_back(context_.type(type).name);
         const std::string list = types.empty() ? "" : fmt::format(" ({})", fmt::join(types, ", "));
-        context_.report(Diagnostic{
-            wrong_grounding, assignment.span,
-            fmt::format("'{}' takes {}{}, found {}", fluent.name, counted(types.size(), "argument"),
-                        list, assignment.arguments.size())}
+        context_.report(diagnose(wrong_grounding, assignment.span,
+                                 fmt::format("'{}' takes {}{}, found {}", fluent.name,
+                                             counted(types.size(), "argument"), list,
+                                             assignment.arguments.size()))
                             .note(fluent.span, "declared here"));
     }
 
@@ -232,9 +233,9 @@ class Assigner {
         const std::string found =
             object ? fmt::format("'{}' is of type '{}'", name, context_.type(object->type).name)
                    : fmt::format("there is no object '{}'", name);
-        context_.report(Diagnostic{wrong_grounding, assignment.argument_spans[i],
-                                   fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1,
-                                               fluent.name, expected.name, found)}
+        context_.report(diagnose(wrong_grounding, assignment.argument_spans[i],
+                                 fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1,
+                                             fluent.name, expected.name, found))
                             .note(fluent.span, "declared here")
                             .with_hint(object ? "" : suggestion(context_, name, expected.objects)));
     }
@@ -269,8 +270,10 @@ class Assigner {
                 "{}{}",
                 fluent.name, missing, fluent.values.size(), fmt::join(first, ", "),
                 missing > first.size() ? ", ..." : "");
-        context_.report(Diagnostic{missing_values, fluent.span, message}.with_hint(
-            fmt::format("give the values in the instance's '{}', or a default here", section)));
+        context_.report(
+            diagnose(missing_values, fluent.span, message)
+                .with_hint(fmt::format("give the values in the instance's '{}', or a default here",
+                                       section)));
     }
 
     Context& context_;

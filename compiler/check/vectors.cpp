@@ -89,10 +89,10 @@ bool check_not_captured(const Vector& vector, const ast::VectorReference& writte
     for (std::size_t i = 0; i < vector.reference.slots.size(); ++i) {
         const auto* variable = std::get_if<VariableId>(&vector.reference.slots[i]);
         if (!variable || std::ranges::find(captured, *variable) == captured.end()) continue;
-        context.report(Diagnostic{bad_vector, written.slots[i].name.span,
-                                  fmt::format("'?{}' is what '{}' ranges over; it cannot be an "
-                                              "argument too",
-                                              written.slots[i].name.text, what)}
+        context.report(diagnose(bad_vector, written.slots[i].name.span,
+                                fmt::format("'?{}' is what '{}' ranges over; it cannot be an "
+                                            "argument too",
+                                            written.slots[i].name.text, what))
                            .with_hint("write '_' for the axis"));
         return false;
     }

@@ -34,6 +34,15 @@ void append_flat(const Layout& layout, std::string& out) {
     out += layout.close;
 }
 
+std::string_view trimmed(std::string_view text) {
+    return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+void begin_line(int indent, std::string& out) {
+    out += '\n';
+    out.append(static_cast<std::size_t>(indent), ' ');
+}
+
 void append(const Layout& layout, std::size_t room, int indent, std::string& out) {
     std::string flat;
     append_flat(layout, flat);
@@ -43,16 +52,13 @@ void append(const Layout& layout, std::size_t room, int indent, std::string& out
     }
     const int inner = indent + indent_width;
     const std::size_t used = static_cast<std::size_t>(inner) + layout.separator.size();
-    out += layout.open;
+    out += trimmed(layout.open);
     for (std::size_t i = 0; i < layout.parts.size(); ++i) {
-        out += '\n';
-        out.append(static_cast<std::size_t>(inner), ' ');
+        begin_line(inner, out);
         append(layout.parts[i], used < line_width ? line_width - used : 0, inner, out);
-        if (i + 1 < layout.parts.size()) out += layout.separator;
+        if (i + 1 < layout.parts.size()) out += trimmed(layout.separator);
     }
-    while (out.back() == ' ') out.pop_back();
-    out += '\n';
-    out.append(static_cast<std::size_t>(indent), ' ');
+    begin_line(indent, out);
     out += layout.close;
 }
 

@@ -113,11 +113,11 @@ TEST(Typing, CastsGoThroughOperationsThatKeepInts) {
 
 TEST(Typing, LongExpressionsAreBrokenIntoLines) {
     EXPECT_EQ(typed("r' = if (bt(NEXT(argmax_{?y : t} rt(?y)))) then (sum_{?x : t} rt(?x) * P(?x)) "
-                    "else hypot[m, r];"),
+                    "else hypot[m, r - i * 0.125];"),
               "if (\n"
               "    bt(NEXT(argmax_{?y: t} [rt(?y)])),\n"
               "    sum_{?x: t} [(rt(?x) * P(?x))],\n"
-              "    hypot[m, r]\n"
+              "    hypot[m, (r - (real(i) * 0.125))]\n"
               ")");
 }
 
