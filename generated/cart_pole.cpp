@@ -1,0 +1,358 @@
+// A simulator of the RDDL problem cart_pole, instance cart_pole_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/cart_pole/domain.rddl
+//     examples/cart_pole/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_cart_pole_cart_pole_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace cart_pole_cart_pole_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    typename L::Real position;      // domain.rddl:26
+    typename L::Real velocity;      // domain.rddl:27
+    typename L::Real angle;         // domain.rddl:28
+    typename L::Real angle_change;  // domain.rddl:29
+};
+
+template <class L>
+struct Action {
+    typename L::Bool push_right;  // domain.rddl:38
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    typename L::Real force;     // domain.rddl:31
+    typename L::Real friction;  // domain.rddl:32
+    typename L::Real drive;     // domain.rddl:33
+    typename L::Real turn;      // domain.rddl:34
+    typename L::Real pressure;  // domain.rddl:35
+    typename L::Real speed_up;  // domain.rddl:36
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = cart_pole_cart_pole_1::State<L>;
+    template <class L>
+    using Action = cart_pole_cart_pole_1::Action<L>;
+    template <class L>
+    using Scratch = cart_pole_cart_pole_1::Scratch<L>;
+    template <class L>
+    using Observation = cart_pole_cart_pole_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        state.position = 0.0;
+        state.velocity = 0.0;
+        state.angle = 0.02;
+        state.angle_change = 0.0;
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        angle(state, next);
+        force(action, scratch);
+        friction(state, scratch);
+        position(state, next);
+        drive(state, scratch, context);
+        turn(state, scratch);
+        angle_change(state, scratch, next);
+        pressure(state, scratch, context);
+        speed_up(state, scratch, context);
+        velocity(state, scratch, next);
+    }
+
+    // angle'  (domain.rddl:68)
+    template <class L>
+    static void angle(const State<L>& state, State<L>& next) {
+        next.angle = state.angle + 0.02 * state.angle_change;
+    }
+
+    // force  (domain.rddl:43)
+    template <class L>
+    static void force(const Action<L>& action, Scratch<L>& scratch) {
+        scratch.force = rddl::select(action.push_right, 10.0, -10.0);
+    }
+
+    // friction  (domain.rddl:47)
+    template <class L>
+    static void friction(const State<L>& state, Scratch<L>& scratch) {
+        scratch.friction = 5e-04 * rddl::to_real(rddl::sign(state.velocity));
+    }
+
+    // position'  (domain.rddl:66)
+    template <class L>
+    static void position(const State<L>& state, State<L>& next) {
+        next.position = state.position + 0.02 * state.velocity;
+    }
+
+    // drive  (domain.rddl:49)
+    template <class L>
+    static void drive(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        const Real term = 0.05 * rddl::power(state.angle_change, 2.0);
+        const Real term_2 = rddl::branch(
+            context, term == 0.0, [&] { return term; },
+            [&] {
+                const Real term_3 = rddl::branch(
+                    context, scratch.friction == 0.0, [&] { return scratch.friction; },
+                    [&] { return scratch.friction * rddl::cos(state.angle); });
+                return term * (rddl::sin(state.angle) + term_3);
+            });
+        scratch.drive = (scratch.force + term_2) / 1.1;
+    }
+
+    // turn  (domain.rddl:53)
+    template <class L>
+    static void turn(const State<L>& state, Scratch<L>& scratch) {
+        using Real = typename L::Real;
+        const Real term = rddl::cos(state.angle);
+        const Real term_2 = 0.1 * term;
+        const Real term_3 =
+            rddl::select(term == 0.0, term, term * (scratch.drive - scratch.friction * 9.8));
+        const Real term_4 =
+            9.8 * rddl::sin(state.angle) - term_3 - 2e-06 * state.angle_change / 0.05;
+        const Real term_5 =
+            rddl::select(term_2 == 0.0, term_2, term_2 * (term - scratch.friction)) / 1.1;
+        const Real term_6 = 1.3333333333333333 - term_5;
+        const Real term_7 = 0.5 * term_6;
+        scratch.turn = term_4 / term_7;
+    }
+
+    // angle-change'  (domain.rddl:69)
+    template <class L>
+    static void angle_change(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+        next.angle_change = state.angle_change + 0.02 * scratch.turn;
+    }
+
+    // pressure  (domain.rddl:59)
+    template <class L>
+    static void pressure(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        const Real term = rddl::power(state.angle_change, 2.0);
+        const Real term_2 = rddl::branch(
+            context, scratch.turn == 0.0, [&] { return scratch.turn; },
+            [&] { return scratch.turn * rddl::sin(state.angle); });
+        const Real term_3 = rddl::branch(
+            context, term == 0.0, [&] { return term; },
+            [&] { return term * rddl::cos(state.angle); });
+        scratch.pressure = 10.780000000000001 - 0.05 * (term_2 + term_3);
+    }
+
+    // speed-up  (domain.rddl:62)
+    template <class L>
+    static void speed_up(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        const Real term = rddl::power(state.angle_change, 2.0);
+        const Real term_2 = rddl::branch(
+            context, term == 0.0, [&] { return term; },
+            [&] { return term * rddl::sin(state.angle); });
+        const Real term_3 = rddl::branch(
+            context, scratch.turn == 0.0, [&] { return scratch.turn; },
+            [&] { return scratch.turn * rddl::cos(state.angle); });
+        scratch.speed_up =
+            (scratch.force + 0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure) / 1.1;
+    }
+
+    // velocity'  (domain.rddl:67)
+    template <class L>
+    static void velocity(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+        next.velocity = state.velocity + 0.02 * scratch.speed_up;
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& /*action*/,
+                                   const Scratch<L>& /*scratch*/, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Bool = typename L::Bool;
+        const Bool condition =
+            rddl::absolute(next.position) <= 2.4 && rddl::absolute(next.angle) <= 0.2094384;
+        return rddl::to_real(condition);
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 2;
+    template <class L>
+    static typename L::Bool termination(rddl::Index k, const State<L>& state,
+                                        rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return termination_0(state);
+            case 1:
+                return termination_1(state);
+            default:
+                return false;
+        }
+    }
+
+    // abs[position] > TRACK-LIMIT  (domain.rddl:76)
+    template <class L>
+    static typename L::Bool termination_0(const State<L>& state) {
+        return rddl::absolute(state.position) > 2.4;
+    }
+
+    // abs[angle] > ANGLE-LIMIT  (domain.rddl:77)
+    template <class L>
+    static typename L::Bool termination_1(const State<L>& state) {
+        return rddl::absolute(state.angle) > 0.2094384;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 0;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
+                                         const Action<L>& /*action*/,
+                                         rddl::Context<L>& /*context*/) {
+        return true;
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 32);
+static_assert(offsetof(State<rddl::Scalar>, angle_change) == 24);
+static_assert(sizeof(Action<rddl::Scalar>) == 1);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/cart_pole/domain.rddl";
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"GRAVITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 13, 9}},
+    {"CART-MASS", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 14, 9}},
+    {"POLE-MASS", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 15, 9}},
+    {"POLE-LENGTH", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 16, 9}},
+    {"CART-FRICTION", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 17, 9}},
+    {"POLE-FRICTION", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 18, 9}},
+    {"PUSH-FORCE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 19, 9}},
+    {"TIME-STEP", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 20, 9}},
+    {"TRACK-LIMIT", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 23, 9}},
+    {"ANGLE-LIMIT", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 24, 9}},
+    {"position", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, position),
+     nullptr, nullptr, {source_file, 26, 9}},
+    {"velocity", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, velocity),
+     nullptr, nullptr, {source_file, 27, 9}},
+    {"angle", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, angle),
+     nullptr, nullptr, {source_file, 28, 9}},
+    {"angle-change", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1,
+     offsetof(State<rddl::Scalar>, angle_change), nullptr, nullptr, {source_file, 29, 9}},
+    {"force", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 31, 9}},
+    {"friction", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 32, 9}},
+    {"drive", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 33, 9}},
+    {"turn", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr, {source_file, 34, 9}},
+    {"pressure", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 35, 9}},
+    {"speed-up", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 36, 9}},
+    {"push-right", RDDL_ACTION, RDDL_BOOL, -1, 0, nullptr, 1,
+     offsetof(Action<rddl::Scalar>, push_right), nullptr, nullptr, {source_file, 38, 9}},
+};
+
+inline constexpr rddl_condition terminations[] = {
+    {"abs[position] > TRACK-LIMIT", {source_file, 76, 9}},
+    {"abs[angle] > ANGLE-LIMIT", {source_file, 77, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    action.push_right = false;
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "cart_pole",
+    .instance = "cart_pole_1",
+    .types = nullptr,
+    .type_count = 0,
+    .fluents = fluents,
+    .fluent_count = 21,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 0,
+    .default_action = &default_action,
+    .horizon = 500,
+    .discount = 1.0,
+    .max_nondef_actions = -1,
+    .preconditions = nullptr,
+    .precondition_count = 0,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = terminations,
+    .termination_count = 2,
+};
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, {}, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace cart_pole_cart_pole_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_cart_pole_cart_pole_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return cart_pole_cart_pole_1::simulator();
+}

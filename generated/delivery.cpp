@@ -1,0 +1,436 @@
+// A simulator of the RDDL problem delivery, instance delivery_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/delivery/domain.rddl
+//     examples/delivery/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_delivery_delivery_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace delivery_delivery_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index place_count = 6;      // farm, mill, church, depot, market, ...
+inline constexpr rddl::Index van_count = 1;        // red
+inline constexpr rddl::Index parcel_count = 3;     // letter, flour, fish
+inline constexpr rddl::Index direction_count = 5;  // stay, north, east, south, west
+inline constexpr rddl::Index weather_count = 3;    // sunny, rainy, snowy
+inline constexpr rddl::Index progress_count = 3;   // waiting, riding, delivered
+
+// ---------------------------------------------------------------------------------- tables
+
+// ROAD, domain.rddl:27
+// clang-format off
+inline constexpr std::array<std::array<std::int64_t, direction_count>, place_count> ROAD = {{
+    {0, 0, 1, 3, 0},
+    {1, 1, 2, 4, 0},
+    {2, 2, 2, 5, 1},
+    {3, 0, 4, 3, 3},
+    {4, 1, 5, 4, 3},
+    {5, 2, 5, 5, 4},
+}};
+// clang-format on
+
+// STEEP, domain.rddl:28
+inline constexpr std::array<bool, place_count> STEEP = {0, 0, 1, 0, 0, 0};
+
+// ORIGIN, domain.rddl:31
+inline constexpr std::array<std::int64_t, parcel_count> ORIGIN = {3, 1, 5};
+
+// DESTINATION, domain.rddl:32
+inline constexpr std::array<std::int64_t, parcel_count> DESTINATION = {2, 4, 0};
+
+// PRICE, domain.rddl:33
+inline constexpr std::array<double, parcel_count> PRICE = {20, 20, 35};
+
+// CHANGE, domain.rddl:36
+// clang-format off
+inline constexpr std::array<std::array<double, weather_count>, weather_count> CHANGE = {{
+    {0.8, 0.15, 0.05},
+    {0.3, 0.6, 0.1},
+    {0.2, 0.2, 0.6},
+}};
+// clang-format on
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    typename L::Int sky;                                // domain.rddl:41
+    std::array<typename L::Int, van_count> position;    // domain.rddl:42
+    std::array<typename L::Int, parcel_count> status;   // domain.rddl:43
+    std::array<typename L::Int, parcel_count> carrier;  // domain.rddl:44
+};
+
+template <class L>
+struct Action {
+    std::array<typename L::Int, van_count> go;                               // domain.rddl:50
+    std::array<std::array<typename L::Bool, parcel_count>, van_count> take;  // domain.rddl:51
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    std::array<typename L::Real, van_count> grip;       // domain.rddl:46
+    std::array<typename L::Int, van_count> loaded;      // domain.rddl:47
+    std::array<typename L::Bool, parcel_count> called;  // domain.rddl:48
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = delivery_delivery_1::State<L>;
+    template <class L>
+    using Action = delivery_delivery_1::Action<L>;
+    template <class L>
+    using Scratch = delivery_delivery_1::Scratch<L>;
+    template <class L>
+    using Observation = delivery_delivery_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        state.sky = 0;
+        rddl::assign(state.position, 3);
+        rddl::assign(state.status, 0);
+        rddl::assign(state.carrier, 0);
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        grip(state, scratch);
+        loaded(state, scratch);
+        sky(state, next, context);
+        called(state, action, scratch);
+        position(state, action, scratch, next, context);
+        carrier(state, scratch, next);
+        status(state, scratch, next, context);
+    }
+
+    // grip(?v)  (domain.rddl:60)
+    template <class L>
+    static void grip(const State<L>& state, Scratch<L>& scratch) {
+        using Real = typename L::Real;
+        const Real term = rddl::select(rddl::at(STEEP, state.position[0]), 0.4, 0.7);
+        const Real term_2 = rddl::select(state.sky == 1, 0.9, term);
+        scratch.grip[0] = rddl::select(state.sky == 0, 1.0, term_2);
+    }
+
+    // loaded(?v)  (domain.rddl:71)
+    template <class L>
+    static void loaded(const State<L>& state, Scratch<L>& scratch) {
+        using Int = typename L::Int;
+        scratch.loaded[0] = rddl::sum<Int>(parcel_count, [&](rddl::Index p) {
+            return rddl::to_int(state.status[p] == 1 && state.carrier[p] == 0);
+        });
+    }
+
+    // sky'  (domain.rddl:57)
+    template <class L>
+    static void sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
+        next.sky = rddl::sample::discrete_over(
+            context, {0, 0}, weather_count,
+            [&](rddl::Index tomorrow) { return rddl::at(CHANGE, state.sky, tomorrow); });
+    }
+
+    // called(?p)  (domain.rddl:73)
+    template <class L>
+    static void called(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        for (rddl::Index p = 0; p < parcel_count; ++p) {
+            scratch.called[p] =
+                action.take[0][p] && state.position[0] == ORIGIN[p] && scratch.loaded[0] < 2;
+        }
+    }
+
+    // position'(?v)  (domain.rddl:67)
+    template <class L>
+    static void position(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
+                         State<L>& next, rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        const Bool draw = rddl::sample::bernoulli(context, {1, 0}, scratch.grip[0]);
+        next.position[0] =
+            rddl::select(draw, rddl::at(ROAD, state.position[0], action.go[0]), state.position[0]);
+    }
+
+    // carrier'(?p)  (domain.rddl:77)
+    template <class L>
+    static void carrier(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+        for (rddl::Index p = 0; p < parcel_count; ++p) {
+            next.carrier[p] =
+                rddl::select(state.status[p] == 0 && scratch.called[p], 0, state.carrier[p]);
+        }
+    }
+
+    // status'(?p)  (domain.rddl:83)
+    template <class L>
+    static void status(const State<L>& state, const Scratch<L>& scratch, State<L>& next,
+                       rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        using Int = typename L::Int;
+        for (rddl::Index p = 0; p < parcel_count; ++p) {
+            next.status[p] = rddl::branch(
+                context, state.status[p] == 0,
+                [&] { return rddl::select(scratch.called[p], Int{1}, Int{0}); },
+                [&] {
+                    const Bool condition =
+                        rddl::at(next.position, state.carrier[p]) == DESTINATION[p];
+                    const Int number = rddl::select(condition, Int{2}, Int{1});
+                    return rddl::select(state.status[p] == 1, number, 2);
+                });
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& state, const Action<L>& action,
+                                   const Scratch<L>& /*scratch*/, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Real = typename L::Real;
+        const Real total = rddl::sum<Real>(parcel_count, [&](rddl::Index p) {
+            return PRICE[p] * rddl::to_real(state.status[p] == 1 && next.status[p] == 2);
+        });
+        return total - rddl::to_real(action.go[0] != 0);
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 1;
+    template <class L>
+    static typename L::Bool termination(rddl::Index k, const State<L>& state,
+                                        rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return termination_0(state);
+            default:
+                return false;
+        }
+    }
+
+    // forall_{?p : parcel} [status(?p) == @delivered]  (domain.rddl:94)
+    template <class L>
+    static typename L::Bool termination_0(const State<L>& state) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(parcel_count,
+                                   [&](rddl::Index p) { return state.status[p] == 2; });
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 2;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index k, const State<L>& state,
+                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return precondition_0(state, action);
+            case 1:
+                return precondition_1(action);
+            default:
+                return true;
+        }
+    }
+
+    // forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting...  (domain.rddl:99)
+    template <class L>
+    static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(parcel_count, [&](rddl::Index p) {
+            return !action.take[0][p] || (state.status[p] == 0 && state.position[0] == ORIGIN[p]);
+        });
+    }
+
+    // forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]  (domain.rddl:101)
+    template <class L>
+    static typename L::Bool precondition_1(const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(
+            parcel_count, [&](rddl::Index p) { return rddl::to_int(action.take[0][p]) <= 1; });
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 64);
+static_assert(offsetof(State<rddl::Scalar>, carrier) == 40);
+static_assert(sizeof(Action<rddl::Scalar>) == 16);
+static_assert(offsetof(Action<rddl::Scalar>, take) == 8);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/delivery/domain.rddl";
+
+// clang-format off
+inline constexpr const char* place_objects[] = {
+    "farm", "mill", "church", "depot", "market", "harbour"
+};
+// clang-format on
+
+inline constexpr const char* van_objects[] = {"red"};
+
+inline constexpr const char* parcel_objects[] = {"letter", "flour", "fish"};
+
+inline constexpr const char* direction_objects[] = {"stay", "north", "east", "south", "west"};
+
+inline constexpr const char* weather_objects[] = {"sunny", "rainy", "snowy"};
+
+inline constexpr const char* progress_objects[] = {"waiting", "riding", "delivered"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"place", place_objects, place_count, 0},
+    {"van", van_objects, van_count, 0},
+    {"parcel", parcel_objects, parcel_count, 0},
+    {"direction", direction_objects, direction_count, 1},
+    {"weather", weather_objects, weather_count, 1},
+    {"progress", progress_objects, progress_count, 1},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_place_direction[] = {0, 3};
+
+inline constexpr std::int32_t of_place[] = {0};
+
+inline constexpr std::int32_t of_parcel[] = {2};
+
+inline constexpr std::int32_t of_weather_weather[] = {4, 4};
+
+inline constexpr std::int32_t of_van[] = {1};
+
+inline constexpr std::int32_t of_van_parcel[] = {1, 2};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"ROAD", RDDL_NON_FLUENT, RDDL_INT, 0, 2, of_place_direction, 30, -1, nullptr, nullptr,
+     {source_file, 27, 9}},
+    {"STEEP", RDDL_NON_FLUENT, RDDL_BOOL, -1, 1, of_place, 6, -1, nullptr, nullptr,
+     {source_file, 28, 9}},
+    {"ORIGIN", RDDL_NON_FLUENT, RDDL_INT, 0, 1, of_parcel, 3, -1, nullptr, nullptr,
+     {source_file, 31, 9}},
+    {"DESTINATION", RDDL_NON_FLUENT, RDDL_INT, 0, 1, of_parcel, 3, -1, nullptr, nullptr,
+     {source_file, 32, 9}},
+    {"PRICE", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_parcel, 3, -1, nullptr, nullptr,
+     {source_file, 33, 9}},
+    {"CHANGE", RDDL_NON_FLUENT, RDDL_REAL, -1, 2, of_weather_weather, 9, -1, nullptr, nullptr,
+     {source_file, 36, 9}},
+    {"DRIVE-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 38, 9}},
+    {"CAPACITY", RDDL_NON_FLUENT, RDDL_INT, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 39, 9}},
+    {"sky", RDDL_STATE, RDDL_INT, 4, 0, nullptr, 1, offsetof(State<rddl::Scalar>, sky), nullptr,
+     nullptr, {source_file, 41, 9}},
+    {"position", RDDL_STATE, RDDL_INT, 0, 1, of_van, 1, offsetof(State<rddl::Scalar>, position),
+     nullptr, nullptr, {source_file, 42, 9}},
+    {"status", RDDL_STATE, RDDL_INT, 5, 1, of_parcel, 3, offsetof(State<rddl::Scalar>, status),
+     nullptr, nullptr, {source_file, 43, 9}},
+    {"carrier", RDDL_STATE, RDDL_INT, 1, 1, of_parcel, 3, offsetof(State<rddl::Scalar>, carrier),
+     nullptr, nullptr, {source_file, 44, 9}},
+    {"grip", RDDL_INTERM, RDDL_REAL, -1, 1, of_van, 1, -1, nullptr, nullptr, {source_file, 46, 9}},
+    {"loaded", RDDL_INTERM, RDDL_INT, -1, 1, of_van, 1, -1, nullptr, nullptr, {source_file, 47, 9}},
+    {"called", RDDL_INTERM, RDDL_BOOL, -1, 1, of_parcel, 3, -1, nullptr, nullptr,
+     {source_file, 48, 9}},
+    {"go", RDDL_ACTION, RDDL_INT, 3, 1, of_van, 1, offsetof(Action<rddl::Scalar>, go), nullptr,
+     nullptr, {source_file, 50, 9}},
+    {"take", RDDL_ACTION, RDDL_BOOL, -1, 2, of_van_parcel, 3, offsetof(Action<rddl::Scalar>, take),
+     nullptr, nullptr, {source_file, 51, 9}},
+};
+
+inline constexpr rddl_condition preconditions[] = {
+    {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ position(?v) == ORIGIN(?p)) ]",
+     {source_file, 99, 9}},
+    {"forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]", {source_file, 101, 9}},
+};
+
+inline constexpr rddl_condition terminations[] = {
+    {"forall_{?p : parcel} [status(?p) == @delivered]", {source_file, 94, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    rddl::assign(action.go, 0);
+    rddl::assign(action.take, false);
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "delivery",
+    .instance = "delivery_1",
+    .types = types,
+    .type_count = 6,
+    .fluents = fluents,
+    .fluent_count = 17,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 40,
+    .discount = 1.0,
+    .max_nondef_actions = 2,
+    .preconditions = preconditions,
+    .precondition_count = 2,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = terminations,
+    .termination_count = 1,
+};
+
+inline constexpr rddl::SiteVariable scope_v[] = {{"v", &types[1]}};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 57, 16}, "Discrete", {}},
+    {{source_file, 67, 29}, "Bernoulli", scope_v},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace delivery_delivery_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_delivery_delivery_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return delivery_delivery_1::simulator();
+}

@@ -1,0 +1,435 @@
+// A simulator of the RDDL problem fire, instance fire_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/fire/domain.rddl
+//     examples/fire/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_fire_fire_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace fire_fire_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index xpos_count = 5;  // x1, x2, x3, x4, x5
+inline constexpr rddl::Index ypos_count = 5;  // y1, y2, y3, y4, y5
+
+// ---------------------------------------------------------------------------------- tables
+
+// X, domain.rddl:18
+inline constexpr std::array<std::int64_t, xpos_count> X = {1, 2, 3, 4, 5};
+
+// Y, domain.rddl:19
+inline constexpr std::array<std::int64_t, ypos_count> Y = {1, 2, 3, 4, 5};
+
+// HOUSE, domain.rddl:22
+// clang-format off
+inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> HOUSE = {{
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {1, 0, 1, 0, 1},
+}};
+// clang-format on
+
+// CLEARING, domain.rddl:23
+// clang-format off
+inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING = {{
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 1, 1},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+}};
+// clang-format on
+
+// burning, domain.rddl:39
+// clang-format off
+inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_burning = {{
+    {0, 0, 1, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0},
+}};
+// clang-format on
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    std::array<std::array<typename L::Bool, ypos_count>, xpos_count> burning;  // domain.rddl:39
+    std::array<std::array<typename L::Bool, ypos_count>, xpos_count> bare;     // domain.rddl:40
+};
+
+template <class L>
+struct Action {
+    std::array<std::array<typename L::Bool, ypos_count>, xpos_count> douse;  // domain.rddl:45
+    std::array<std::array<typename L::Bool, ypos_count>, xpos_count> clear;  // domain.rddl:46
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    std::array<std::array<typename L::Real, ypos_count>, xpos_count> risk;     // domain.rddl:42
+    std::array<std::array<typename L::Bool, ypos_count>, xpos_count> ignites;  // domain.rddl:43
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = fire_fire_1::State<L>;
+    template <class L>
+    using Action = fire_fire_1::Action<L>;
+    template <class L>
+    using Scratch = fire_fire_1::Scratch<L>;
+    template <class L>
+    using Observation = fire_fire_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        rddl::assign(state.burning, initial_burning);
+        rddl::assign(state.bare, false);
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        bare(state, action, next, context);
+        risk(state, scratch, context);
+        ignites(state, action, scratch, context);
+        burning(state, action, scratch, next);
+    }
+
+    // bare'(?c, ?r)  (domain.rddl:65)
+    template <class L>
+    static void bare(const State<L>& state, const Action<L>& action, State<L>& next,
+                     rddl::Context<L>& context) {
+        for (rddl::Index c = 0; c < xpos_count; ++c) {
+            for (rddl::Index r = 0; r < ypos_count; ++r) {
+                next.bare[c][r] = rddl::branch(
+                    context, state.burning[c][r],
+                    [&] {
+                        return rddl::sample::bernoulli(context, {0, c * 5 + r}, 0.15);
+                    },
+                    [&] { return state.bare[c][r] || action.clear[c][r]; });
+            }
+        }
+    }
+
+    // risk(?c, ?r)  (domain.rddl:53)
+    template <class L>
+    static void risk(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        using Int = typename L::Int;
+        using Real = typename L::Real;
+        for (rddl::Index c = 0; c < xpos_count; ++c) {
+            for (rddl::Index r = 0; r < ypos_count; ++r) {
+                const Real product = rddl::product<Real>(xpos_count, [&](rddl::Index n) {
+                    return rddl::product<Real>(ypos_count, [&](rddl::Index m) {
+                        const Int number = rddl::absolute(rddl::wrap_sub(X[n], X[c]));
+                        const Int number_2 =
+                            rddl::wrap_add(number, rddl::absolute(rddl::wrap_sub(Y[m], Y[r])));
+                        const Bool condition = number_2 == 1;
+                        const Bool condition_2 = condition && state.burning[n][m];
+                        return rddl::branch(
+                            context, condition_2,
+                            [&] {
+                                const Bool condition_3 = rddl::wrap_sub(X[c], X[n]) == 1 &&
+                                                         rddl::wrap_sub(Y[r], Y[m]) == 0;
+                                const Real term = rddl::to_real(condition_3);
+                                const Real term_2 = 0.2 * term;
+                                return 0.88 - term_2;
+                            },
+                            [&] { return 1.0; });
+                    });
+                });
+                scratch.risk[c][r] = 1.0 - 0.9995 * product;
+            }
+        }
+    }
+
+    // ignites(?c, ?r)  (domain.rddl:58)
+    template <class L>
+    static void ignites(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                        rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        for (rddl::Index c = 0; c < xpos_count; ++c) {
+            for (rddl::Index r = 0; r < ypos_count; ++r) {
+                const Bool condition =
+                    CLEARING[c][r] || state.burning[c][r] || state.bare[c][r] || action.clear[c][r];
+                scratch.ignites[c][r] = rddl::branch(
+                    context, condition, [&] { return false; },
+                    [&] {
+                        return rddl::sample::bernoulli(context, {1, c * 5 + r}, scratch.risk[c][r]);
+                    });
+            }
+        }
+    }
+
+    // burning'(?c, ?r)  (domain.rddl:63)
+    template <class L>
+    static void burning(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
+                        State<L>& next) {
+        for (rddl::Index c = 0; c < xpos_count; ++c) {
+            for (rddl::Index r = 0; r < ypos_count; ++r) {
+                next.burning[c][r] =
+                    scratch.ignites[c][r] ||
+                    (state.burning[c][r] && !action.douse[c][r] && !next.bare[c][r]);
+            }
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& action,
+                                   const Scratch<L>& scratch, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Int = typename L::Int;
+        using Real = typename L::Real;
+        const Real total = rddl::sum<Real>(xpos_count, [&](rddl::Index c) {
+            return rddl::sum<Real>(ypos_count, [&](rddl::Index r) {
+                const Int number = rddl::to_int(action.douse[c][r]);
+                const Int number_2 = rddl::wrap_add(number, rddl::to_int(action.clear[c][r]));
+                const Real term = rddl::to_real(number_2);
+                const Real term_2 = 0.5 * term;
+                return rddl::to_real(next.burning[c][r]) +
+                       50.0 * rddl::to_real(HOUSE[c][r] && scratch.ignites[c][r]) + term_2;
+            });
+        });
+        return -total;
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 0;
+    template <class L>
+    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
+                                        rddl::Context<L>& /*context*/) {
+        return false;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 1;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index k, const State<L>& state,
+                                      rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return invariant_0(state);
+            default:
+                return true;
+        }
+    }
+
+    // forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]  (domain.rddl:83)
+    template <class L>
+    static typename L::Bool invariant_0(const State<L>& state) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
+            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
+                return !(state.burning[c][r] && state.bare[c][r]);
+            });
+        });
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 2;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index k, const State<L>& state,
+                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return precondition_0(state, action);
+            case 1:
+                return precondition_1(state, action);
+            default:
+                return true;
+        }
+    }
+
+    // forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]  (domain.rddl:77)
+    template <class L>
+    static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
+            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
+                return !action.douse[c][r] || state.burning[c][r];
+            });
+        });
+    }
+
+    // forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare...  (domain.rddl:78)
+    template <class L>
+    static typename L::Bool precondition_1(const State<L>& state, const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
+            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
+                return !action.clear[c][r] ||
+                       !(state.burning[c][r] || state.bare[c][r] || CLEARING[c][r]);
+            });
+        });
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 50);
+static_assert(offsetof(State<rddl::Scalar>, bare) == 25);
+static_assert(sizeof(Action<rddl::Scalar>) == 50);
+static_assert(offsetof(Action<rddl::Scalar>, clear) == 25);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/fire/domain.rddl";
+
+inline constexpr const char* xpos_objects[] = {"x1", "x2", "x3", "x4", "x5"};
+
+inline constexpr const char* ypos_objects[] = {"y1", "y2", "y3", "y4", "y5"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"xpos", xpos_objects, xpos_count, 0},
+    {"ypos", ypos_objects, ypos_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_xpos[] = {0};
+
+inline constexpr std::int32_t of_ypos[] = {1};
+
+inline constexpr std::int32_t of_xpos_ypos[] = {0, 1};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"X", RDDL_NON_FLUENT, RDDL_INT, -1, 1, of_xpos, 5, -1, nullptr, nullptr, {source_file, 18, 9}},
+    {"Y", RDDL_NON_FLUENT, RDDL_INT, -1, 1, of_ypos, 5, -1, nullptr, nullptr, {source_file, 19, 9}},
+    {"HOUSE", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_xpos_ypos, 25, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"CLEARING", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_xpos_ypos, 25, -1, nullptr, nullptr,
+     {source_file, 23, 9}},
+    {"SPREAD", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 27, 9}},
+    {"WIND", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 28, 9}},
+    {"WIND-X", RDDL_NON_FLUENT, RDDL_INT, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 29, 9}},
+    {"WIND-Y", RDDL_NON_FLUENT, RDDL_INT, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 30, 9}},
+    {"LIGHTNING", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 31, 9}},
+    {"BURN-OUT", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 32, 9}},
+    {"FIRE-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 35, 9}},
+    {"HOUSE-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 36, 9}},
+    {"CREW-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 37, 9}},
+    {"burning", RDDL_STATE, RDDL_BOOL, -1, 2, of_xpos_ypos, 25,
+     offsetof(State<rddl::Scalar>, burning), nullptr, nullptr, {source_file, 39, 9}},
+    {"bare", RDDL_STATE, RDDL_BOOL, -1, 2, of_xpos_ypos, 25, offsetof(State<rddl::Scalar>, bare),
+     nullptr, nullptr, {source_file, 40, 9}},
+    {"risk", RDDL_INTERM, RDDL_REAL, -1, 2, of_xpos_ypos, 25, -1, nullptr, nullptr,
+     {source_file, 42, 9}},
+    {"ignites", RDDL_INTERM, RDDL_BOOL, -1, 2, of_xpos_ypos, 25, -1, nullptr, nullptr,
+     {source_file, 43, 9}},
+    {"douse", RDDL_ACTION, RDDL_BOOL, -1, 2, of_xpos_ypos, 25,
+     offsetof(Action<rddl::Scalar>, douse), nullptr, nullptr, {source_file, 45, 9}},
+    {"clear", RDDL_ACTION, RDDL_BOOL, -1, 2, of_xpos_ypos, 25,
+     offsetof(Action<rddl::Scalar>, clear), nullptr, nullptr, {source_file, 46, 9}},
+};
+
+inline constexpr rddl_condition preconditions[] = {
+    {"forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]", {source_file, 77, 9}},
+    {"forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | CLEARING(?c, ?r))]",
+     {source_file, 78, 9}},
+};
+
+inline constexpr rddl_condition invariants[] = {
+    {"forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]", {source_file, 83, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    rddl::assign(action.douse, false);
+    rddl::assign(action.clear, false);
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "fire",
+    .instance = "fire_1",
+    .types = types,
+    .type_count = 2,
+    .fluents = fluents,
+    .fluent_count = 19,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 40,
+    .discount = 1.0,
+    .max_nondef_actions = 1,
+    .preconditions = preconditions,
+    .precondition_count = 2,
+    .invariants = invariants,
+    .invariant_count = 1,
+    .terminations = nullptr,
+    .termination_count = 0,
+};
+
+inline constexpr rddl::SiteVariable scope_c_r[] = {{"c", &types[0]}, {"r", &types[1]}};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 66, 30}, "Bernoulli", scope_c_r},
+    {{source_file, 60, 32}, "Bernoulli", scope_c_r},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace fire_fire_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_fire_fire_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return fire_fire_1::simulator();
+}

@@ -1,0 +1,333 @@
+// A simulator of the RDDL problem mountain_car, instance mountain_car_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/mountain_car/domain.rddl
+//     examples/mountain_car/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_mountain_car_mountain_car_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace mountain_car_mountain_car_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index segment_count = 9;  // s1, s2, s3, s4, s5, s6, s7, s8, s9
+
+// ---------------------------------------------------------------------------------- tables
+
+// LEFT-X, domain.rddl:21
+// clang-format off
+inline constexpr std::array<double, segment_count> LEFT_X = {
+    -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4
+};
+// clang-format on
+
+// LEFT-Y, domain.rddl:22
+// clang-format off
+inline constexpr std::array<double, segment_count> LEFT_Y = {
+    0.443, -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932
+};
+// clang-format on
+
+// RIGHT-X, domain.rddl:23
+// clang-format off
+inline constexpr std::array<double, segment_count> RIGHT_X = {
+    -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6
+};
+// clang-format on
+
+// RIGHT-Y, domain.rddl:24
+// clang-format off
+inline constexpr std::array<double, segment_count> RIGHT_Y = {
+    -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932, 0.974
+};
+// clang-format on
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    typename L::Real position;  // domain.rddl:39
+    typename L::Real velocity;  // domain.rddl:40
+};
+
+template <class L>
+struct Action {
+    typename L::Real throttle;  // domain.rddl:45
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    typename L::Real slope;  // domain.rddl:42
+    typename L::Real speed;  // domain.rddl:43
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = mountain_car_mountain_car_1::State<L>;
+    template <class L>
+    using Action = mountain_car_mountain_car_1::Action<L>;
+    template <class L>
+    using Scratch = mountain_car_mountain_car_1::Scratch<L>;
+    template <class L>
+    using Observation = mountain_car_mountain_car_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        state.position = -0.5;
+        state.velocity = 0.0;
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/,
+                     rddl::Context<L>& /*context*/) {
+        slope(state, scratch);
+        speed(state, action, scratch);
+        position(state, scratch, next);
+        velocity(scratch, next);
+    }
+
+    // slope  (domain.rddl:52)
+    template <class L>
+    static void slope(const State<L>& state, Scratch<L>& scratch) {
+        using Real = typename L::Real;
+        scratch.slope = rddl::sum<Real>(segment_count, [&](rddl::Index s) {
+            return rddl::to_real(LEFT_X[s] <= state.position && state.position < RIGHT_X[s]) *
+                   (RIGHT_Y[s] - LEFT_Y[s]) / (RIGHT_X[s] - LEFT_X[s]);
+        });
+    }
+
+    // speed  (domain.rddl:57)
+    template <class L>
+    static void speed(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        using Real = typename L::Real;
+        const Real term = state.velocity + 0.0015 * action.throttle - 0.00083333 * scratch.slope;
+        const Real term_2 = rddl::minimum(0.07, term);
+        scratch.speed = rddl::maximum(-0.07, term_2);
+    }
+
+    // position'  (domain.rddl:59)
+    template <class L>
+    static void position(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+        next.position = rddl::maximum(-1.2, state.position + scratch.speed);
+    }
+
+    // velocity'  (domain.rddl:62)
+    template <class L>
+    static void velocity(const Scratch<L>& scratch, State<L>& next) {
+        next.velocity =
+            rddl::select(next.position <= -1.2 && scratch.speed < 0.0, 0.0, scratch.speed);
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& action,
+                                   const Scratch<L>& /*scratch*/, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        return 100.0 * rddl::to_real(next.position >= 0.5) -
+               0.1 * rddl::power(action.throttle, 2.0);
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 1;
+    template <class L>
+    static typename L::Bool termination(rddl::Index k, const State<L>& state,
+                                        rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return termination_0(state);
+            default:
+                return false;
+        }
+    }
+
+    // position >= FLAG  (domain.rddl:70)
+    template <class L>
+    static typename L::Bool termination_0(const State<L>& state) {
+        return state.position >= 0.5;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 2;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index k, const State<L>& /*state*/,
+                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return precondition_0(action);
+            case 1:
+                return precondition_1(action);
+            default:
+                return true;
+        }
+    }
+
+    // throttle >= -1.0  (domain.rddl:75)
+    template <class L>
+    static typename L::Bool precondition_0(const Action<L>& action) {
+        return action.throttle >= -1.0;
+    }
+
+    // throttle <= 1.0  (domain.rddl:76)
+    template <class L>
+    static typename L::Bool precondition_1(const Action<L>& action) {
+        return action.throttle <= 1.0;
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 16);
+static_assert(offsetof(State<rddl::Scalar>, velocity) == 8);
+static_assert(sizeof(Action<rddl::Scalar>) == 8);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/mountain_car/domain.rddl";
+
+// clang-format off
+inline constexpr const char* segment_objects[] = {
+    "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9"
+};
+
+inline constexpr rddl_type types[] = {
+    {"segment", segment_objects, segment_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_segment[] = {0};
+
+inline constexpr std::array<double, 1> throttle_lower = {-1};
+
+inline constexpr std::array<double, 1> throttle_upper = {1};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"LEFT-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
+     {source_file, 21, 9}},
+    {"LEFT-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"RIGHT-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
+     {source_file, 23, 9}},
+    {"RIGHT-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
+     {source_file, 24, 9}},
+    {"WALL", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 27, 9}},
+    {"FLAG", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 28, 9}},
+    {"POWER", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 31, 9}},
+    {"GRAVITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 32, 9}},
+    {"MAX-SPEED", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 33, 9}},
+    {"FUEL-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 36, 9}},
+    {"FLAG-REWARD", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 37, 9}},
+    {"position", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, position),
+     nullptr, nullptr, {source_file, 39, 9}},
+    {"velocity", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, velocity),
+     nullptr, nullptr, {source_file, 40, 9}},
+    {"slope", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 42, 9}},
+    {"speed", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 43, 9}},
+    {"throttle", RDDL_ACTION, RDDL_REAL, -1, 0, nullptr, 1,
+     offsetof(Action<rddl::Scalar>, throttle), throttle_lower.data(), throttle_upper.data(),
+     {source_file, 45, 9}},
+};
+
+inline constexpr rddl_condition preconditions[] = {
+    {"throttle >= -1.0", {source_file, 75, 9}},
+    {"throttle <= 1.0", {source_file, 76, 9}},
+};
+
+inline constexpr rddl_condition terminations[] = {
+    {"position >= FLAG", {source_file, 70, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    action.throttle = 0.0;
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "mountain_car",
+    .instance = "mountain_car_1",
+    .types = types,
+    .type_count = 1,
+    .fluents = fluents,
+    .fluent_count = 16,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 0,
+    .default_action = &default_action,
+    .horizon = 200,
+    .discount = 1.0,
+    .max_nondef_actions = -1,
+    .preconditions = preconditions,
+    .precondition_count = 2,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = terminations,
+    .termination_count = 1,
+};
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, {}, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace mountain_car_mountain_car_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_mountain_car_mountain_car_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return mountain_car_mountain_car_1::simulator();
+}

@@ -1,0 +1,270 @@
+// A simulator of the RDDL problem network, instance network_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/network/domain.rddl
+//     examples/network/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_network_network_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace network_network_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7, c8
+
+// ---------------------------------------------------------------------------------- tables
+
+// LINK, domain.rddl:16
+// clang-format off
+inline constexpr std::array<std::array<bool, computer_count>, computer_count> LINK = {{
+    {0, 1, 0, 0, 0, 0, 0, 0},
+    {0, 0, 1, 0, 0, 0, 0, 0},
+    {0, 0, 0, 1, 0, 0, 0, 0},
+    {0, 0, 0, 0, 1, 0, 0, 0},
+    {0, 0, 0, 0, 0, 1, 0, 0},
+    {0, 0, 0, 0, 0, 0, 1, 0},
+    {0, 0, 0, 0, 0, 0, 0, 1},
+    {1, 0, 0, 0, 0, 0, 0, 0},
+}};
+// clang-format on
+
+// running, domain.rddl:24
+inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    std::array<typename L::Bool, computer_count> running;  // domain.rddl:24
+};
+
+template <class L>
+struct Action {
+    std::array<typename L::Bool, computer_count> reboot;  // domain.rddl:28
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    std::array<typename L::Real, computer_count> support;  // domain.rddl:26
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = network_network_1::State<L>;
+    template <class L>
+    using Action = network_network_1::Action<L>;
+    template <class L>
+    using Scratch = network_network_1::Scratch<L>;
+    template <class L>
+    using Observation = network_network_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        rddl::assign(state.running, initial_running);
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        support(state, scratch);
+        running(state, action, scratch, next, context);
+    }
+
+    // support(?c)  (domain.rddl:35)
+    template <class L>
+    static void support(const State<L>& state, Scratch<L>& scratch) {
+        using Int = typename L::Int;
+        for (rddl::Index c = 0; c < computer_count; ++c) {
+            const Int total = rddl::sum<Int>(computer_count, [&](rddl::Index d) {
+                return rddl::to_int(LINK[d][c] && state.running[d]);
+            });
+            const Int total_2 = rddl::sum<Int>(
+                computer_count, [&](rddl::Index d) { return rddl::to_int(LINK[d][c]); });
+            scratch.support[c] =
+                rddl::to_real(rddl::wrap_add(1, total)) / rddl::to_real(rddl::wrap_add(1, total_2));
+        }
+    }
+
+    // running'(?c)  (domain.rddl:40)
+    template <class L>
+    static void running(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
+                        State<L>& next, rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        for (rddl::Index c = 0; c < computer_count; ++c) {
+            next.running[c] = rddl::branch(
+                context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
+                [&] {
+                    const Real term = 0.45 + 0.5 * scratch.support[c];
+                    return rddl::sample::bernoulli(context, {0, c}, term);
+                },
+                [&] {
+                    return rddl::sample::bernoulli(context, {1, c}, 0.05);
+                });
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& state, const Action<L>& action,
+                                   const Scratch<L>& /*scratch*/, const State<L>& /*next*/,
+                                   rddl::Context<L>& /*context*/) {
+        using Int = typename L::Int;
+        const Int total = rddl::sum<Int>(
+            computer_count, [&](rddl::Index c) { return rddl::to_int(state.running[c]); });
+        const Int total_2 = rddl::sum<Int>(
+            computer_count, [&](rddl::Index c) { return rddl::to_int(action.reboot[c]); });
+        return rddl::to_real(total) - 0.75 * rddl::to_real(total_2);
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 0;
+    template <class L>
+    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
+                                        rddl::Context<L>& /*context*/) {
+        return false;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 0;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
+                                         const Action<L>& /*action*/,
+                                         rddl::Context<L>& /*context*/) {
+        return true;
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 8);
+static_assert(sizeof(Action<rddl::Scalar>) == 8);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/network/domain.rddl";
+
+inline constexpr const char* computer_objects[] = {"c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"computer", computer_objects, computer_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_computer_computer[] = {0, 0};
+
+inline constexpr std::int32_t of_computer[] = {0};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"LINK", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_computer_computer, 64, -1, nullptr, nullptr,
+     {source_file, 16, 9}},
+    {"ALONE-UP", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 18, 9}},
+    {"AROUND-UP", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 19, 9}},
+    {"REPAIR", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 20, 9}},
+    {"REBOOT-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"running", RDDL_STATE, RDDL_BOOL, -1, 1, of_computer, 8,
+     offsetof(State<rddl::Scalar>, running), nullptr, nullptr, {source_file, 24, 9}},
+    {"support", RDDL_INTERM, RDDL_REAL, -1, 1, of_computer, 8, -1, nullptr, nullptr,
+     {source_file, 26, 9}},
+    {"reboot", RDDL_ACTION, RDDL_BOOL, -1, 1, of_computer, 8,
+     offsetof(Action<rddl::Scalar>, reboot), nullptr, nullptr, {source_file, 28, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    rddl::assign(action.reboot, false);
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "network",
+    .instance = "network_1",
+    .types = types,
+    .type_count = 1,
+    .fluents = fluents,
+    .fluent_count = 8,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 40,
+    .discount = 0.95,
+    .max_nondef_actions = 1,
+    .preconditions = nullptr,
+    .precondition_count = 0,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = nullptr,
+    .termination_count = 0,
+};
+
+inline constexpr rddl::SiteVariable scope_c[] = {{"c", &types[0]}};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 44, 17}, "Bernoulli", scope_c},
+    {{source_file, 46, 17}, "Bernoulli", scope_c},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace network_network_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_network_network_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return network_network_1::simulator();
+}

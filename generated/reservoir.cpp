@@ -1,0 +1,387 @@
+// A simulator of the RDDL problem reservoir, instance reservoir_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/reservoir/domain.rddl
+//     examples/reservoir/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_reservoir_reservoir_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace reservoir_reservoir_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index basin_count = 4;  // north, lake, east, valley
+
+// ---------------------------------------------------------------------------------- tables
+
+// FLOWS-TO, domain.rddl:18
+// clang-format off
+inline constexpr std::array<std::array<bool, basin_count>, basin_count> FLOWS_TO = {{
+    {0, 1, 0, 0},
+    {0, 0, 0, 1},
+    {0, 0, 0, 1},
+    {0, 0, 0, 0},
+}};
+// clang-format on
+
+// CAPACITY, domain.rddl:21
+inline constexpr std::array<double, basin_count> CAPACITY = {100, 200, 100, 150};
+
+// SAFE-LOW, domain.rddl:22
+inline constexpr std::array<double, basin_count> SAFE_LOW = {20, 50, 20, 30};
+
+// SAFE-HIGH, domain.rddl:23
+inline constexpr std::array<double, basin_count> SAFE_HIGH = {80, 170, 80, 120};
+
+// RAIN-CHANCE, domain.rddl:26
+inline constexpr std::array<double, basin_count> RAIN_CHANCE = {0.5, 0.3, 0.2, 0.3};
+
+// RAIN-SCALE, domain.rddl:28
+inline constexpr std::array<double, basin_count> RAIN_SCALE = {6, 10, 15, 10};
+
+// water, domain.rddl:36
+inline constexpr std::array<double, basin_count> initial_water = {50, 120, 50, 60};
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    std::array<typename L::Real, basin_count> water;  // domain.rddl:36
+};
+
+template <class L>
+struct Action {
+    std::array<typename L::Real, basin_count> release;  // domain.rddl:43
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    std::array<typename L::Real, basin_count> rain;     // domain.rddl:38
+    std::array<typename L::Real, basin_count> inflow;   // domain.rddl:39
+    std::array<typename L::Real, basin_count> balance;  // domain.rddl:40
+    std::array<typename L::Real, basin_count> spill;    // domain.rddl:41
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = reservoir_reservoir_1::State<L>;
+    template <class L>
+    using Action = reservoir_reservoir_1::Action<L>;
+    template <class L>
+    using Scratch = reservoir_reservoir_1::Scratch<L>;
+    template <class L>
+    using Observation = reservoir_reservoir_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        rddl::assign(state.water, initial_water);
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        inflow(action, scratch);
+        rain(scratch, context);
+        balance(state, action, scratch);
+        spill(scratch);
+        water(scratch, next);
+    }
+
+    // inflow(?b)  (domain.rddl:54)
+    template <class L>
+    static void inflow(const Action<L>& action, Scratch<L>& scratch) {
+        using Real = typename L::Real;
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            scratch.inflow[b] = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
+                return rddl::to_real(FLOWS_TO[up][b]) * action.release[up];
+            });
+        }
+    }
+
+    // rain(?b)  (domain.rddl:49)
+    template <class L>
+    static void rain(Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            const Bool draw = rddl::sample::bernoulli(context, {0, b}, RAIN_CHANCE[b]);
+            scratch.rain[b] = rddl::branch(
+                context, draw,
+                [&] {
+                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE[b]);
+                },
+                [&] { return 0.0; });
+        }
+    }
+
+    // balance(?b)  (domain.rddl:56)
+    template <class L>
+    static void balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            scratch.balance[b] =
+                0.98 * state.water[b] + scratch.rain[b] + scratch.inflow[b] - action.release[b];
+        }
+    }
+
+    // spill(?b)  (domain.rddl:58)
+    template <class L>
+    static void spill(Scratch<L>& scratch) {
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            scratch.spill[b] = rddl::maximum(0.0, scratch.balance[b] - CAPACITY[b]);
+        }
+    }
+
+    // water'(?b)  (domain.rddl:60)
+    template <class L>
+    static void water(const Scratch<L>& scratch, State<L>& next) {
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            next.water[b] = rddl::maximum(0.0, scratch.balance[b] - scratch.spill[b]);
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& /*action*/,
+                                   const Scratch<L>& scratch, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Real = typename L::Real;
+        const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index b) {
+            return 5.0 * rddl::maximum(0.0, SAFE_LOW[b] - next.water[b]) +
+                   10.0 * rddl::maximum(0.0, next.water[b] - SAFE_HIGH[b]) +
+                   50.0 * scratch.spill[b];
+        });
+        return -total;
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 0;
+    template <class L>
+    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
+                                        rddl::Context<L>& /*context*/) {
+        return false;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 2;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index k, const State<L>& state,
+                                      rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return invariant_0(state);
+            case 1:
+                return invariant_1(state);
+            default:
+                return true;
+        }
+    }
+
+    // forall_{?b : basin} [water(?b) >= 0.0]  (domain.rddl:76)
+    template <class L>
+    static typename L::Bool invariant_0(const State<L>& state) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(basin_count,
+                                   [&](rddl::Index b) { return state.water[b] >= 0.0; });
+    }
+
+    // forall_{?b : basin} [water(?b) <= CAPACITY(?b)]  (domain.rddl:77)
+    template <class L>
+    static typename L::Bool invariant_1(const State<L>& state) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(basin_count,
+                                   [&](rddl::Index b) { return state.water[b] <= CAPACITY[b]; });
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 2;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index k, const State<L>& state,
+                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return precondition_0(action);
+            case 1:
+                return precondition_1(state, action);
+            default:
+                return true;
+        }
+    }
+
+    // forall_{?b : basin} [release(?b) >= 0.0]  (domain.rddl:71)
+    template <class L>
+    static typename L::Bool precondition_0(const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(basin_count,
+                                   [&](rddl::Index b) { return action.release[b] >= 0.0; });
+    }
+
+    // forall_{?b : basin} [release(?b) <= water(?b)]  (domain.rddl:72)
+    template <class L>
+    static typename L::Bool precondition_1(const State<L>& state, const Action<L>& action) {
+        using Bool = typename L::Bool;
+        return rddl::for_all<Bool>(
+            basin_count, [&](rddl::Index b) { return action.release[b] <= state.water[b]; });
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 32);
+static_assert(sizeof(Action<rddl::Scalar>) == 32);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/reservoir/domain.rddl";
+
+inline constexpr const char* basin_objects[] = {"north", "lake", "east", "valley"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"basin", basin_objects, basin_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_basin_basin[] = {0, 0};
+
+inline constexpr std::int32_t of_basin[] = {0};
+
+inline constexpr auto water_lower = rddl::repeated<4>(0.0);
+
+inline constexpr std::array<double, 4> water_upper = {100, 200, 100, 150};
+
+inline constexpr auto release_lower = rddl::repeated<4>(0.0);
+
+inline constexpr auto release_upper = rddl::repeated<4>(std::numeric_limits<double>::infinity());
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"FLOWS-TO", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_basin_basin, 16, -1, nullptr, nullptr,
+     {source_file, 18, 9}},
+    {"CAPACITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 21, 9}},
+    {"SAFE-LOW", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"SAFE-HIGH", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 23, 9}},
+    {"RAIN-CHANCE", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 26, 9}},
+    {"RAIN-SHAPE", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 27, 9}},
+    {"RAIN-SCALE", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 28, 9}},
+    {"EVAPORATION", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 29, 9}},
+    {"LOW-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 32, 9}},
+    {"HIGH-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 33, 9}},
+    {"SPILL-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 34, 9}},
+    {"water", RDDL_STATE, RDDL_REAL, -1, 1, of_basin, 4, offsetof(State<rddl::Scalar>, water),
+     water_lower.data(), water_upper.data(), {source_file, 36, 9}},
+    {"rain", RDDL_INTERM, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 38, 9}},
+    {"inflow", RDDL_INTERM, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 39, 9}},
+    {"balance", RDDL_INTERM, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 40, 9}},
+    {"spill", RDDL_INTERM, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
+     {source_file, 41, 9}},
+    {"release", RDDL_ACTION, RDDL_REAL, -1, 1, of_basin, 4, offsetof(Action<rddl::Scalar>, release),
+     release_lower.data(), release_upper.data(), {source_file, 43, 9}},
+};
+
+inline constexpr rddl_condition preconditions[] = {
+    {"forall_{?b : basin} [release(?b) >= 0.0]", {source_file, 71, 9}},
+    {"forall_{?b : basin} [release(?b) <= water(?b)]", {source_file, 72, 9}},
+};
+
+inline constexpr rddl_condition invariants[] = {
+    {"forall_{?b : basin} [water(?b) >= 0.0]", {source_file, 76, 9}},
+    {"forall_{?b : basin} [water(?b) <= CAPACITY(?b)]", {source_file, 77, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    rddl::assign(action.release, 0.0);
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "reservoir",
+    .instance = "reservoir_1",
+    .types = types,
+    .type_count = 1,
+    .fluents = fluents,
+    .fluent_count = 17,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 120,
+    .discount = 1.0,
+    .max_nondef_actions = -1,
+    .preconditions = preconditions,
+    .precondition_count = 2,
+    .invariants = invariants,
+    .invariant_count = 2,
+    .terminations = nullptr,
+    .termination_count = 0,
+};
+
+inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 49, 24}, "Bernoulli", scope_b},
+    {{source_file, 50, 25}, "Gamma", scope_b},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace reservoir_reservoir_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_reservoir_reservoir_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return reservoir_reservoir_1::simulator();
+}

@@ -1,0 +1,489 @@
+// A simulator of the RDDL problem robot, instance robot_1.
+//
+// Made by rddlc 0.1.0 from
+//     examples/robot/domain.rddl
+//     examples/robot/instance.rddl
+// Do not edit it: change those and compile them again.
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_robot_robot_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace robot_robot_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index beacon_count = 3;  // west, south, middle
+
+// ---------------------------------------------------------------------------------- tables
+
+// BEACON-X, domain.rddl:17
+inline constexpr std::array<double, beacon_count> BEACON_X = {0, 5, 6};
+
+// BEACON-Y, domain.rddl:18
+inline constexpr std::array<double, beacon_count> BEACON_Y = {5, 0, 6};
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    typename L::Real x;        // domain.rddl:38
+    typename L::Real y;        // domain.rddl:39
+    typename L::Real heading;  // domain.rddl:40
+};
+
+template <class L>
+struct Action {
+    typename L::Real drive;  // domain.rddl:57
+    typename L::Real turn;   // domain.rddl:58
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    typename L::Real course;                              // domain.rddl:42
+    typename L::Real distance;                            // domain.rddl:43
+    typename L::Real ahead_x;                             // domain.rddl:44
+    typename L::Real ahead_y;                             // domain.rddl:45
+    typename L::Real reached_x;                           // domain.rddl:46
+    typename L::Real reached_y;                           // domain.rddl:47
+    typename L::Bool hit_wall;                            // domain.rddl:48
+    std::array<typename L::Real, beacon_count> range_to;  // domain.rddl:49
+    std::array<typename L::Bool, beacon_count> answers;   // domain.rddl:50
+};
+
+template <class L>
+struct Observation {
+    std::array<typename L::Bool, beacon_count> echo;   // domain.rddl:53
+    std::array<typename L::Real, beacon_count> range;  // domain.rddl:54
+    typename L::Bool bump;                             // domain.rddl:55
+};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = robot_robot_1::State<L>;
+    template <class L>
+    using Action = robot_robot_1::Action<L>;
+    template <class L>
+    using Scratch = robot_robot_1::Scratch<L>;
+    template <class L>
+    using Observation = robot_robot_1::Observation<L>;
+
+    static constexpr bool partially_observed = true;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        state.x = 1.0;
+        state.y = 1.0;
+        state.heading = 0.7;
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& observation, rddl::Context<L>& context) {
+        course(state, action, scratch, context);
+        distance(action, scratch, context);
+        ahead_x(state, scratch);
+        ahead_y(state, scratch);
+        heading(scratch, next);
+        hit_wall(scratch);
+        reached_x(scratch);
+        reached_y(scratch);
+        bump(scratch, observation, context);
+        range_to(scratch);
+        x(scratch, next);
+        y(scratch, next);
+        answers(scratch, context);
+        echo(scratch, observation);
+        range(scratch, observation, context);
+    }
+
+    // course  (domain.rddl:64)
+    template <class L>
+    static void course(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                       rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        const Real draw =
+            rddl::sample::normal(context, {0, 0}, action.turn, 0.01 * rddl::absolute(action.turn));
+        scratch.course = state.heading + draw;
+    }
+
+    // distance  (domain.rddl:65)
+    template <class L>
+    static void distance(const Action<L>& action, Scratch<L>& scratch, rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        const Real term = 0.02 * rddl::absolute(action.drive);
+        scratch.distance = rddl::sample::normal(context, {1, 0}, action.drive, term);
+    }
+
+    // ahead-x  (domain.rddl:67)
+    template <class L>
+    static void ahead_x(const State<L>& state, Scratch<L>& scratch) {
+        scratch.ahead_x = state.x + scratch.distance * rddl::cos(scratch.course);
+    }
+
+    // ahead-y  (domain.rddl:68)
+    template <class L>
+    static void ahead_y(const State<L>& state, Scratch<L>& scratch) {
+        scratch.ahead_y = state.y + scratch.distance * rddl::sin(scratch.course);
+    }
+
+    // heading'  (domain.rddl:76)
+    template <class L>
+    static void heading(const Scratch<L>& scratch, State<L>& next) {
+        next.heading = scratch.course;
+    }
+
+    // hit-wall  (domain.rddl:69)
+    template <class L>
+    static void hit_wall(Scratch<L>& scratch) {
+        scratch.hit_wall = scratch.ahead_x < 0.0 || scratch.ahead_x > 10.0 ||
+                           scratch.ahead_y < 0.0 || scratch.ahead_y > 10.0;
+    }
+
+    // reached-x  (domain.rddl:71)
+    template <class L>
+    static void reached_x(Scratch<L>& scratch) {
+        scratch.reached_x = rddl::maximum(0.0, rddl::minimum(10.0, scratch.ahead_x));
+    }
+
+    // reached-y  (domain.rddl:72)
+    template <class L>
+    static void reached_y(Scratch<L>& scratch) {
+        scratch.reached_y = rddl::maximum(0.0, rddl::minimum(10.0, scratch.ahead_y));
+    }
+
+    // bump  (domain.rddl:88)
+    template <class L>
+    static void bump(const Scratch<L>& scratch, Observation<L>& observation,
+                     rddl::Context<L>& context) {
+        observation.bump = rddl::branch(
+            context, scratch.hit_wall,
+            [&] {
+                return rddl::sample::bernoulli(context, {2, 0}, 0.95);
+            },
+            [&] { return false; });
+    }
+
+    // range-to(?b)  (domain.rddl:79)
+    template <class L>
+    static void range_to(Scratch<L>& scratch) {
+        for (rddl::Index b = 0; b < beacon_count; ++b) {
+            scratch.range_to[b] =
+                rddl::hypot(scratch.reached_x - BEACON_X[b], scratch.reached_y - BEACON_Y[b]);
+        }
+    }
+
+    // x'  (domain.rddl:74)
+    template <class L>
+    static void x(const Scratch<L>& scratch, State<L>& next) {
+        next.x = scratch.reached_x;
+    }
+
+    // y'  (domain.rddl:75)
+    template <class L>
+    static void y(const Scratch<L>& scratch, State<L>& next) {
+        next.y = scratch.reached_y;
+    }
+
+    // answers(?b)  (domain.rddl:82)
+    template <class L>
+    static void answers(Scratch<L>& scratch, rddl::Context<L>& context) {
+        for (rddl::Index b = 0; b < beacon_count; ++b) {
+            scratch.answers[b] =
+                rddl::sample::bernoulli(context, {3, b}, rddl::exp(-scratch.range_to[b] / 6.0));
+        }
+    }
+
+    // echo(?b)  (domain.rddl:84)
+    template <class L>
+    static void echo(const Scratch<L>& scratch, Observation<L>& observation) {
+        for (rddl::Index b = 0; b < beacon_count; ++b) {
+            observation.echo[b] = scratch.answers[b];
+        }
+    }
+
+    // range(?b)  (domain.rddl:85)
+    template <class L>
+    static void range(const Scratch<L>& scratch, Observation<L>& observation,
+                      rddl::Context<L>& context) {
+        using Real = typename L::Real;
+        for (rddl::Index b = 0; b < beacon_count; ++b) {
+            observation.range[b] = rddl::branch(
+                context, scratch.answers[b],
+                [&] {
+                    const Real term = rddl::power(0.05 * scratch.range_to[b], 2.0);
+                    return rddl::sample::normal(context, {4, b}, scratch.range_to[b], term);
+                },
+                [&] { return 0.0; });
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& /*action*/,
+                                   const Scratch<L>& scratch, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        return 100.0 * rddl::to_real(rddl::hypot(next.x - 8.0, next.y - 8.0) <= 0.5) -
+               5.0 * rddl::to_real(scratch.hit_wall) - 1.0;
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 1;
+    template <class L>
+    static typename L::Bool termination(rddl::Index k, const State<L>& state,
+                                        rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return termination_0(state);
+            default:
+                return false;
+        }
+    }
+
+    // hypot[x - GOAL-X, y - GOAL-Y] <= GOAL-RADIUS  (domain.rddl:96)
+    template <class L>
+    static typename L::Bool termination_0(const State<L>& state) {
+        return rddl::hypot(state.x - 8.0, state.y - 8.0) <= 0.5;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 4;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index k, const State<L>& /*state*/,
+                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
+        switch (k) {
+            case 0:
+                return precondition_0(action);
+            case 1:
+                return precondition_1(action);
+            case 2:
+                return precondition_2(action);
+            case 3:
+                return precondition_3(action);
+            default:
+                return true;
+        }
+    }
+
+    // drive >= -1.0  (domain.rddl:100)
+    template <class L>
+    static typename L::Bool precondition_0(const Action<L>& action) {
+        return action.drive >= -1.0;
+    }
+
+    // drive <= 1.0  (domain.rddl:101)
+    template <class L>
+    static typename L::Bool precondition_1(const Action<L>& action) {
+        return action.drive <= 1.0;
+    }
+
+    // turn >= -0.8  (domain.rddl:102)
+    template <class L>
+    static typename L::Bool precondition_2(const Action<L>& action) {
+        return action.turn >= -0.8;
+    }
+
+    // turn <= 0.8  (domain.rddl:103)
+    template <class L>
+    static typename L::Bool precondition_3(const Action<L>& action) {
+        return action.turn <= 0.8;
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 24);
+static_assert(offsetof(State<rddl::Scalar>, heading) == 16);
+static_assert(sizeof(Action<rddl::Scalar>) == 16);
+static_assert(offsetof(Action<rddl::Scalar>, turn) == 8);
+static_assert(sizeof(Observation<rddl::Scalar>) == 40);
+static_assert(offsetof(Observation<rddl::Scalar>, bump) == 32);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/robot/domain.rddl";
+
+inline constexpr const char* beacon_objects[] = {"west", "south", "middle"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"beacon", beacon_objects, beacon_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_beacon[] = {0};
+
+inline constexpr std::array<double, 1> drive_lower = {-1};
+
+inline constexpr std::array<double, 1> drive_upper = {1};
+
+inline constexpr std::array<double, 1> turn_lower = {-0.8};
+
+inline constexpr std::array<double, 1> turn_upper = {0.8};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"BEACON-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
+     {source_file, 17, 9}},
+    {"BEACON-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
+     {source_file, 18, 9}},
+    {"GOAL-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 19, 9}},
+    {"GOAL-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 20, 9}},
+    {"GOAL-RADIUS", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 21, 9}},
+    {"FIELD", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"DRIVE-VARIANCE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 25, 9}},
+    {"TURN-VARIANCE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 26, 9}},
+    {"REACH", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 29, 9}},
+    {"RANGE-DEVIATION", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 30, 9}},
+    {"BUMPER-FAILURE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 31, 9}},
+    {"STEP-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 33, 9}},
+    {"WALL-COST", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 34, 9}},
+    {"GOAL-REWARD", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 35, 9}},
+    {"x", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, x), nullptr,
+     nullptr, {source_file, 38, 9}},
+    {"y", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, y), nullptr,
+     nullptr, {source_file, 39, 9}},
+    {"heading", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, offsetof(State<rddl::Scalar>, heading),
+     nullptr, nullptr, {source_file, 40, 9}},
+    {"course", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 42, 9}},
+    {"distance", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 43, 9}},
+    {"ahead-x", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 44, 9}},
+    {"ahead-y", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 45, 9}},
+    {"reached-x", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 46, 9}},
+    {"reached-y", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 47, 9}},
+    {"hit-wall", RDDL_INTERM, RDDL_BOOL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 48, 9}},
+    {"range-to", RDDL_INTERM, RDDL_REAL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
+     {source_file, 49, 9}},
+    {"answers", RDDL_INTERM, RDDL_BOOL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
+     {source_file, 50, 9}},
+    {"echo", RDDL_OBSERVATION, RDDL_BOOL, -1, 1, of_beacon, 3,
+     offsetof(Observation<rddl::Scalar>, echo), nullptr, nullptr, {source_file, 53, 9}},
+    {"range", RDDL_OBSERVATION, RDDL_REAL, -1, 1, of_beacon, 3,
+     offsetof(Observation<rddl::Scalar>, range), nullptr, nullptr, {source_file, 54, 9}},
+    {"bump", RDDL_OBSERVATION, RDDL_BOOL, -1, 0, nullptr, 1,
+     offsetof(Observation<rddl::Scalar>, bump), nullptr, nullptr, {source_file, 55, 9}},
+    {"drive", RDDL_ACTION, RDDL_REAL, -1, 0, nullptr, 1, offsetof(Action<rddl::Scalar>, drive),
+     drive_lower.data(), drive_upper.data(), {source_file, 57, 9}},
+    {"turn", RDDL_ACTION, RDDL_REAL, -1, 0, nullptr, 1, offsetof(Action<rddl::Scalar>, turn),
+     turn_lower.data(), turn_upper.data(), {source_file, 58, 9}},
+};
+
+inline constexpr rddl_condition preconditions[] = {
+    {"drive >= -1.0", {source_file, 100, 9}},
+    {"drive <= 1.0", {source_file, 101, 9}},
+    {"turn >= -0.8", {source_file, 102, 9}},
+    {"turn <= 0.8", {source_file, 103, 9}},
+};
+
+inline constexpr rddl_condition terminations[] = {
+    {"hypot[x - GOAL-X, y - GOAL-Y] <= GOAL-RADIUS", {source_file, 96, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    action.drive = 0.0;
+    action.turn = 0.0;
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "robot",
+    .instance = "robot_1",
+    .types = types,
+    .type_count = 1,
+    .fluents = fluents,
+    .fluent_count = 31,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(Observation<rddl::Scalar>),
+    .partially_observed = 1,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 60,
+    .discount = 0.99,
+    .max_nondef_actions = -1,
+    .preconditions = preconditions,
+    .precondition_count = 4,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = terminations,
+    .termination_count = 1,
+};
+
+inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 64, 30}, "Normal", {}},
+    {{source_file, 65, 20}, "Normal", {}},
+    {{source_file, 88, 40}, "Bernoulli", {}},
+    {{source_file, 82, 23}, "Bernoulli", scope_b},
+    {{source_file, 86, 26}, "Normal", scope_b},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace robot_robot_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_robot_robot_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return robot_robot_1::simulator();
+}
