@@ -1,12 +1,12 @@
-# What `cmake --install` installs for other CMake projects.
+# What `cmake --install` installs for other CMake projects (component "rddlc").
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/rddlc)
 
 set_target_properties(rddlc_runtime PROPERTIES EXPORT_NAME runtime)
-install(TARGETS rddlc rddlc_runtime EXPORT rddlcTargets)
+install(TARGETS rddlc rddlc_runtime EXPORT rddlcTargets RUNTIME COMPONENT rddlc)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/rddl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
-install(EXPORT rddlcTargets NAMESPACE rddlc:: DESTINATION ${package_folder})
+        COMPONENT rddlc FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+install(EXPORT rddlcTargets NAMESPACE rddlc:: DESTINATION ${package_folder} COMPONENT rddlc)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rddlcConfig.cmake.in
   ${PROJECT_BINARY_DIR}/rddlcConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
@@ -14,4 +14,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/rddlcConfig.cmake
               ${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlAddSimulator.cmake
-        DESTINATION ${package_folder})
+        DESTINATION ${package_folder} COMPONENT rddlc)
