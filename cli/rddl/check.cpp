@@ -30,7 +30,9 @@ std::size_t warning_count(const Diagnostics& diagnostics) {
 }
 
 ExitStatus check_one(const ProblemFiles& files) {
-    const Compilation compilation = compile_and_report(files, Stage::Check);
+    const Compilation compilation = compile_problem(files, Stage::Check);
+    print_diagnostics(compilation);
+    if (compilation.diagnostics.has_errors()) return diagnosed;
     const std::size_t warnings = warning_count(compilation.diagnostics);
     fmt::print("{}: no errors{}\n", files.name,
                warnings == 0 ? "" : fmt::format(", {}", counted(warnings, "warning")));

@@ -17,17 +17,17 @@ Compilation compile_problem(const ProblemFiles& files, Stage last) {
     return compile(options);
 }
 
-void report(const Diagnostics& diagnostics, const Sources& sources) {
+void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = is_terminal(2);
-    fmt::print(stderr, "{}", render(diagnostics, sources, options));
-    if (diagnostics.has_errors()) throw Diagnosed{};
+    fmt::print(stderr, "{}", render(compilation.diagnostics, compilation.sources, options));
 }
 
-Compilation compile_and_report(const ProblemFiles& files, Stage last) {
+Compilation compile_or_give_up(const ProblemFiles& files, Stage last) {
     Compilation compilation = compile_problem(files, last);
-    report(compilation.diagnostics, compilation.sources);
-    return compilation;
+    if (!compilation.diagnostics.has_errors()) return compilation;
+    print_diagnostics(compilation);
+    throw Diagnosed{};
 }
 
 }  // namespace rddlc::cli

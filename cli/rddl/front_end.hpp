@@ -9,10 +9,11 @@ namespace rddlc::cli {
 // Compiles up to a stage; prints nothing.
 Compilation compile_problem(const ProblemFiles& files, Stage last);
 
-// Prints all diagnostics on stderr; throws Diagnosed if there are errors.
-void report(const Diagnostics& diagnostics, const Sources& sources);
+// Prints all diagnostics on stderr.
+void print_diagnostics(const Compilation& compilation);
 
-// Both.
-Compilation compile_and_report(const ProblemFiles& files, Stage last);
+// If there are errors, prints all diagnostics and throws Diagnosed. Warnings alone are not shown:
+// `rddl check` does that.
+Compilation compile_or_give_up(const ProblemFiles& files, Stage last);
 
 }  // namespace rddlc::cli

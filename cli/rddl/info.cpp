@@ -19,7 +19,7 @@ struct InfoOptions {
 ExitStatus info(const InfoOptions& options) {
     ProblemDescription description;
     description.files = options.problem.files();
-    Compilation compilation = compile_and_report(description.files, Stage::Optimise);
+    Compilation compilation = compile_or_give_up(description.files, Stage::Optimise);
     description.model = *std::move(compilation.model);
     description.characteristics = characteristics_of(description.model);
     description.simulator =

@@ -3,7 +3,8 @@
 
 namespace rddlc::cli {
 
-// From now on the first Ctrl-C (or SIGTERM) only makes `interrupted` true; the second one kills.
+// From now on the first Ctrl-C (or SIGTERM) only makes `is_interrupted` true; one more,
+// a little later, ends the process at once.
 void catch_interrupts();
 
 bool is_interrupted();

@@ -14,11 +14,11 @@ std::string_view name_of(Engine engine) {
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
     if (options.engine == Engine::Interpreter) {
-        Compilation compilation = compile_and_report(files, Stage::Optimise);
+        Compilation compilation = compile_or_give_up(files, Stage::Optimise);
         return {files, interpreted_simulator(*std::move(compilation.program),
                                              std::move(compilation.sources))};
     }
-    const Compilation compilation = compile_and_report(files, Stage::Emit);
+    const Compilation compilation = compile_or_give_up(files, Stage::Emit);
     return {files, compiled_simulator(compilation.text,
                                       {files.name, options.ignore_cache, options.quiet})};
 }

@@ -27,8 +27,7 @@ struct LoadedProblem {
     Simulator simulator;
 };
 
-// Prints the diagnostics and throws Diagnosed if there are errors, among them a missing C++
-// compiler.
+// Prints the diagnostics and throws Diagnosed if there are errors; fails without a C++ compiler.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);
 
 }  // namespace rddlc::cli

@@ -51,6 +51,7 @@ Command add_replay_command(CLI::App& program) {
         ->type_name("FILE");
     app->add_option("--seed", options->session.seed,
                     "Seed of all random numbers (the input's if it is a trace, else 0)")
+        ->check(CLI::NonNegativeNumber.description(""))
         ->type_name("S");
     app->add_option("--horizon", options->session.horizon,
                     "Steps an episode; 0: no horizon (the trace's or the instance's)")

@@ -99,10 +99,21 @@ class EpisodeBatch {
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (!before[i].finished)
                 lines.add(i, first_ + static_cast<std::int64_t>(i), before[i].length, action(i),
-                          rewards_[i], causes_[i], episodes_[i].fault);
+                          rewards_[i], causes_[i]);
     }
 
-    std::vector<Episode> take_episodes() && { return std::move(episodes_); }
+    const std::vector<Episode>& episodes() const { return episodes_; }
+
+    // Of the lowest number.
+    std::optional<EpisodeFault> first_fault() const {
+        for (std::size_t i = 0; i < episodes_.size(); ++i) {
+            if (!(episodes_[i].causes & RDDL_FAULTED)) continue;
+            const auto place = static_cast<std::int64_t>(i);
+            return EpisodeFault{first_ + place, episodes_[i].length,
+                                fault_text(simulator_, *batch_, place)};
+        }
+        return std::nullopt;
+    }
 
   private:
     std::byte* action(std::size_t i) { return actions_.data() + i * action_size_; }
@@ -126,8 +137,6 @@ class EpisodeBatch {
     void end_episode(std::size_t i) {
         episodes_[i].finished = true;
         episodes_[i].causes = causes_[i];
-        if (causes_[i] & RDDL_FAULTED)
-            episodes_[i].fault = fault_text(simulator_, *batch_, static_cast<std::int64_t>(i));
     }
 
     const rddl_simulator& simulator_;
@@ -163,20 +172,26 @@ class Rollout {
                 run_batch(number, policy);
             }
         } catch (...) {
-            const std::scoped_lock lock(failure_mutex_);
+            const std::scoped_lock lock(result_mutex_);
             if (!failure_) failure_ = std::current_exception();
             next_batch_ = options_.episodes;  // the other threads stop, too
         }
         // Only an early end leaves batches that others could wait for.
-        if (failure_ || is_interrupted()) turns_.abandon();
+        if (is_interrupted() || has_failed()) turns_.abandon();
     }
 
-    std::vector<Episode> take_episodes() {
+    void take_results(Rollouts& rollouts) {
         if (failure_) std::rethrow_exception(failure_);
-        return std::move(episodes_);
+        rollouts.episodes = std::move(episodes_);
+        rollouts.first_fault = std::move(first_fault_);
     }
 
   private:
+    bool has_failed() {
+        const std::scoped_lock lock(result_mutex_);
+        return failure_ != nullptr;
+    }
+
     void run_batch(std::int64_t number, RandomPolicy& policy) {
         const std::int64_t first = number * options_.batch;
         const std::int64_t count = std::min(options_.batch, options_.episodes - first);
@@ -188,9 +203,16 @@ class Rollout {
             lines ? batch.step(*lines) : batch.step();
         }
         if (lines) write_trace(number, *lines);
-        auto finished = std::move(batch).take_episodes();
-        std::move(finished.begin(), finished.end(), episodes_.begin() + first);
+        std::copy(batch.episodes().begin(), batch.episodes().end(), episodes_.begin() + first);
+        note_fault(batch.first_fault());
         progress_.advance(count);
+    }
+
+    void note_fault(std::optional<EpisodeFault> fault) {
+        if (!fault) return;
+        const std::scoped_lock lock(result_mutex_);
+        if (!first_fault_ || fault->episode < first_fault_->episode)
+            first_fault_ = std::move(fault);
     }
 
     void write_trace(std::int64_t number, const TraceLines& lines) {
@@ -207,7 +229,8 @@ class Rollout {
     std::vector<Episode> episodes_;
     std::atomic<std::int64_t> next_batch_ = 0;
     Turns turns_;
-    std::mutex failure_mutex_;
+    std::mutex result_mutex_;  // of the next two
+    std::optional<EpisodeFault> first_fault_;
     std::exception_ptr failure_;
 };
 
@@ -243,7 +266,7 @@ Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& opt
     rollouts.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
-    rollouts.episodes = rollout.take_episodes();
+    rollout.take_results(rollouts);
     for (const Episode& episode : rollouts.episodes) rollouts.steps += episode.length;
     return rollouts;
 }

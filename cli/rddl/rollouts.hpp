@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,17 @@ struct Episode {
     double discounted_return = 0;
     std::int64_t length = 0;  // steps
     std::uint8_t causes = RDDL_RUNNING;
-    std::string fault;  // "file:line:column: message" if it faulted
+};
+
+struct EpisodeFault {
+    std::int64_t episode = 0;
+    std::int64_t step = 0;
+    std::string message;  // "file:line:column: ..."
 };
 
 struct Rollouts {
-    std::vector<Episode> episodes;  // by number
+    std::vector<Episode> episodes;            // by number
+    std::optional<EpisodeFault> first_fault;  // of the first episode that faulted
     std::int64_t steps = 0;
     double seconds = 0;
     int threads = 0;

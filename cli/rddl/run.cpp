@@ -37,7 +37,6 @@ struct Summary {
     Statistics undiscounted_return, discounted_return, length;
     std::int64_t episodes = 0;  // finished ones
     std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0;
-    std::optional<std::int64_t> first_faulted;  // number of an episode
     double steps_per_second = 0;
 };
 
@@ -53,8 +52,6 @@ Summary summarise(const Rollouts& rollouts) {
         summary.horizon += (episode.causes & RDDL_TRUNCATED_HORIZON) != 0;
         summary.invariant += (episode.causes & RDDL_TRUNCATED_INVARIANT) != 0;
         summary.faulted += (episode.causes & RDDL_FAULTED) != 0;
-        if (!summary.first_faulted && episode.causes & RDDL_FAULTED)
-            summary.first_faulted = &episode - rollouts.episodes.data();
     }
     summary.episodes = static_cast<std::int64_t>(returns.size());
     summary.undiscounted_return = statistics_of(returns);
@@ -65,9 +62,8 @@ Summary summarise(const Rollouts& rollouts) {
     return summary;
 }
 
-std::string fault_line(const Rollouts& rollouts, std::int64_t number) {
-    const Episode& episode = rollouts.episodes[static_cast<std::size_t>(number)];
-    return fmt::format("episode {}, step {}: {}", number, episode.length, episode.fault);
+std::string fault_line(const EpisodeFault& fault) {
+    return fmt::format("episode {}, step {}: {}", fault.episode, fault.step, fault.message);
 }
 
 void print_summary(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
@@ -93,8 +89,7 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
         "{} episode{}: {} terminated, {} at the horizon, {} broke an invariant, {} faulted\n",
         grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
         grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
-    if (summary.first_faulted)
-        fmt::print("first fault: {}\n", fault_line(rollouts, *summary.first_faulted));
+    if (rollouts.first_fault) fmt::print("first fault: {}\n", fault_line(*rollouts.first_fault));
     fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
                seconds_text(rollouts.seconds), rate_text(summary.steps_per_second),
                rollouts.threads, rollouts.threads == 1 ? "" : "s");
@@ -126,7 +121,7 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
                                {"seconds", rollouts.seconds},
                                {"steps_per_second", summary.steps_per_second},
                                {"threads", rollouts.threads}};
-    if (summary.first_faulted) out["first_fault"] = fault_line(rollouts, *summary.first_faulted);
+    if (rollouts.first_fault) out["first_fault"] = fault_line(*rollouts.first_fault);
     fmt::print("{}\n", out.dump(2));
 }
 
@@ -206,9 +201,10 @@ Command add_run_command(CLI::App& program) {
         ->check(CLI::IsMember({"random", "noop"}).description(""))
         ->type_name("POLICY");
     app->add_option("--episodes", options->rollouts.episodes, "How many (1)")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32).description(""))
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}).description(""))
         ->type_name("N");
     app->add_option("--seed", options->rollouts.seed, "Seed of all random numbers (0)")
+        ->check(CLI::NonNegativeNumber.description(""))
         ->type_name("S");
     app->add_option("--horizon", options->rollouts.horizon,
                     "Steps an episode; 0: no horizon (the instance's)")

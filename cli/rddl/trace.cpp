@@ -1,6 +1,7 @@
 #include "trace.hpp"
 
 #include "driver/version.hpp"
+#include "faults.hpp"
 #include "sha256.hpp"
 
 #include <fmt/format.h>
@@ -53,6 +54,7 @@ void TraceLines::before_step(const rddl_batch& batch) {
 }
 
 void TraceLines::after_step(const rddl_batch& batch) {
+    batch_ = &batch;
     const auto count = static_cast<std::int64_t>(lines_.size());
     simulator_.get_state(&batch, 0, count, next_states_.data());
     if (simulator_.problem->partially_observed)
@@ -60,8 +62,7 @@ void TraceLines::after_step(const rddl_batch& batch) {
 }
 
 void TraceLines::add(std::size_t i, std::int64_t episode, std::int64_t step,
-                     const std::byte* action, double reward, std::uint8_t causes,
-                     const std::string& fault) {
+                     const std::byte* action, double reward, std::uint8_t causes) {
     std::string& line = lines_[i];
     line += fmt::format(R"({{"episode":{},"step":{},"state":)", episode, step);
     format_.state.write(line, states_.data() + i * format_.state.size());
@@ -80,9 +81,9 @@ void TraceLines::add(std::size_t i, std::int64_t episode, std::int64_t step,
     line += fmt::format(R"(,"terminated":{},"truncated":{},"causes":{})",
                         (causes & RDDL_TERMINATED) != 0, (causes & ~RDDL_TERMINATED) != 0,
                         causes_json(causes));
-    if (!fault.empty()) {
+    if (causes & RDDL_FAULTED) {
         line += R"(,"fault":)";
-        write_string(line, fault);
+        write_string(line, fault_text(simulator_, *batch_, static_cast<std::int64_t>(i)));
     }
     line += "}\n";
 }

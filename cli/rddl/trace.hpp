@@ -50,7 +50,7 @@ class TraceLines {
     void after_step(const rddl_batch& batch);
     // Then one line for each environment that was running; `i` is its place in the batch.
     void add(std::size_t i, std::int64_t episode, std::int64_t step, const std::byte* action,
-             double reward, std::uint8_t causes, const std::string& fault);
+             double reward, std::uint8_t causes);
 
     // All lines, episode by episode.
     std::string text() const;
@@ -58,6 +58,7 @@ class TraceLines {
   private:
     const rddl_simulator& simulator_;
     const TraceFormat& format_;
+    const rddl_batch* batch_ = nullptr;  // the one that has just been stepped
     std::vector<std::byte> states_, next_states_, observations_;
     std::vector<std::string> lines_;  // one an environment
 };

@@ -36,8 +36,10 @@ TEST(Rollouts, DoNotDependOnBatchAndThreads) {
                       alone.episodes[i].undiscounted_return);
             EXPECT_EQ(others.episodes[i].length, alone.episodes[i].length);
             EXPECT_EQ(others.episodes[i].causes, alone.episodes[i].causes);
-            EXPECT_EQ(others.episodes[i].fault, alone.episodes[i].fault);
         }
+        ASSERT_TRUE(others.first_fault);
+        EXPECT_EQ(others.first_fault->message, alone.first_fault->message);
+        EXPECT_EQ(others.first_fault->episode, alone.first_fault->episode);
     }
 }
 
@@ -81,14 +83,13 @@ TEST(Rollouts, DiscountReturns) {
 TEST(Rollouts, FaultsEndAnEpisodeAndAreCounted) {
     // A random hazard, added to a probability, is out of range half of the time.
     const Rollouts rollouts = run({.threads = 1});
-    bool any = false;
-    for (const Episode& episode : rollouts.episodes) {
-        EXPECT_EQ((episode.causes & RDDL_FAULTED) != 0, !episode.fault.empty());
-        if (episode.fault.empty()) continue;
-        any = true;
-        EXPECT_NE(episode.fault.find("tiny.rddl:22:24: Bernoulli"), std::string::npos);
-    }
-    EXPECT_TRUE(any);
+    ASSERT_TRUE(rollouts.first_fault);
+    EXPECT_NE(rollouts.first_fault->message.find("tiny.rddl:22:24: Bernoulli"), std::string::npos);
+    const auto first = static_cast<std::size_t>(rollouts.first_fault->episode);
+    for (std::size_t i = 0; i < first; ++i)
+        EXPECT_FALSE(rollouts.episodes[i].causes & RDDL_FAULTED);
+    EXPECT_EQ(rollouts.episodes[first].causes, RDDL_FAULTED);
+    EXPECT_EQ(rollouts.episodes[first].length, rollouts.first_fault->step);
 }
 
 TEST(Trace, ReplaysBitForBit) {

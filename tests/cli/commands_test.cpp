@@ -1,0 +1,295 @@
+// What users see of list, info, check, run and bench.
+#include "program.hpp"
+
+namespace rddlc::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* interpreted = " --engine interpreter";
+
+TEST_F(Program, ExplainsItself) {
+    const Outcome help = run("--help");
+    EXPECT_EQ(help.status, 0);
+    for (const char* command : {"list", "info", "check", "run", "replay", "bench"}) {
+        EXPECT_NE(help.out.find(std::string("\n  ") + command), std::string::npos) << command;
+        const Outcome own = run(std::string(command) + " --help");
+        EXPECT_EQ(own.status, 0);
+        EXPECT_NE(own.out.find("Examples:\n  "), std::string::npos) << command;
+    }
+    EXPECT_TRUE(run("--version").out.starts_with("rddl "));
+}
+
+struct Misuse {
+    const char* arguments;
+    const char* message;
+};
+class MisusedProgram : public Program, public testing::WithParamInterface<Misuse> {};
+
+TEST_P(MisusedProgram, SaysWhatIsWrong) {
+    const Outcome outcome = run(GetParam().arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with(std::string("rddl: error: ") + GetParam().message))
+        << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, MisusedProgram,
+    testing::Values(Misuse{"", "name a command"},
+                    Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
+                    Misuse{"run", "DOMAIN is required"},
+                    Misuse{"run domain.rddl instance.rddl --episode=3",
+                           "unknown option '--episode'; did you mean '--episodes'?"},
+                    Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
+                    Misuse{"run domain.rddl instance.rddl --episodes 0", "--episodes: "},
+                    Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: "},
+                    Misuse{"run domain.rddl instance.rddl --engine fast", "--engine: "},
+                    Misuse{"check", "name a problem, or say --all"},
+                    Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+
+// ----------------------------------------------------------------------------- finding problems
+
+TEST_F(Program, TellsHowToInstallTheRepository) {
+    for (const char* arguments : {"list", "run SysAdmin_MDP_ippc2011 1", "check --all"}) {
+        const Outcome outcome = run(arguments, "PATH=/nonexistent");
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.err.find("pip install rddlrepository"), std::string::npos) << outcome.err;
+    }
+}
+
+class Repository : public Program {
+  protected:
+    Repository() {
+        const auto problem = folder_ / "repository/archive/water/Tanks";
+        write_file(problem / "domain.rddl", tanks_domain);
+        write_file(problem / "instance0.rddl", tanks_instance);
+        write_file(problem / "instance1.rddl", "instance broken {");
+        write_file(problem / "__init__.py",
+                   "info = {'name': 'Tanks', 'context': 'water', "
+                   "'description': 'Tanks that leak.'}");
+    }
+    Outcome run_there(const std::string& arguments) const {
+        return run(arguments, "RDDL_REPOSITORY=repository");
+    }
+};
+
+TEST_F(Repository, IsListed) {
+    const Outcome outcome = run_there("list");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.out.find("Tanks_water  0-1        stochastic MDP  mixed    Tanks that leak."),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("1 problems, 2 instances"), std::string::npos);
+
+    const json listed = json::parse(run_there("list leak --json").out);
+    ASSERT_EQ(listed.size(), 1u);
+    EXPECT_EQ(listed[0]["instances"], (json{"0", "1"}));
+    EXPECT_EQ(listed[0]["stochastic"], true);
+    EXPECT_EQ(run_there("list nothing-like-this").status, 1);
+}
+
+TEST_F(Repository, IsRunByName) {
+    EXPECT_EQ(run_there("run Tanks_water 0 --engine interpreter").status, 0);
+    const Outcome misspelt = run_there("run Tank_water 0");
+    EXPECT_EQ(misspelt.status, 1);
+    EXPECT_NE(misspelt.err.find("did you mean 'Tanks_water'?"), std::string::npos) << misspelt.err;
+}
+
+TEST_F(Repository, IsCheckedAsAWhole) {
+    for (const char* arguments : {"check --all", "check Tanks_water"}) {
+        const Outcome outcome = run_there(arguments);
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.out.find("1 of 2 instances without errors, 1 error"), std::string::npos)
+            << outcome.out;
+        EXPECT_NE(outcome.err.find("instance1.rddl:1:"), std::string::npos) << outcome.err;
+    }
+}
+
+// -------------------------------------------------------------------------------- info and check
+
+TEST_F(Program, DescribesAProblem) {
+    const Outcome outcome = run("info domain.rddl instance.rddl");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* part :
+         {"tanks_1 (instance.rddl)", "12 steps", "at most 2 of 5 may differ from the default",
+          "stochastic: water', reward", "Exponential, Normal", "mixed, concurrent",
+          "3 action-preconditions", "tank     object            3  t1, t2, t3", "[-2, 1]"})
+        EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
+}
+
+TEST_F(Program, DescribesAProblemAsJson) {
+    const json info = run_json("info domain.rddl instance.rddl --json");
+    EXPECT_EQ(info["domain"], "tanks");
+    EXPECT_EQ(info["horizon"], 12);
+    EXPECT_EQ(info["max_nondef_actions"], 2);
+    EXPECT_EQ(info["characteristics"]["random_cpfs"], (json{"water'"}));
+    EXPECT_EQ(info["sizes"]["state"]["values"], 5);
+    EXPECT_EQ(info["sizes"]["state"]["bytes"], 40);
+    const json& water = info["fluents"][1];
+    EXPECT_EQ(water["name"], "water");
+    EXPECT_EQ(water["parameters"], (json{"tank"}));
+    EXPECT_EQ(water["shape"], (json{3}));
+    EXPECT_EQ(water["default"], 5.0);
+    EXPECT_EQ(water["source"]["line"], 5);
+    const json& extra = info["fluents"][6];
+    EXPECT_EQ(extra["lower"], (json{-2.0}));
+    EXPECT_EQ(extra["upper"], (json{1.0}));
+    EXPECT_EQ(info["fluents"][5]["default"], "low");
+    EXPECT_EQ(info["terminations"][0]["text"], "exists_{?t : tank} [water(?t) < 0.0]");
+}
+
+TEST_F(Program, ChecksAProblem) {
+    const Outcome good = run("check domain.rddl instance.rddl");
+    EXPECT_EQ(good.status, 0) << good.err;
+    EXPECT_EQ(good.out, "domain.rddl instance.rddl: no errors, 1 warning\n");
+    EXPECT_NE(good.err.find("domain.rddl:7:9: warning: "), std::string::npos) << good.err;
+
+    write_file(folder_ / "bad.rddl",
+               "domain d { pvariables { x : { state-fluent, int, default = 0 }; };\n"
+               "  cpfs { x' = y + 1; }; reward = x; }");
+    const Outcome bad = run("check bad.rddl instance.rddl");
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_EQ(bad.out, "");
+    EXPECT_NE(bad.err.find("bad.rddl:2:15: error: "), std::string::npos) << bad.err;
+
+    const Outcome missing = run("check none.rddl instance.rddl");
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.err.find("cannot read 'none.rddl': No such file"), std::string::npos);
+}
+
+TEST_F(Program, TakesBothBlocksFromOneFile) {
+    write_file(folder_ / "both.rddl", std::string(tanks_domain) + tanks_instance);
+    EXPECT_EQ(run("check both.rddl").status, 0);
+    EXPECT_EQ(run(std::string("run both.rddl") + interpreted).status, 0);
+}
+
+// ------------------------------------------------------------------------------------------ run
+
+json without_speed(json summary) {
+    for (const char* member : {"seconds", "steps_per_second", "threads", "engine"})
+        summary.erase(member);
+    return summary;
+}
+
+TEST_F(Program, RunsReproducibly) {
+    const std::string run_it = "run domain.rddl instance.rddl --episodes 60 --json";
+    const json summary = without_speed(run_json(run_it));
+    EXPECT_EQ(summary["episodes"], 60);
+    EXPECT_EQ(summary["faulted"], 0) << summary["first_fault"];
+    EXPECT_GT(summary["terminated"], 0);
+    EXPECT_GT(summary["return"]["std"], 0);
+    for (const char* other :
+         {" --threads 1 --batch 1", " --threads 3 --batch 7", interpreted, " --quiet"})
+        EXPECT_EQ(without_speed(run_json(run_it + other)), summary) << other;
+    EXPECT_NE(without_speed(run_json(run_it + " --seed 4")), summary);
+    EXPECT_NE(without_speed(run_json(run_it + " --policy noop")), summary);
+}
+
+TEST_F(Program, SummarisesForPeople) {
+    const Outcome outcome =
+        run(std::string("run domain.rddl instance.rddl --episodes 20 --horizon 2") + interpreted);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "") << "no progress in a pipe";
+    for (const char* part : {"tanks_1 (tanks): policy random, seed 0, interpreter", "mean",
+                             "discounted return", "20 episodes: ", " at the horizon", "steps/s"})
+        EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
+    EXPECT_EQ(run(std::string("run domain.rddl instance.rddl --quiet") + interpreted).out, "");
+}
+
+TEST_F(Program, CountsFaults) {
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("extra >= -2.0"), 13, "extra >= -9.0");
+    write_file(folder_ / "domain.rddl", domain);
+    const json summary =
+        run_json(std::string("run domain.rddl instance.rddl --episodes 50 --json") + interpreted);
+    EXPECT_GT(summary["faulted"], 0);
+    const auto message = summary["first_fault"].get<std::string>();
+    EXPECT_NE(message.find("domain.rddl:17:44: Normal's variance must not be negative, found -"),
+              std::string::npos)
+        << message;
+}
+
+TEST_F(Program, RefusesEndlessEpisodes) {
+    write_file(folder_ / "endless.rddl",
+               "domain d { pvariables { x : { state-fluent, int, default = 0 }; };\n"
+               "  cpfs { x' = x + 1; }; reward = x; }\n"
+               "non-fluents n { domain = d; }\n"
+               "instance i { domain = d; non-fluents = n; horizon = 0; discount = 1.0; }");
+    const Outcome outcome = run(std::string("run endless.rddl") + interpreted);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("give one with --horizon"), std::string::npos) << outcome.err;
+    EXPECT_EQ(run(std::string("run endless.rddl --horizon 3") + interpreted).status, 0);
+}
+
+TEST_F(Program, EndsCleanlyWhenInterrupted) {
+    const Outcome outcome =
+        run(std::string("run domain.rddl instance.rddl --episodes 50000000") + interpreted,
+            "timeout --signal INT --preserve-status 1");
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_NE(outcome.out.find(" episodes: "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.err.find("rddl: interrupted after "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Program, MeasuresSpeed) {
+    const json bench = run_json(
+        std::string(
+            "bench domain.rddl instance.rddl --seconds 0.02 --batch 16 --threads 3 --json") +
+        interpreted);
+    std::vector<int> threads;
+    for (const json& m : bench["measurements"]) {
+        threads.push_back(m["threads"]);
+        EXPECT_GT(m["steps_per_second"], 0);
+    }
+    EXPECT_EQ(threads, (std::vector<int>{1, 1, 2, 3}));
+    EXPECT_EQ(bench["measurements"][0]["environments"], 1);
+    EXPECT_EQ(bench["measurements"][1]["environments"], 16);
+}
+
+// ---------------------------------------------------------------------------------------- cache
+
+std::vector<std::filesystem::path> shared_objects(const std::filesystem::path& cache) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
+        if (entry.is_regular_file()) found.push_back(entry.path());
+    return found;
+}
+
+TEST_F(Program, CompilesOnceAndRepairsTheCache) {
+    const std::string run_it = "run domain.rddl instance.rddl --quiet";
+    ASSERT_EQ(run(run_it).status, 0);
+    const auto kept = shared_objects(cache());
+    ASSERT_EQ(kept.size(), 1u) << "and nothing else is left behind";
+    const auto written = std::filesystem::last_write_time(kept[0]);
+
+    // Kept: works without a compiler of this name being run on the text again.
+    ASSERT_EQ(run(run_it).status, 0);
+    EXPECT_EQ(std::filesystem::last_write_time(kept[0]), written);
+
+    // Cut off, as by a full disk.
+    std::filesystem::resize_file(kept[0], std::filesystem::file_size(kept[0]) / 2);
+    EXPECT_EQ(run(run_it).status, 0);
+    write_file(kept[0], "");
+    EXPECT_EQ(run(run_it).status, 0);
+    EXPECT_GT(std::filesystem::file_size(kept[0]), 1000u);
+
+    // Another text is another entry.
+    EXPECT_EQ(run("run domain.rddl instance.rddl --quiet --no-cache").status, 0);
+    EXPECT_EQ(shared_objects(cache()).size(), 1u);
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("2.0 else"), 3, "3.0");
+    write_file(folder_ / "domain.rddl", domain);
+    EXPECT_EQ(run(run_it).status, 0);
+    EXPECT_EQ(shared_objects(cache()).size(), 2u);
+}
+
+TEST_F(Program, NeedsNoCompilerToInterpret) {
+    const Outcome compiled = run("run domain.rddl instance.rddl", "CXX=/no/such/compiler");
+    EXPECT_EQ(compiled.status, 1);
+    EXPECT_NE(compiled.err.find("--engine=interpreter"), std::string::npos) << compiled.err;
+    const std::string interpret = std::string("run domain.rddl instance.rddl") + interpreted;
+    EXPECT_EQ(run(interpret, "CXX=/no/such/compiler").status, 0);
+}
+
+}  // namespace
+}  // namespace rddlc::cli

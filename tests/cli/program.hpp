@@ -1,0 +1,94 @@
+// The rddl program as a user runs it, in a folder of its own with a small problem and a cache.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace rddlc::cli {
+
+inline std::string read_file(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_file(const std::filesystem::path& path, std::string_view text) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+// Tanks that leak at random; a pump fills one of them.
+inline constexpr const char* tanks_domain = R"(domain tanks {
+    types { tank : object; setting : { @low, @high }; };
+    pvariables {
+        LEAK(tank) : { non-fluent, real, default = 0.5 };
+        water(tank) : { state-fluent, real, default = 5.0 };
+        pumped : { state-fluent, int, default = 0 };
+        last : { state-fluent, setting, default = @low };
+        pump(tank) : { action-fluent, bool, default = false };
+        power : { action-fluent, setting, default = @low };
+        extra : { action-fluent, real, default = 0.0 };
+    };
+    cpfs {
+        water'(?t) = water(?t) - Exponential(LEAK(?t)) + (if (pump(?t)) then 2.0 else 0.0);
+        pumped' = pumped + (sum_{?t : tank} pump(?t));
+        last' = power;
+    };
+    reward = (sum_{?t : tank} water(?t)) + Normal(0.0, 2.0 + extra);
+    termination { exists_{?t : tank} [water(?t) < 0.0]; };
+    action-preconditions { forall_{?t : tank} [pump(?t) => water(?t) <= 8.0]; extra <= 1.0; extra >= -2.0; };
+}
+)";
+inline constexpr const char* tanks_instance = R"(
+non-fluents more { domain = tanks; objects { tank : { t1, t2, t3 }; }; non-fluents { LEAK(t2) = 0.25; }; }
+instance tanks_1 { domain = tanks; non-fluents = more; max-nondef-actions = 2; horizon = 12; discount = 0.9; }
+)";
+
+struct Outcome {
+    int status = -1;
+    std::string out, err;
+};
+
+class Program : public testing::Test {
+  protected:
+    Program() {
+        const auto* const info = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  fmt::format("rddl-{}-{}", info->test_suite_name(), info->name());
+        std::filesystem::remove_all(folder_);
+        write_file(folder_ / "domain.rddl", tanks_domain);
+        write_file(folder_ / "instance.rddl", tanks_instance);
+    }
+    ~Program() override { std::filesystem::remove_all(folder_); }
+
+    // The command line behind `environment` (such as "CXX=x "), as the shell reads it.
+    std::string command(const std::string& arguments, const std::string& environment = "") const {
+        return fmt::format(
+            "cd '{0}' && env -u VIRTUAL_ENV -u RDDL_REPOSITORY XDG_CACHE_HOME='{1}' {2} '{3}' {4}",
+            folder_.string(), cache().string(), environment, RDDL_PROGRAM, arguments);
+    }
+    Outcome run(const std::string& arguments, const std::string& environment = "") const {
+        const std::filesystem::path out = folder_ / "stdout", err = folder_ / "stderr";
+        const std::string all = fmt::format("{} >'{}' 2>'{}'", command(arguments, environment),
+                                            out.string(), err.string());
+        const int status = std::system(all.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+    }
+    nlohmann::json run_json(const std::string& arguments) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    }
+    std::filesystem::path cache() const { return folder_ / "cache"; }
+
+    std::filesystem::path folder_;
+};
+
+}  // namespace rddlc::cli
