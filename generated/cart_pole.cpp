@@ -1,9 +1,9 @@
-// A simulator of the RDDL problem cart_pole, instance cart_pole_1.
+// A simulator, made by rddlc 0.1.0. Do not edit it: change its sources and compile them again.
 //
-// Made by rddlc 0.1.0 from
-//     examples/cart_pole/domain.rddl
-//     examples/cart_pole/instance.rddl
-// Do not edit it: change those and compile them again.
+//     problem   cart_pole
+//     instance  cart_pole_1
+//     sources   examples/cart_pole/domain.rddl
+//               examples/cart_pole/instance.rddl
 //
 // Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
 // the extern "C" function

@@ -164,8 +164,11 @@ class Describer {
         const std::string type = "std::array<double, " + std::to_string(values.size()) + ">";
         const std::vector<ir::Value> entries(values.begin(), values.end());
         if (entries.size() > 1 && are_equal(entries)) {
-            add("inline constexpr auto " + name + " = rddl::repeated<" +
-                std::to_string(values.size()) + ">(" + literal(entries.front()) + ");\n");
+            const std::string head = "inline constexpr auto " + name + " =";
+            const std::string value = "rddl::repeated<" + std::to_string(values.size()) + ">(" +
+                                      literal(entries.front()) + ");\n";
+            const bool fits = head.size() + value.size() <= line_width;
+            add(head + (fits ? " " : "\n    ") + value);
         } else {
             const auto count = static_cast<std::int64_t>(values.size());
             add(table("inline constexpr " + type + " " + name, std::span(&count, 1), entries));

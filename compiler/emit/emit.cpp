@@ -16,14 +16,15 @@ using cpp::Unit;
 
 std::string about_file(const Unit& unit) {
     const ir::Program& program = unit.program;
-    std::string text = "// A simulator of the RDDL problem " +
-                       cpp::comment_text(program.domain_name) + ", instance " +
-                       cpp::comment_text(program.instance_name) + ".\n//\n";
-    text += "// Made by rddlc " + unit.options.compiler_version + " from\n";
+    std::string text = "// A simulator, made by rddlc " + unit.options.compiler_version +
+                       ". Do not edit it: change its sources and compile them again.\n//\n";
+    text += "//     problem   " + cpp::comment_text(program.domain_name) + "\n";
+    text += "//     instance  " + cpp::comment_text(program.instance_name) + "\n";
     for (FileId file = 0; file < unit.sources.size(); ++file) {
-        text += "//     " + cpp::comment_text(unit.sources[file].path()) + "\n";
+        text += file == 0 ? "//     sources   " : "//               ";
+        text += cpp::comment_text(unit.sources[file].path()) + "\n";
     }
-    return text + "// Do not edit it: change those and compile them again.\n";
+    return text;
 }
 
 // Sections that turned out empty leave runs of blank lines.
@@ -39,10 +40,10 @@ std::string without_double_blanks(const std::string& text) {
 std::string simulator(const Unit& unit) {
     const cpp::StepFunctions step = cpp::step_functions(unit);
     return fill_slots(cpp::templates::simulator,
-                      {{"space", unit.names.space},
-                       {"objects", cpp::objects(unit)},
+                      {{"objects", cpp::objects(unit)},
                        {"tables", cpp::tables(unit)},
                        {"records", cpp::records(unit)},
+                       {"aliases", cpp::record_aliases(unit)},
                        {"partially_observed", unit.program.partially_observed() ? "true" : "false"},
                        {"reset", cpp::reset_function(unit)},
                        {"step", step.step},

@@ -148,9 +148,7 @@ void FunctionBody::prepare_branch(const ir::Select& select) {
 }
 
 void FunctionBody::prepare_discrete(const ir::Discrete& discrete) {
-    for (ir::NodeId weight : discrete.weights) {
-        if (!fits(expressions_.text(weight).size() + 1, 1)) name_value(weight);
-    }
+    for (ir::NodeId weight : discrete.weights) prepare("weights_99[999] = ", weight);
 }
 
 // Gives names to the parts of `id` that are blocks, from the outside in.
@@ -241,7 +239,7 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     const std::string lambda = expressions_.lambda_head(*ir::bound_variable(node), body);
     const std::string whole =
         is_block(body) ? "" : lambda + " { return " + expressions_.result(body) + "; });";
-    const bool has_whole = !whole.empty();
+    const bool has_whole = !whole.empty() && fits(whole.size(), 1);
     const std::string opening = function + arguments + " " + lambda + " {";
     if (has_whole && fits(function.size() + whole.size())) {
         line(function + arguments);
@@ -263,7 +261,7 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     } else {
         line(function);
         ++level_;
-        if (has_whole && fits(whole.size())) {
+        if (has_whole) {
             line(arguments);
             line(whole);
         } else {
@@ -318,14 +316,15 @@ void FunctionBody::add_lambda(std::string& current, ir::NodeId body, const std::
     current = "}" + tail;
 }
 
+// Too many weights for one line are set one by one.
 void FunctionBody::write_discrete(const std::string& lead, const ir::Discrete& discrete) {
     const std::string name = expressions_.claim("weights");
-    line("const std::array<" + expressions_.type(ir::Scalar::Real) + ", " +
-         std::to_string(discrete.weights.size()) + "> " + name + " = {");
-    ++level_;
-    for (ir::NodeId weight : discrete.weights) line(expressions_.text(weight) + ",");
-    --level_;
-    line("};");
+    line("std::array<" + expressions_.type(ir::Scalar::Real) + ", " +
+         std::to_string(discrete.weights.size()) + "> " + name + ";");
+    for (std::size_t k = 0; k < discrete.weights.size(); ++k) {
+        const std::string element = name + "[" + std::to_string(k) + "] = ";
+        write(element, discrete.weights[k]);
+    }
     line(lead + expressions_.discrete_call(discrete, name) + ";");
 }
 
@@ -346,7 +345,14 @@ bool FunctionBody::fits(std::size_t length, int levels_deeper) const {
 bool FunctionBody::fits_as_chain(const std::string& lead, ir::NodeId id) {
     const std::vector<ir::NodeId> parts = chain_parts(id);
     if (parts.size() < 2) return false;
-    const std::size_t column = lead.ends_with("= ") ? indentation : lead.size();
+    const bool assigns = lead.ends_with("= ");
+    // Of two operands, clang-format likes to break the second inside.
+    if (assigns && parts.size() == 2 &&
+        !fits(lead.size() + std::max(expressions_.text(parts[0]).size() + 2,
+                                     expressions_.text(parts[1]).size() + 1))) {
+        return false;
+    }
+    const std::size_t column = assigns ? indentation : lead.size();
     const std::string_view operator_and_brackets = "() &&";
     return std::ranges::all_of(parts, [&](ir::NodeId part) {
         const std::string text = expressions_.text(part);

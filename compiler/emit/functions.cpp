@@ -207,6 +207,19 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
     return text;
 }
 
+std::string record_aliases(const Unit& unit) {
+    std::string text;
+    for (const std::string record : {"State", "Action", "Scratch", "Observation"}) {
+        const std::string head = "using " + record + " =";
+        const std::string target = unit.names.space + "::" + record + "<L>;";
+        const bool fits = level * indentation + head.size() + 1 + target.size() <= line_width;
+        text += indented("template <class L>", level);
+        text += fits ? indented(head + " " + target, level)
+                     : indented(head, level) + indented(target, level + 1);
+    }
+    return text;
+}
+
 std::string reset_function(const Unit& unit) {
     const std::string body = assignments(unit, ir::Storage::State, "state", level + 1);
     return function("void", "reset", {record_parameter("State", "state", !body.empty(), true)},

@@ -7,6 +7,9 @@
 
 namespace rddlc::cpp {
 
+// The records by the names that the runtime looks for.
+std::string record_aliases(const Unit& unit);
+
 std::string reset_function(const Unit& unit);
 std::string reward_function(const Unit& unit);
 // Terminations, invariants and preconditions: their numbers, a switch, and a function for each.

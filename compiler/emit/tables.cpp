@@ -96,14 +96,25 @@ class TableWriter {
     std::span<const ir::Value> values_;
 };
 
+// Where there is no room for both, the name has a line of its own.
+std::string member(const std::string& type, const std::string& name) {
+    const std::string line = "    " + type + " " + name + ";";
+    if (line.size() <= line_width) return line;
+    const std::string first = "    " + type;
+    if (first.size() <= line_width) return first + "\n        " + name + ";";
+    const std::size_t extent = first.rfind(", ") + 1;
+    const std::string aligned(std::string_view("    std::array<").size(), ' ');
+    return first.substr(0, extent) + "\n" + aligned + first.substr(extent + 1) + "\n        " +
+           name + ";";
+}
+
 std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
     std::vector<CommentedLine> members;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage) continue;
         const std::string type = array_type(unit, buffer, lane_type(buffer.scalar));
-        members.push_back(
-            {"    " + type + " " + unit.names.buffers[index] + ";", unit.where(buffer.span)});
+        members.push_back({member(type, unit.names.buffers[index]), unit.where(buffer.span)});
     }
     const std::string head = "template <class L>\nstruct " + name + " {";
     return head + (members.empty() ? "" : "\n" + with_comments(members)) + "};\n";
@@ -216,7 +227,8 @@ std::string table(const std::string& declaration, std::span<const std::int64_t> 
     const bool too_wide = declaration.size() + std::string_view(" = {{").size() > line_width;
     const std::size_t name = declaration.rfind(' ');
     const std::string lead =
-        (too_wide ? declaration.substr(0, name) + "\n   " + declaration.substr(name) : declaration) +
+        (too_wide ? declaration.substr(0, name) + "\n   " + declaration.substr(name)
+                  : declaration) +
         " = ";
     const bool zero = std::ranges::all_of(values, is_zero);
     if (zero && !shape.empty()) return lead + "{};\n";
