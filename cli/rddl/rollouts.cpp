@@ -151,6 +151,12 @@ class EpisodeBatch {
     std::vector<std::byte> actions_;
 };
 
+// For the progress bar: how many steps an episode has at most; 0: nobody knows, or too many.
+std::int64_t steps_per_episode(const rddl_simulator& simulator, const RolloutOptions& options) {
+    const std::int64_t horizon = options.horizon < 0 ? simulator.problem->horizon : options.horizon;
+    return horizon <= 1'000'000'000 ? horizon : 0;
+}
+
 // All threads' share of the work.
 class Rollout {
   public:
@@ -159,7 +165,9 @@ class Rollout {
         : simulator_(simulator),
           options_(options),
           trace_(trace),
-          progress_("running", options.episodes, progress),
+          steps_per_episode_(steps_per_episode(simulator, options)),
+          progress_("running", options.episodes * std::max<std::int64_t>(steps_per_episode_, 1),
+                    progress),
           trace_format_(trace ? std::optional<TraceFormat>(*simulator.problem) : std::nullopt),
           episodes_(static_cast<std::size_t>(options.episodes)) {}
 
@@ -198,14 +206,17 @@ class Rollout {
         EpisodeBatch batch(simulator_, options_, first, count);
         std::optional<TraceLines> lines;
         if (trace_format_) lines.emplace(simulator_, *trace_format_, count);
-        while (batch.running() && !is_interrupted()) {
+        std::int64_t steps = 0;
+        for (; batch.running() && !is_interrupted(); ++steps) {
             if (options_.policy == Policy::Random) batch.choose_actions(policy);
             lines ? batch.step(*lines) : batch.step();
+            if (steps_per_episode_ > 0) progress_.advance(count);
         }
         if (lines) write_trace(number, *lines);
         std::copy(batch.episodes().begin(), batch.episodes().end(), episodes_.begin() + first);
         note_fault(batch.first_fault());
-        progress_.advance(count);
+        // What episodes that ended early have saved; all of it if there is no horizon.
+        progress_.advance(steps_per_episode_ > 0 ? count * (steps_per_episode_ - steps) : count);
     }
 
     void note_fault(std::optional<EpisodeFault> fault) {
@@ -224,6 +235,7 @@ class Rollout {
     const rddl_simulator& simulator_;
     const RolloutOptions& options_;
     const TraceSink& trace_;
+    std::int64_t steps_per_episode_;  // at most; 0: nobody knows
     Progress progress_;
     std::optional<TraceFormat> trace_format_;
     std::vector<Episode> episodes_;
