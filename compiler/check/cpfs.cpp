@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace rddlc::checking {
@@ -58,7 +59,8 @@ class CpfChecker {
         for (model::FluentId id = 0; id < context_.model.fluents.size(); ++id) {
             const model::Fluent& fluent = context_.fluent(id);
             const bool broken = context_.names.broken_fluents.contains(id);
-            if (broken || !needs_cpf(fluent.role) || defined_.contains(id)) continue;
+            if (broken || !needs_cpf(fluent.role)) continue;
+            if (defined_.contains(id) || meant_.contains(id)) continue;
             const std::string name = checking::written_name(fluent, fluent.role == Role::State);
             context_.report(
                 diagnose(missing_cpf, fluent.span,
@@ -71,10 +73,11 @@ class CpfChecker {
 
   private:
     void report_undeclared(const ast::Cpf& cpf) {
-        context_.report(
-            diagnose(undeclared_cpf, cpf.name.span,
-                     fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
-                .with_hint(suggestion(context_, cpf.name.text, keys(context_.names.fluents))));
+        const auto meant = did_you_mean(cpf.name.text, keys(context_.names.fluents));
+        if (meant) meant_.insert(context_.names.fluents.at(*meant));
+        context_.report(diagnose(undeclared_cpf, cpf.name.span,
+                                 fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
+                            .with_hint(meant ? fmt::format("did you mean '{}'?", *meant) : ""));
     }
 
     // Whether a CPF may be written like this for this fluent.
@@ -159,6 +162,7 @@ class CpfChecker {
 
     Context& context_;
     std::unordered_map<model::FluentId, Span> defined_;  // where
+    std::unordered_set<model::FluentId> meant_;          // by misspelled names
     std::vector<CpfUses> uses_;
 };
 

@@ -67,6 +67,9 @@ std::optional<model::Value> cast_or_report(T value, std::string_view type, Span 
 std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                                          const model::Fluent& fluent, Code code, Context& context) {
     const Object* object = find(context.names.objects, symbol.name);
+    if (!object && fluent.range.kind == Kind::Object &&
+        context.names.broken_types.contains(fluent.range.type))
+        return std::nullopt;
     if (object && fluent.range == model::ValueType{Kind::Object, object->type})
         return model::Value{object->index};
     const std::string found =

@@ -46,7 +46,13 @@ std::string value_summary(const Model& model, const Fluent& fluent) {
     for (std::size_t i = 0; i < std::min(values.size(), values_shown); ++i)
         words.push_back(text_of(model, fluent.range, values[i]));
     words.resize(values.size());
-    return fmt::format(" = [{}]", shortened(words));
+    std::string text = shortened(words);
+    if (values.size() > values_shown && fluent.default_value)
+        text += fmt::format(", {} not the default",
+                            std::ranges::count_if(values, [&](const Value& value) {
+                                return value != *fluent.default_value;
+                            }));
+    return fmt::format(" = [{}]", text);
 }
 
 std::string fluent_line(const Model& model, const Fluent& fluent) {

@@ -180,8 +180,12 @@ TEST(Messages, DoNotCascade) {
               "type 'nothing' is not declared");
     EXPECT_EQ(report("NEXT(t) : { non-fluent, t }; ==> NEXT(t) : { non-fluent, things };"),
               "type 'things' is not declared");
-    EXPECT_EQ(report("t : {o1, o2, o3}; ==>").substr(0, 40),
-              "type 't' has no objects in the instance\n");
+    EXPECT_EQ(report("t : {o1, o2, o3}; ==>"),
+              "type 't' has no objects in the instance\n"
+              "hint: add 't : { ... };' to its 'objects'");
+    EXPECT_EQ(report("bt'(?x) = bt(?x); ==> btt'(?x) = bt(?x);"),
+              "'btt' is not declared in 'pvariables'\n"
+              "hint: did you mean 'bt'?");
 }
 
 TEST(Messages, AllErrorsAreReportedAtOnce) {
