@@ -16,7 +16,7 @@ struct EmitOptions {
     bool line_directives = false;
     // The name under which the text will be stored, for what comes after the last #line.
     std::string output_name = "simulator.cpp";
-    std::string compiler_version;  // of rddlc
+    std::string compiler_version = "";  // of rddlc
 };
 
 // The whole text, formatted. `program` must be verified.

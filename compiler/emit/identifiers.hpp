@@ -11,7 +11,7 @@
 namespace rddlc::cpp {
 
 // Keywords of C++20, macros of the C and C++ standard libraries and of POSIX, and the names that
-// emitted code uses for something else wherever it stands ("std", "rddl", "L").
+// emitted code uses for something else wherever it stands ("std", "rddl", "rddl_type", "L").
 bool is_reserved(std::string_view name);
 
 // An RDDL name as a C++ identifier: '-' becomes '_', a run of '_' becomes one (C++ reserves "__"),

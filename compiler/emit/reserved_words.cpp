@@ -225,7 +225,8 @@ static_assert(std::ranges::is_sorted(keywords) && std::ranges::is_sorted(macros)
 
 bool is_reserved(std::string_view name) {
     return std::ranges::binary_search(keywords, name) || std::ranges::binary_search(macros, name) ||
-           std::ranges::find(ours, name) != ours.end();
+           std::ranges::find(ours, name) != ours.end() || name.starts_with("rddl_") ||
+           name.starts_with("RDDL_");
 }
 
 }  // namespace rddlc::cpp

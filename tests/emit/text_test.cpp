@@ -1,0 +1,151 @@
+// Properties of whole emitted files. What they look like is shown by tests/cases and generated/.
+#include "check/check.hpp"
+#include "emit/emit.hpp"
+#include "ground/ground.hpp"
+#include "parse/parse.hpp"
+#include "passes/passes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace rddlc {
+namespace {
+
+std::string emitted(const std::string& text, const EmitOptions& options = {}) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const FileId file = sources.add("problem.rddl", text);
+    const ast::Program tree = parse(sources, std::array{file}, diagnostics);
+    const auto model = check(tree, sources, diagnostics);
+    if (!model) throw std::logic_error(diagnostics.all().front().message);
+    return emit(optimise(ground(*model, diagnostics).value()), sources, options);
+}
+
+// A problem over `count` objects whose non-fluent W has a different value for each.
+std::string problem(int count) {
+    std::string objects, values;
+    for (int i = 0; i < count; ++i) {
+        objects += (i > 0 ? ", o" : "o") + std::to_string(i);
+        values += "W(o" + std::to_string(i) + ") = " + std::to_string(i) + ".5; ";
+    }
+    return "domain d { types { o : object; }; pvariables {\n"
+           "W(o) : { non-fluent, real, default = 0.0 };\n"
+           "on(o) : { state-fluent, bool, default = false };\n"
+           "a(o) : { action-fluent, bool, default = false };\n"
+           "}; cpfs {\n"
+           "on'(?o) = on(?o) ^ Bernoulli(0.5) | a(?o);\n"
+           "}; reward = sum_{?o : o} [W(?o) * on(?o)]; }\n"
+           "non-fluents n { domain = d; objects { o : {" +
+           objects + "}; }; non-fluents { " + values +
+           "}; }\n"
+           "instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }\n";
+}
+
+std::size_t widest_line(const std::string& text) {
+    std::istringstream stream(text);
+    std::size_t width = 0;
+    for (std::string line; std::getline(stream, line);) width = std::max(width, line.size());
+    return width;
+}
+
+// From "struct Simulator" to its end.
+std::string functions(const std::string& text) {
+    const std::size_t begin = text.find("struct Simulator");
+    return text.substr(begin, text.find("\n};\n", begin) - begin);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t result = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++result;
+    return result;
+}
+
+TEST(EmittedText, IsTheSameEveryTime) {
+    EXPECT_EQ(emitted(problem(5)), emitted(problem(5)));
+}
+
+TEST(EmittedText, HasFunctionsThatDoNotGrowWithTheObjects) {
+    const std::string few = functions(emitted(problem(200)));
+    const std::string many = functions(emitted(problem(20'000)));
+    EXPECT_EQ(few, many) << "counts and tables stand before the functions";
+}
+
+TEST(EmittedText, WrapsLargeTables) {
+    const std::string text = emitted(problem(100'000));
+    EXPECT_LE(widest_line(text), 100u);
+    EXPECT_NE(text.find("99999.5\n};"), std::string::npos);
+}
+
+TEST(EmittedText, IncludesNothingButTheRuntimeAndTheStandardLibrary) {
+    std::istringstream stream(emitted(problem(3)));
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with("#include")) continue;
+        const bool standard =
+            line.find('/') == std::string::npos && line.find(".h") == std::string::npos;
+        EXPECT_TRUE(line == "#include <rddl/simulator.hpp>" || standard) << line;
+    }
+}
+
+TEST(EmittedText, ExportsOneFunctionFromASource) {
+    const std::string text = emitted(problem(3));
+    EXPECT_EQ(count(text, "extern \"C\" const rddl_simulator* RDDL_ENTRY(void)"), 1u);
+    EXPECT_EQ(count(text, "#define RDDL_ENTRY rddl_simulator_d_i"), 1u);
+    EXPECT_EQ(count(text, "#pragma once"), 0u);
+}
+
+TEST(EmittedText, ExportsNothingFromAHeader) {
+    const std::string text = emitted(problem(3), {.header = true});
+    EXPECT_EQ(count(text, "extern \"C\""), 0u);
+    EXPECT_EQ(count(text, "#pragma once"), 1u);
+    EXPECT_EQ(count(text, "namespace {"), 0u) << "a header has no unnamed namespace";
+}
+
+TEST(EmittedText, HasLineDirectivesOnRequest) {
+    EXPECT_EQ(count(emitted(problem(3)), "#line"), 0u);
+    const std::string text =
+        emitted(problem(3), {.line_directives = true, .output_name = "sim.cpp"});
+    EXPECT_GT(count(text, "#line 6 \"problem.rddl\"\n            next.on[o]"), 0u) << text;
+    // After each function, the text is itself again.
+    std::istringstream stream(text);
+    int number = 1;
+    for (std::string line; std::getline(stream, line); ++number) {
+        if (!line.ends_with("\"sim.cpp\"")) continue;
+        EXPECT_EQ(line, "#line " + std::to_string(number + 1) + " \"sim.cpp\"");
+    }
+}
+
+TEST(EmittedText, CannotBeBrokenByNamesOfFiles) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const FileId file = sources.add("a\n#error \"\\", problem(2));
+    const ast::Program tree = parse(sources, std::array{file}, diagnostics);
+    const auto model = check(tree, sources, diagnostics);
+    const std::string text = emit(optimise(ground(*model, diagnostics).value()), sources, {});
+    EXPECT_EQ(count(text, "\n#error"), 0u);
+    EXPECT_EQ(count(text, "\\\n"), 0u) << "no line goes on in the next";
+}
+
+// Sums of hundreds of terms, and brackets in brackets: neither recursion nor time gets out of hand.
+TEST(EmittedText, ManagesLongAndDeepExpressions) {
+    std::string sum = "on(o0)", nested = "on(o0)";
+    for (int i = 1; i < 450; ++i) sum += " + on(o0) * " + std::to_string(i);
+    for (int i = 1; i < 100; ++i) {
+        nested = "(if (" + nested + ") then Bernoulli(0.5) else on(o0))";
+    }
+    std::string text = problem(2);
+    text.replace(text.find("sum_"), 4, sum + " + sum_");
+    text.replace(text.find("on(?o) ^ B"), 6, nested);
+    // Objects cannot be named in a domain: index by a fluent instead.
+    for (std::size_t at; (at = text.find("on(o0)")) != std::string::npos;) {
+        text.replace(at, 6, "up");
+    }
+    text.replace(text.find("a(o) :"), 0, "up : { state-fluent, bool, default = true };\n");
+    text.replace(text.find("on'(?o)"), 0, "up' = ~up;\n");
+    const std::string result = emitted(text);
+    EXPECT_LT(result.size(), 1'000'000u);
+}
+
+}  // namespace
+}  // namespace rddlc
