@@ -65,6 +65,7 @@ void declare(CLI::App& program, Arguments& arguments) {
         .add_option("--print", arguments.print,
                     "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->type_name("FORM");
     program
         .add_option("--stop-after", arguments.stop_after,
@@ -81,6 +82,7 @@ void declare(CLI::App& program, Arguments& arguments) {
         .add_option("-W", arguments.warnings,
                     "-Wno-W0210: silence a warning; -Werror=W0210: make it an error; -Werror: "
                     "make all of them errors")
+        ->allow_extra_args(false)
         ->type_name("...");
     program.add_flag("-w", arguments.no_warnings, "silence all warnings");
     program.add_option("--diagnostics-format", arguments.format, "text or json")
@@ -113,6 +115,14 @@ std::vector<std::string> with_compiler_spelling(int argc, char** argv) {
         }
     }
     return words;
+}
+
+std::string with_compiler_spelling(std::string help) {
+    for (const char* option : {"-MD", "-MF"}) {
+        const std::string doubled = std::string("-") + option;
+        for (std::size_t at; (at = help.find(doubled)) != std::string::npos;) help.erase(at, 1);
+    }
+    return help;
 }
 
 Code warning_named(const std::string& name) {
@@ -226,6 +236,10 @@ CommandLine parse_command_line(int argc, char** argv) {
         program.parse(words);
         return {options_of(arguments)};
     } catch (const CLI::ParseError& error) {
+        if (error.get_name() == "CallForHelp") {
+            fmt::print("{}", with_compiler_spelling(program.help()));
+            return {std::nullopt, success};
+        }
         if (error.get_exit_code() == 0) {
             program.exit(error);
             return {std::nullopt, success};

@@ -1,0 +1,103 @@
+#include "run_rddlc.hpp"
+
+namespace rddlc::testing {
+namespace {
+
+using CommandLine = RddlcTest;
+
+TEST_F(CommandLine, ShowsVersionAndHelp) {
+    EXPECT_EQ(rddlc({"--version"}).output.substr(0, 6), "rddlc ");
+    const Result help = rddlc({"--help"});
+    EXPECT_EQ(help.status, 0);
+    for (const char* option : {"--print", "--stop-after", "--check", "--explain", "-MD", "-Werror",
+                               "--diagnostics-format", "--color", "-o"}) {
+        EXPECT_NE(help.output.find(option), std::string::npos) << option;
+    }
+    EXPECT_EQ(help.output.find("--MD"), std::string::npos) << "spelled as compilers do";
+}
+
+TEST_F(CommandLine, TakesOptionsBeforeFiles) {
+    EXPECT_EQ(rddlc({"-Werror", "--print=ir", "-w", "domain.rddl", "instance.rddl"}).status, 0);
+    EXPECT_EQ(rddlc({"-MF", "deps.d", "-o", "sim.cpp", "domain.rddl", "instance.rddl"}).status, 0);
+    EXPECT_EQ(files().size(), 4u);
+}
+
+TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
+    const std::vector<std::vector<std::string>> wrong = {
+        {},
+        {"--nonsense"},
+        {"domain.rddl", "instance.rddl", "third.rddl"},
+        {"domain.rddl", "instance.rddl", "--print=nothing"},
+        {"domain.rddl", "instance.rddl", "--stop-after=never"},
+        {"domain.rddl", "instance.rddl", "--diagnostics-format=xml"},
+        {"domain.rddl", "instance.rddl", "--color=blue"},
+        {"domain.rddl", "instance.rddl", "-Wno-W9999"},
+        {"domain.rddl", "instance.rddl", "-Wno-E0101"},
+        {"domain.rddl", "instance.rddl", "-Wall"},
+        {"domain.rddl", "instance.rddl", "-MD"},
+        {"--explain", "E9999"},
+        {"--explain", "nonsense"},
+    };
+    for (const auto& arguments : wrong) {
+        const Result result = rddlc(arguments);
+        EXPECT_EQ(result.status, 2) << result.output;
+        EXPECT_EQ(result.output.substr(0, 13), "rddlc: error:") << result.output;
+        EXPECT_NE(result.output.find("--help"), std::string::npos);
+    }
+}
+
+TEST_F(CommandLine, PrintsEveryForm) {
+    const auto printed = [&](const std::string& form) {
+        const Result result = rddlc({"domain.rddl", "instance.rddl", "--print=" + form});
+        EXPECT_EQ(result.status, 0) << result.output;
+        return result.output;
+    };
+    EXPECT_NE(printed("ast").find("domain lamp {"), std::string::npos);
+    EXPECT_NE(printed("model").find("press"), std::string::npos);
+    EXPECT_EQ(printed("ir").substr(0, 8), "program ");
+    EXPECT_EQ(printed("ir-opt").substr(0, 8), "program ");
+    EXPECT_NE(printed("cpp").find("struct Simulator"), std::string::npos);
+    EXPECT_EQ(printed("ast,ir"), printed("ast") + printed("ir")) << "in the order of the stages";
+}
+
+TEST_F(CommandLine, WritesTheTextToStandardOutputWithoutAnOutput) {
+    const Result plain = rddlc({"domain.rddl", "instance.rddl"});
+    EXPECT_EQ(plain.status, 0);
+    EXPECT_EQ(plain.output, rddlc({"domain.rddl", "instance.rddl", "--print=cpp"}).output);
+}
+
+TEST_F(CommandLine, ReadsBothBlocksFromOneFile) {
+    write("problem.rddl", read("domain.rddl") + read("instance.rddl"));
+    EXPECT_EQ(rddlc({"problem.rddl", "--check"}).status, 0);
+}
+
+TEST_F(CommandLine, StopsWhereItIsTold) {
+    write("domain.rddl",
+          "domain lamp { pvariables { x : { state-fluent, real, default = 0 }; };\n"
+          "cpfs { x' = unknown; }; reward = 0.0; }");
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--stop-after=parse"}).status, 0);
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--stop-after=check"}).status, 1);
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--check"}).status, 1);
+}
+
+TEST_F(CommandLine, TellsWhereTheTimeGoes) {
+    const Result result = rddlc({"domain.rddl", "instance.rddl", "-v", "-o", "sim.cpp"});
+    for (const char* stage :
+         {"read", "parse", "check", "ground", "verify", "optimise", "emit", "write"}) {
+        EXPECT_NE(result.output.find(stage), std::string::npos) << stage;
+    }
+}
+
+TEST_F(CommandLine, RefusesWhatIsPlannedButNotThere) {
+    for (const char* option : {"--lanes=4", "--real=float"}) {
+        const Result result = rddlc({"domain.rddl", "instance.rddl", option, "-o", "sim.cpp"});
+        EXPECT_EQ(result.status, 1);
+        EXPECT_NE(result.output.find(std::string(option) + " is not supported yet [E0904]"),
+                  std::string::npos)
+            << result.output;
+    }
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--lanes=1", "--real=double"}).status, 0);
+}
+
+}  // namespace
+}  // namespace rddlc::testing

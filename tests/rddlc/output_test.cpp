@@ -1,0 +1,127 @@
+#include "run_rddlc.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace rddlc::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Output : public RddlcTest {
+  protected:
+    Result compile_to(const std::string& output) const {
+        return rddlc({"domain.rddl", "instance.rddl", "-o", output});
+    }
+    static bool mentions(const Result& result, const std::string& part) {
+        return result.output.find(part) != std::string::npos;
+    }
+};
+
+TEST_F(Output, IsWhatItsNameSays) {
+    for (const char* name : {"sim.cpp", "sim.cc", "sim.hpp", "sim.h"}) {
+        EXPECT_EQ(compile_to(name).status, 0) << name;
+        EXPECT_NE(read(name).find("struct Simulator"), std::string::npos) << name;
+    }
+    EXPECT_NE(read("sim.hpp").find("#pragma once"), std::string::npos);
+    EXPECT_EQ(read("sim.cpp").find("#pragma once"), std::string::npos);
+    const Result result = compile_to("sim.txt");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(mentions(result, "[E0903]")) << result.output;
+}
+
+TEST_F(Output, LeavesNothingElseBehind) {
+    EXPECT_EQ(compile_to("sim.cpp").status, 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"domain.rddl", "instance.rddl", "sim.cpp"}));
+}
+
+TEST_F(Output, StaysAsItWasAfterAnError) {
+    write("sim.cpp", "precious");
+    write("domain.rddl", "domain");
+    EXPECT_EQ(compile_to("sim.cpp").status, 1);
+    EXPECT_EQ(read("sim.cpp"), "precious");
+    EXPECT_EQ(files().size(), 3u);
+}
+
+TEST_F(Output, CannotGoWhereThereIsNoFolder) {
+    const Result result = compile_to("nowhere/sim.cpp");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(mentions(result, "cannot write 'nowhere/sim.cpp'")) << result.output;
+    EXPECT_TRUE(mentions(result, "[E0902]")) << result.output;
+}
+
+TEST_F(Output, CannotBeAFolder) {
+    fs::create_directory("sim.cpp");
+    EXPECT_TRUE(mentions(compile_to("sim.cpp"), "Is a directory [E0902]"));
+}
+
+TEST_F(Output, MayBeADevice) {
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "-o", "null.cpp"}).status, 0);
+    fs::remove("null.cpp");
+    fs::create_symlink("/dev/full", "full.cpp");
+    const Result result = compile_to("full.cpp");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(mentions(result, "No space left on device [E0902]")) << result.output;
+}
+
+TEST_F(Output, NeverOverwritesAnInput) {
+    write("both.cpp", read("domain.rddl") + read("instance.rddl"));
+    const std::string before = read("both.cpp");
+    const Result result = rddlc({"both.cpp", "-o", "./both.cpp"});
+    EXPECT_TRUE(mentions(result, "[E0906]")) << result.output;
+    EXPECT_EQ(read("both.cpp"), before);
+}
+
+TEST_F(Output, ComesWithADependencyFile) {
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "-o", "sim.cpp", "-MD"}).status, 0);
+    EXPECT_EQ(read("sim.cpp.d"), "sim.cpp: \\\n  domain.rddl \\\n  instance.rddl\n");
+    fs::copy_file("domain.rddl", "a $b#.rddl");
+    EXPECT_EQ(
+        rddlc({"a $b#.rddl", "instance.rddl", "-o", "sim.cpp", "-MD", "-MF", "deps.d"}).status, 0);
+    EXPECT_EQ(read("deps.d"), "sim.cpp: \\\n  a\\ $$b\\#.rddl \\\n  instance.rddl\n");
+}
+
+TEST_F(Output, MayBeASharedObjectWhateverItIsCalled) {
+    const std::string name = "; touch hacked; $(touch hacked) '\".so";
+    const Result result = compile_to(name);
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_TRUE(fs::exists(name));
+    EXPECT_EQ(files().size(), 3u) << "no shell reads the name";
+}
+
+TEST_F(Output, NeedsACompilerOnlyAsASharedObject) {
+    EXPECT_EQ(
+        rddlc_with({"CXX=no-such-compiler"}, {"domain.rddl", "instance.rddl", "-o", "sim.cpp"})
+            .status,
+        0);
+    const Result result =
+        rddlc_with({"CXX=no-such-compiler"}, {"domain.rddl", "instance.rddl", "-o", "sim.so"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(mentions(result, "cannot run the C++ compiler 'no-such-compiler'"));
+    EXPECT_TRUE(mentions(result, "[E0905]")) << result.output;
+    EXPECT_FALSE(fs::exists("sim.so"));
+}
+
+TEST_F(Output, ThatTheCompilerRefusesIsAnInternalError) {
+    const Result result =
+        rddlc_with({"CXX=false"}, {"domain.rddl", "instance.rddl", "-o", "sim.so"});
+    EXPECT_EQ(result.status, 70);
+    EXPECT_TRUE(mentions(result, "Please report it")) << result.output;
+    EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(Output, NeedsInputsThatCanBeRead) {
+    const Result missing = rddlc({"domain.rddl", "none.rddl", "-o", "sim.cpp"});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_TRUE(mentions(missing, "cannot read 'none.rddl': No such file or directory [E0901]"))
+        << missing.output;
+    fs::create_directory("folder");
+    EXPECT_TRUE(mentions(rddlc({"folder", "instance.rddl"}), "Is a directory [E0901]"));
+    if (::geteuid() != 0) {
+        fs::permissions("domain.rddl", fs::perms::none);
+        EXPECT_TRUE(mentions(compile_to("sim.cpp"), "Permission denied [E0901]"));
+    }
+}
+
+}  // namespace
+}  // namespace rddlc::testing
