@@ -83,7 +83,7 @@ void declare(CLI::App& program, Arguments& arguments) {
                     "-Wno-W0210: silence a warning; -Werror=W0210: make it an error; -Werror: "
                     "make all of them errors")
         ->allow_extra_args(false)
-        ->type_name("...");
+        ->type_name("WARNING");
     program.add_flag("-w", arguments.no_warnings, "silence all warnings");
     program.add_option("--diagnostics-format", arguments.format, "text or json")
         ->check(CLI::IsMember({"text", "json"}))
@@ -117,11 +117,20 @@ std::vector<std::string> with_compiler_spelling(int argc, char** argv) {
     return words;
 }
 
-std::string with_compiler_spelling(std::string help) {
-    for (const char* option : {"-MD", "-MF"}) {
-        const std::string doubled = std::string("-") + option;
-        for (std::size_t at; (at = help.find(doubled)) != std::string::npos;) help.erase(at, 1);
-    }
+void replace(std::string& text, const std::string& part, const std::string& by) {
+    const std::size_t at = text.find(part);
+    if (at != std::string::npos) text.replace(at, part.size(), by);
+}
+
+// CLI11's help, with the spellings that it does not know.
+std::string help_text(const CLI::App& program) {
+    std::string help = program.help();
+    replace(help, "[OPTIONS] [files(1x)]", "[OPTIONS] DOMAIN [INSTANCE]");
+    replace(help, "files DOMAIN INSTANCE  ", "DOMAIN INSTANCE        ");
+    replace(help, "--MD ", "-MD  ");
+    replace(help, "--MF FILE ", "-MF FILE  ");
+    replace(help, "--MD", "-MD");
+    replace(help, "-W WARNING ...", "-W...         ");
     return help;
 }
 
@@ -237,7 +246,7 @@ CommandLine parse_command_line(int argc, char** argv) {
         return {options_of(arguments)};
     } catch (const CLI::ParseError& error) {
         if (error.get_name() == "CallForHelp") {
-            fmt::print("{}", with_compiler_spelling(program.help()));
+            fmt::print("{}", help_text(program));
             return {std::nullopt, success};
         }
         if (error.get_exit_code() == 0) {

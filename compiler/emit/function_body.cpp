@@ -127,7 +127,7 @@ void FunctionBody::value(const std::string& lead, ir::NodeId id) {
 // --------------------------------------------------------------------------- preparation
 
 void FunctionBody::prepare(const std::string& lead, ir::NodeId id) {
-    name_blocks_within(id);
+    name_parts_in_order(id);
     if (const ir::Select* select = lazy_select(id)) return prepare_branch(*select);
     if (is_block(id)) return;
     const ir::Node& node = program()[id];
@@ -151,14 +151,22 @@ void FunctionBody::prepare_discrete(const ir::Discrete& discrete) {
     for (ir::NodeId weight : discrete.weights) prepare("weights_99[999] = ", weight);
 }
 
-// Gives names to the parts of `id` that are blocks, from the outside in.
-void FunctionBody::name_blocks_within(ir::NodeId id) {
-    for (ir::NodeId part : eager_parts(id)) {
-        if (!is_block(part)) continue;
-        if (lazy_select(part) || is_binder(program()[part])) {
-            name_value(part);
-        } else {
-            name_blocks_within(part);
+// Gives names to the parts of `id` that are blocks, from the outside in. C++ may evaluate operands
+// in any order, but the first fault is the one that is told: of several operands that may fault,
+// all but the last get names, too.
+void FunctionBody::name_parts_in_order(ir::NodeId id) {
+    const std::vector<ir::NodeId> parts = eager_parts(id);
+    const auto may_fault = [&](ir::NodeId part) {
+        return !expressions_.is_named(part) && expressions_.unit().facts_of(part).may_fault;
+    };
+    for (auto part = parts.begin(); part != parts.end(); ++part) {
+        const bool is_binder_block = is_block(*part) && is_binder(program()[*part]);
+        const bool before_others =
+            may_fault(*part) && std::any_of(part + 1, parts.end(), may_fault);
+        if (before_others || is_binder_block || lazy_select(*part)) {
+            name_value(*part);
+        } else if (is_block(*part) || may_fault(*part)) {
+            name_parts_in_order(*part);
         }
     }
 }

@@ -46,7 +46,7 @@ class FunctionBody {
     void prepare(const std::string& lead, ir::NodeId id);
     void prepare_branch(const ir::Select& select);
     void prepare_discrete(const ir::Discrete& discrete);
-    void name_blocks_within(ir::NodeId id);
+    void name_parts_in_order(ir::NodeId id);
     bool name_longest_part(ir::NodeId id);
     void name_value(ir::NodeId id);
     std::string declare(ir::NodeId id);
