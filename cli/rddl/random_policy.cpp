@@ -120,7 +120,8 @@ RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, const rd
 }
 
 void RandomPolicy::act(std::int64_t environment, std::int64_t step, std::byte* action) {
-    std::memcpy(action, problem_->default_action, static_cast<std::size_t>(problem_->action_size));
+    std::copy_n(static_cast<const std::byte*>(problem_->default_action), problem_->action_size,
+                action);
     const Draws draws{
         rddl::stream_key(seed_, static_cast<std::uint64_t>(environment), policy_episode),
         static_cast<std::uint32_t>(step)};

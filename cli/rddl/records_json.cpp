@@ -99,7 +99,9 @@ std::string expected_value(const RecordEntry& entry) {
 
 std::string wrong_value(const RecordEntry& entry, const json& value, std::string_view why = {}) {
     constexpr std::size_t longest = 60;
-    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = value.is_array()    ? "an array"
+                       : value.is_object() ? "a JSON object"
+                                           : value.dump();
     if (text.size() > longest) text = text.substr(0, longest) + "...";
     return fmt::format("'{}' takes {}, not {}{}", entry.name, expected_value(entry), text, why);
 }
@@ -283,19 +285,13 @@ nlohmann::ordered_json json_number(double value) {
 }
 
 void write_string(std::string& out, std::string_view text) {
-    out += '"';
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            (out += '\\') += c;
-        else if (c == '\n')
-            out += "\\n";
-        else if (byte < 0x20)
-            out += fmt::format("\\u{:04x}", byte);
-        else
-            out += c;
-    }
-    out += '"';
+    const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+        return c >= ' ' && c <= '~' && c != '"' && c != '\\';
+    });
+    if (plain)
+        ((out += '"') += text) += '"';
+    else  // bytes that are not UTF-8 become U+FFFD
+        out += json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace rddlc::cli

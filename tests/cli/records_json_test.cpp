@@ -111,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "'repairs' takes an int, not 9223372036854775808"},
                     Wrong{R"({"repairs": null})", "'repairs' takes an int, not null"},
                     Wrong{R"({"wear___mill": "NaN"})", "'wear___mill' takes a number, not \"NaN\""},
+                    Wrong{R"({"repairs": [[1]]})", "'repairs' takes an int, not an array"},
                     Wrong{R"({"mode": 1})", "'mode' takes an object of type 'speed', not 1"},
                     Wrong{R"({"mode": "fasr"})",
                           "'mode' takes an object of type 'speed', not \"fasr\"; did "
@@ -150,8 +151,13 @@ TEST(RecordsJson, RealsLookLikeRealsAndRoundTrip) {
 TEST(RecordsJson, EscapesStrings) {
     std::string text;
     write_string(text, "a \"b\" \\ \n \x01 é");
-    EXPECT_EQ(text, "\"a \\\"b\\\" \\\\ \\n \\u0001 é\"");
     EXPECT_EQ(json::parse(text).get<std::string>(), "a \"b\" \\ \n \x01 é");
+}
+
+TEST(RecordsJson, StringsAreAlwaysUtf8) {
+    std::string text;
+    write_string(text, "fi\xffle");
+    EXPECT_EQ(json::parse(text).get<std::string>(), "fi\xEF\xBF\xBDle");
 }
 
 TEST(RecordsJson, GroundedNamesListObjectsInParameterOrder) {

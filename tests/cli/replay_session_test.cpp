@@ -62,6 +62,16 @@ TEST_F(Replay, RefusesALineAndGoesOn) {
     EXPECT_EQ(answer("{}")["state"]["repairs"], 0) << "nothing has changed";
 }
 
+TEST_F(Replay, SurvivesHostileLines) {
+    const std::string deep(1'000'000, '[');
+    EXPECT_NE(error(deep), "no error");
+    EXPECT_EQ(error(R"({"state": {"repairs": )" + deep + std::string(1'000'000, ']') + "}}"),
+              "'repairs' takes an int, not an array");
+    EXPECT_NE(error("\xff\xfe {"), "no error");
+    EXPECT_NE(error(R"({"state": {"wear___mill": 1e999}})"), "no error");
+    EXPECT_NE(error(R"({"episode": 99999999999999999999})"), "no error");
+}
+
 TEST_F(Replay, RefusedLinesChangeNothing) {
     ReplaySession untouched(*tiny::simulator(), {});
     answer(R"({"state": {"repairs": 5}, "action": {"hazard": "x"}})");
