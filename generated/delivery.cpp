@@ -296,13 +296,9 @@ inline constexpr const char* place_objects[] = {
 // clang-format on
 
 inline constexpr const char* van_objects[] = {"red"};
-
 inline constexpr const char* parcel_objects[] = {"letter", "flour", "fish"};
-
 inline constexpr const char* direction_objects[] = {"stay", "north", "east", "south", "west"};
-
 inline constexpr const char* weather_objects[] = {"sunny", "rainy", "snowy"};
-
 inline constexpr const char* progress_objects[] = {"waiting", "riding", "delivered"};
 
 // clang-format off
@@ -317,15 +313,10 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_place_direction[] = {0, 3};
-
 inline constexpr std::int32_t of_place[] = {0};
-
 inline constexpr std::int32_t of_parcel[] = {2};
-
 inline constexpr std::int32_t of_weather_weather[] = {4, 4};
-
 inline constexpr std::int32_t of_van[] = {1};
-
 inline constexpr std::int32_t of_van_parcel[] = {1, 2};
 
 // clang-format off
@@ -366,7 +357,8 @@ inline constexpr rddl_fluent fluents[] = {
 };
 
 inline constexpr rddl_condition preconditions[] = {
-    {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ position(?v) == ORIGIN(?p)) ]",
+    {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ "
+     "position(?v) == ORIGIN(?p)) ]",
      {source_file, 99, 9}},
     {"forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]", {source_file, 101, 9}},
 };

@@ -305,9 +305,7 @@ static_assert(offsetof(Action<rddl::Scalar>, clear) == 25);
 namespace about {
 
 inline constexpr const char* source_file = "examples/fire/domain.rddl";
-
 inline constexpr const char* xpos_objects[] = {"x1", "x2", "x3", "x4", "x5"};
-
 inline constexpr const char* ypos_objects[] = {"y1", "y2", "y3", "y4", "y5"};
 
 // clang-format off
@@ -318,9 +316,7 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_xpos[] = {0};
-
 inline constexpr std::int32_t of_ypos[] = {1};
-
 inline constexpr std::int32_t of_xpos_ypos[] = {0, 1};
 
 // clang-format off
@@ -366,7 +362,8 @@ inline constexpr rddl_fluent fluents[] = {
 
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]", {source_file, 77, 9}},
-    {"forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | CLEARING(?c, ?r))]",
+    {"forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | "
+     "CLEARING(?c, ?r))]",
      {source_file, 78, 9}},
 };
 

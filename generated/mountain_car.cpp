@@ -230,9 +230,7 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_segment[] = {0};
-
 inline constexpr std::array<double, 1> throttle_lower = {-1};
-
 inline constexpr std::array<double, 1> throttle_upper = {1};
 
 // clang-format off

@@ -176,7 +176,6 @@ static_assert(sizeof(Action<rddl::Scalar>) == 8);
 namespace about {
 
 inline constexpr const char* source_file = "examples/network/domain.rddl";
-
 inline constexpr const char* computer_objects[] = {"c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8"};
 
 // clang-format off
@@ -186,7 +185,6 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_computer_computer[] = {0, 0};
-
 inline constexpr std::int32_t of_computer[] = {0};
 
 // clang-format off

@@ -257,7 +257,6 @@ static_assert(sizeof(Action<rddl::Scalar>) == 32);
 namespace about {
 
 inline constexpr const char* source_file = "examples/reservoir/domain.rddl";
-
 inline constexpr const char* basin_objects[] = {"north", "lake", "east", "valley"};
 
 // clang-format off
@@ -267,15 +266,10 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_basin_basin[] = {0, 0};
-
 inline constexpr std::int32_t of_basin[] = {0};
-
 inline constexpr auto water_lower = rddl::repeated<4>(0.0);
-
 inline constexpr std::array<double, 4> water_upper = {100, 200, 100, 150};
-
 inline constexpr auto release_lower = rddl::repeated<4>(0.0);
-
 inline constexpr auto release_upper = rddl::repeated<4>(std::numeric_limits<double>::infinity());
 
 // clang-format off

@@ -328,7 +328,6 @@ static_assert(offsetof(Observation<rddl::Scalar>, bump) == 32);
 namespace about {
 
 inline constexpr const char* source_file = "examples/robot/domain.rddl";
-
 inline constexpr const char* beacon_objects[] = {"west", "south", "middle"};
 
 // clang-format off
@@ -338,13 +337,9 @@ inline constexpr rddl_type types[] = {
 // clang-format on
 
 inline constexpr std::int32_t of_beacon[] = {0};
-
 inline constexpr std::array<double, 1> drive_lower = {-1};
-
 inline constexpr std::array<double, 1> drive_upper = {1};
-
 inline constexpr std::array<double, 1> turn_lower = {-0.8};
-
 inline constexpr std::array<double, 1> turn_upper = {0.8};
 
 // clang-format off

@@ -62,6 +62,19 @@ std::string record_of(Role role) {
     }
 }
 
+// A string literal inside a row; in pieces under each other if it is long.
+std::string on_lines(std::string_view text) {
+    constexpr std::size_t width = 85;
+    std::string result;
+    while (text.size() > width) {
+        const std::size_t blank = text.rfind(' ', width - 1);
+        const std::size_t end = blank == std::string_view::npos ? text.size() : blank + 1;
+        result += literal(text.substr(0, end)) + "\n" + std::string(indentation + 1, ' ');
+        text.remove_prefix(end);
+    }
+    return result + literal(text);
+}
+
 // Writes one table after the other; equal small tables are shared.
 class Describer {
   public:
@@ -82,7 +95,12 @@ class Describer {
     }
 
   private:
-    void add(const std::string& definition) { text_ += (text_.empty() ? "" : "\n") + definition; }
+    // Definitions of one line stand together.
+    void add(const std::string& definition) {
+        const bool is_line = std::ranges::count(definition, '\n') == 1;
+        text_ += (text_.empty() || (is_line && after_line_) ? "" : "\n") + definition;
+        after_line_ = is_line;
+    }
 
     std::string source(Span span) const {
         const Position position = unit_.sources.position(span);
@@ -216,7 +234,7 @@ class Describer {
         std::vector<std::vector<std::string>> table;
         for (const ir::Computation& condition : conditions) {
             const std::string text = on_one_line(unit_.sources.text(condition.span));
-            table.push_back({literal(std::string_view(text)), source(condition.span)});
+            table.push_back({on_lines(text), source(condition.span)});
         }
         rows("rddl_condition", name, table);
     }
