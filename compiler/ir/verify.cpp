@@ -94,6 +94,7 @@ class Verifier {
         for (NodeId root : roots_of(program_)) {
             require(root.index < program_.nodes.size(), "there is no node {}", root.index);
         }
+        for (const Definition& definition : program_.step) ids_are_known(definition.body);
         return complaints_.size() == before;
     }
 
@@ -117,6 +118,22 @@ class Verifier {
         if (const auto place = place_of(node)) {
             require(place->site.index < program_.sites.size(), "there is no site {}",
                     place->site.index);
+        }
+    }
+
+    void ids_are_known(const Block& block) {
+        for (const Statement& statement : block) {
+            match(
+                statement.form, [](const Let&) {},  // its local is checked where it is defined
+                [&](const Store& store) {
+                    require(store.target.index < program_.buffers.size(), "there is no buffer {}",
+                            store.target.index);
+                },
+                [&](const Loop& loop) {
+                    require(loop.variable.index < program_.variables.size(),
+                            "there is no variable {}", loop.variable.index);
+                    ids_are_known(loop.body);
+                });
         }
     }
 

@@ -51,6 +51,7 @@ struct Problem {
 struct Grounded {
     std::optional<ir::Program> program;
     std::string messages;
+    std::string codes;  // "E0601 E0603", in the order of reporting
 };
 
 inline Grounded ground_text(const std::string& text) {
@@ -64,6 +65,9 @@ inline Grounded ground_text(const std::string& text) {
         if (model && !diagnostics.has_errors()) result.program = ground(*model, diagnostics);
     }
     result.messages = render(diagnostics, sources, {});
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        result.codes += (result.codes.empty() ? "" : " ") + to_string(diagnostic.code);
+    }
     return result;
 }
 

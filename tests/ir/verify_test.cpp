@@ -19,7 +19,7 @@ class VerifyTest : public testing::Test {
         }
         return text;
     }
-    // Puts a node into the pool behind the builder's back.
+    // Puts a node into the pool behind the builder's back: it must not be used afterwards.
     NodeId add(Node node) {
         w.program.nodes.push_back(std::move(node));
         return {static_cast<std::uint32_t>(w.program.nodes.size() - 1)};
@@ -58,9 +58,17 @@ TEST_F(VerifyTest, FindsValuesStoredToAnotherType) {
 
 TEST_F(VerifyTest, FindsMissingPlaces) {
     const NodeId count = w.load(w.count);
-    store_of_level().value = w.builder().convert(
-        add({Scalar::Int, Apply{Operator::Power, {count, count}, {}}}), Scalar::Real);
+    auto& store = std::get<Store>(w.program.step[3].body.front().form);
+    store.value = add({Scalar::Int, Apply{Operator::Power, {count, count}, {}}});
     EXPECT_EQ(complaint(), "types do not fit in 'power(state.count, state.count)'");
+}
+
+TEST_F(VerifyTest, FindsUnknownIdsInStatements) {
+    store_of_level().target = BufferId{99};
+    EXPECT_EQ(complaint(), "there is no buffer 99");
+    store_of_level().target = w.next_level;
+    std::get<Loop>(w.program.step[0].body.front().form).variable = VariableId{77};
+    EXPECT_EQ(complaint(), "there is no variable 77");
 }
 
 TEST_F(VerifyTest, FindsUnboundVariables) {
