@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -99,8 +100,12 @@ ExitStatus run(int argc, char** argv) {
         return report_usage(program, error);
     }
     catch_interrupts();
-    for (const Command& command : commands)
-        if (command.app->parsed()) return command.run();
+    for (const Command& command : commands) {
+        if (!command.app->parsed()) continue;
+        const ExitStatus status = command.run();
+        if (std::fflush(stdout) != 0) throw Failure("cannot write to standard output");
+        return status;
+    }
     return usage_error;
 }
 
@@ -113,6 +118,9 @@ ExitStatus run_and_report(int argc, char** argv) {
         fmt::print(stderr, "rddl: error: {}\n", failure.what());
         if (!failure.hint.empty()) fmt::print(stderr, "  {}\n", failure.hint);
         return failure.status;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "rddl: error: not enough memory\n");
+        return diagnosed;
     } catch (const std::exception& error) {
         fmt::print(stderr,
                    "rddl: internal error: {}\n"

@@ -75,17 +75,19 @@ class Program : public testing::Test {
             folder_.string(), cache().string(), environment, RDDL_PROGRAM, arguments);
     }
     Outcome run(const std::string& arguments, const std::string& environment = "") const {
-        const std::filesystem::path out = folder_ / "stdout", err = folder_ / "stderr";
+        const std::filesystem::path out = folder_ / "stdout";
         const std::string all = fmt::format("{} >'{}' 2>'{}'", command(arguments, environment),
-                                            out.string(), err.string());
+                                            out.string(), stderr_file());
         const int status = std::system(all.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out),
+                read_file(stderr_file())};
     }
     nlohmann::json run_json(const std::string& arguments) const {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return nlohmann::json::parse(outcome.out);
     }
+    std::string stderr_file() const { return (folder_ / "stderr").string(); }
     std::filesystem::path cache() const { return folder_ / "cache"; }
 
     std::filesystem::path folder_;
