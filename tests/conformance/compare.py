@@ -4,7 +4,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from model import REWARD, TERMINATED, TRUNCATED, Columns, DrawPoint, Problem, Transitions, Values
+from model import (
+    REWARD,
+    TERMINATED,
+    TRUNCATED,
+    Columns,
+    DrawPoint,
+    Problem,
+    Transitions,
+    Values,
+    row_of,
+)
 from two_sample import p_value
 
 TOLERANCE = 1e-9  # relative, for reals of one step
@@ -47,8 +57,7 @@ def compare_transitions(
     """Value by value, everything that no draw has a part in."""
 
     def start(row: int) -> str:
-        state = {name: values[row] for name, values in expected.states.items()}
-        return describe_start(state, {n: values[row] for n, values in expected.actions.items()})
+        return describe_start(row_of(expected.states, row), row_of(expected.actions, row))
 
     for column in columns_of(problem):
         if not column.random:

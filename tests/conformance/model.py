@@ -89,6 +89,11 @@ class Transitions:
     def __len__(self) -> int:
         return len(self.outcomes[REWARD])
 
+    def starts(self, count: int) -> list[tuple[Values, Values]]:
+        """State and action of `count` rows, spread evenly."""
+        rows = np.linspace(0, len(self) - 1, count).round().astype(int)
+        return [(row_of(self.states, row), row_of(self.actions, row)) for row in rows]
+
 
 @dataclass
 class DrawPoint:
@@ -100,6 +105,10 @@ class DrawPoint:
 
     def count(self) -> int:
         return len(self.outcomes[REWARD])
+
+
+def row_of(columns: Columns, row: int) -> Values:
+    return {name: values[row] for name, values in columns.items()}
 
 
 def stack(rows: list[Values]) -> Columns:

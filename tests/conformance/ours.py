@@ -66,9 +66,7 @@ def trace(rddl: Path, case: Case, engine: str, episodes: int = 3) -> list[str]:
 
 
 def request_lines(problem: Problem, walk: Transitions, points: list[DrawPoint]):
-    for row in range(len(walk)):
-        state = {fluent.name: walk.states[fluent.name][row] for fluent in problem.states}
-        action = {fluent.name: walk.actions[fluent.name][row] for fluent in problem.actions}
+    for state, action in walk.starts(len(walk)):
         yield request_line(problem, state, action)
     for point in points:
         yield request_line(problem, point.state, point.action, repeat=point.count())

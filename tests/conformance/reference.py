@@ -28,11 +28,11 @@ from model import (
 )
 from problems import Case
 from pyRDDLGym.core.parser.expr import Expression
-from two_sample import LEAST_DRAWS
 
 DETERMINISTIC_DISTRIBUTIONS = {"KronDelta", "DiracDelta"}
 ATTEMPTS_AT_LEGAL_ACTIONS = 20
 SHARE_OF_DEFAULT_ACTIONS = 0.1
+LEAST_DRAWS = 500  # at a point, however slow
 MARGIN = 0.05  # how far beyond their bounds states are scattered, as a share of the range
 
 
@@ -274,18 +274,14 @@ class Reference:
         self.simulator.subs = self._table(state)
         return not self.simulator.check_terminal_states()
 
-    def draw_along(self, walk: Transitions, count: int, draws: int) -> list[DrawPoint]:
-        """Draws at the initial state and at `count` - 1 others spread over the walk."""
-        starts = [(self.initial_state(), self.random_action(self.initial_state()))]
-        for row in np.linspace(0, len(walk) - 1, count + 1)[1:-1].astype(int):
-            state = {name: values[row] for name, values in walk.states.items()}
-            starts.append((state, {name: values[row] for name, values in walk.actions.items()}))
+    def draw_at(self, starts: list[tuple[Values, Values]], count: int) -> list[DrawPoint]:
+        """Draws from each state under its action, but for those that pyRDDLGym refuses."""
         points = []
-        for state, action in starts[:count]:
+        for state, action in starts:
             try:
-                points.append(self.draw(state, action, draws))
-            except (ValueError, ArithmeticError):
-                continue  # refused by pyRDDLGym: a parameter out of its range
+                points.append(self.draw(state, action, count))
+            except (ValueError, ArithmeticError):  # a distribution's parameter out of its range
+                continue
         return points
 
 
@@ -318,7 +314,8 @@ class Plan:
     transitions: int = 50
     stride: int = 20  # steps walked for each transition kept
     draw_points: int = 4
-    draws: int = 2000
+    draws: int = 2000  # at each of these points
+    glances: int = 40  # draws at the start of every transition
     seconds: float = 60.0  # for the walk, and for the draws; less is compared where steps are slow
 
 
@@ -328,22 +325,25 @@ class Recording:
 
     problem: Problem
     walk: Transitions
-    points: list[DrawPoint]
+    points: list[DrawPoint]  # with many draws first, then those with few
 
 
 def record(case: Case, plan: Plan) -> Recording:
     reference = Reference(case)
-    seconds_a_step = reference.seconds_a_step()
-    affordable = plan.seconds / seconds_a_step
+    affordable = plan.seconds / reference.seconds_a_step()
     stride = int(np.clip(affordable / plan.transitions, 1, plan.stride))
     walk = reference.walk(int(min(plan.transitions, affordable)), stride)
+    walk = joined(walk, reference.scatter(walk, plan.transitions // 2))
     points: list[DrawPoint] = []
     if reference.problem.is_random():
         draws = int(min(plan.draws, max(affordable, LEAST_DRAWS)))
         count = int(np.clip(affordable / draws, 1, plan.draw_points))
-        points = reference.draw_along(walk, count, draws)
-    scattered = reference.scatter(walk, plan.transitions // 2)
-    return Recording(reference.problem, joined(walk, scattered), points)
+        glanced = int(min(len(walk), max(1, affordable / plan.glances)))
+        starts = [(reference.initial_state(), reference.random_action(reference.initial_state()))]
+        starts += walk.starts(count - 1)
+        points += reference.draw_at(starts, draws)
+        points += reference.draw_at(walk.starts(glanced), plan.glances)
+    return Recording(reference.problem, walk, points)
 
 
 # ------------------------------------------------------------------------- what depends on draws

@@ -57,8 +57,9 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
     plan = Plan(draws=options.draws, draw_points=options.draw_points, seconds=options.seconds)
     recording = recording_of(report.case, plan, options.cache)
     problem, walk, points = recording.problem, recording.walk, recording.points
-    report.transitions, report.draw_points = len(walk), len(points)
-    report.draws = plan.draws if not points else points[0].count()
+    report.transitions = len(walk)
+    report.draws = max((point.count() for point in points), default=0)
+    report.draw_points = sum(point.count() == report.draws for point in points)
     replayed: dict[str, Replayed] = {}
     for engine in options.engine:
         try:

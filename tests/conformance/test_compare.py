@@ -24,13 +24,7 @@ def findings_against(recording: Recording, other: Case) -> Findings:
     reference = Reference(other)
     reference.simulator.seed(12345)
     walk, problem = recording.walk, recording.problem
-
-    def row(columns, number):
-        return {name: values[number] for name, values in columns.items()}
-
-    found = [
-        reference.step(row(walk.states, i), row(walk.actions, i)) for i in range(len(walk))
-    ]
+    found = [reference.step(state, action) for state, action in walk.starts(len(walk))]
     findings = Findings()
     compare_transitions(problem, walk, stack(found), findings)
     for point in recording.points:

@@ -57,9 +57,10 @@ class TwoSampleTest(unittest.TestCase):
         first, second = same_values_merged(np.array([1.0, np.inf]), np.array([1 + 1e-12, np.inf]))
         self.assertEqual(first.tolist(), second.tolist())
 
-    def test_the_bound_needs_enough_draws(self):
-        with self.assertRaises(ValueError):
-            kolmogorov_smirnov(np.arange(100), np.arange(100))
+    def test_few_draws_tell_what_never_meets(self):
+        self.assertLess(p_value(np.full(40, 1.0), np.full(40, 1.0 + 1e-6)), SURE)
+        self.assertLess(kolmogorov_smirnov(np.arange(40), np.arange(40, 80)), SURE)
+        self.assertGreater(p_value(np.arange(40), np.arange(40) + 0.5), 0.1)
 
     def test_relative_difference(self):
         expected = np.array([1.0, 0.0, np.nan, np.inf, np.inf, 2.0, np.nan])

@@ -4,12 +4,13 @@ All of them hold at any false-alarm rate however small, since hundreds of thousa
 one rate of 1e-6: tails are exact or proven bounds, never approximations for large samples.
 """
 
+import math
+
 import numpy as np
 
 # Values of this relative distance are taken as the same one (rounding differs between simulators).
 SAME = 1e-9
 FEW_VALUES = 16
-LEAST_DRAWS = 458  # of each sample, for the bound below
 
 
 def p_value(first: np.ndarray, second: np.ndarray) -> float:
@@ -18,7 +19,7 @@ def p_value(first: np.ndarray, second: np.ndarray) -> float:
     Few different values: each value against all others, exactly (Fisher). Many: the largest
     distance between the distribution functions (Kolmogorov-Smirnov).
     """
-    first, second = (same_values_merged(first, second))
+    first, second = same_values_merged(first, second)
     if first.max(initial=0) < FEW_VALUES and second.max(initial=0) < FEW_VALUES:
         return by_value(first, second)
     return kolmogorov_smirnov(first, second)
@@ -71,14 +72,16 @@ def log_choose(n: int, k):
 
 
 def kolmogorov_smirnov(first: np.ndarray, second: np.ndarray) -> float:
-    """For two samples of n >= 458 each, P(D >= d) <= 2 exp(-n d^2).
+    """For two samples of n each, P(D >= d) <= C exp(-n d^2), with C = e, or 2 from n = 458 on.
 
     F. Wei and R. Dudley, "Two-sample Dvoretzky-Kiefer-Wolfowitz inequalities", Statistics and
     Probability Letters 82, 2012. Ties only make D smaller.
     """
-    if len(first) != len(second) or len(first) < LEAST_DRAWS:
-        raise ValueError(f"needs two samples of the same size, at least {LEAST_DRAWS}")
-    return min(1.0, 2.0 * float(np.exp(-len(first) * distance(first, second) ** 2)))
+    draws = len(first)
+    if len(second) != draws:
+        raise ValueError("needs two samples of the same size")
+    constant = 2.0 if draws >= 458 else math.e
+    return min(1.0, constant * math.exp(-draws * distance(first, second) ** 2))
 
 
 def distance(first: np.ndarray, second: np.ndarray) -> float:
