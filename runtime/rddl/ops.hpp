@@ -163,6 +163,14 @@ inline double floor_mod(double a, double b) {
     return (remainder < 0) != (b < 0) ? remainder + b : remainder;
 }
 
+// Hides a constant from the C++ compiler, which replaces some calls with constant operands (by
+// exp2, sqrt, or the value) and then differs in the last digit from the call that the interpreter
+// makes.
+inline double opaque(double a) {
+    const volatile double hidden = a;
+    return hidden;
+}
+
 inline double exp(double a) {
     return std::exp(a);
 }
@@ -170,7 +178,7 @@ inline double ln(double a) {
     return std::log(a);
 }
 inline double log(double a, double base) {
-    return std::log(a) / std::log(base);
+    return std::log(a) / std::log(opaque(base));
 }
 inline double sqrt(double a) {
     return std::sqrt(a);
@@ -212,7 +220,8 @@ inline double ln_one_plus(double a) {
     return std::log1p(a);
 }
 inline double power(double base, double exponent) {
-    return std::pow(base, exponent);
+    if (exponent == 2.0) return base * base;  // by far the most frequent, and exact to rounding
+    return std::pow(opaque(base), opaque(exponent));
 }
 
 // Both fault unless a > 0.

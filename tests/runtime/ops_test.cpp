@@ -144,6 +144,20 @@ TEST(RealPower, IsThatOfIeee) {
     EXPECT_EQ(power(-2.0, 3.0), -8.0);
 }
 
+// The interpreter's operands are never constants of its own C++ text, those of emitted code are.
+TEST(RealPower, OfAConstantIsThatOfAVariable) {
+    volatile double half = 0.5, minus_one = -1.0, two = 2.0, three = 3.0, ten = 10.0;
+    for (double a = 0.01; a < 9.0; a += 0.0137) {
+        EXPECT_EQ(power(a, 0.5), power(a, half));
+        EXPECT_EQ(power(a, -1.0), power(a, minus_one));
+        EXPECT_EQ(power(a, 2.0), power(a, two));
+        EXPECT_EQ(power(a, 3.0), power(a, three));
+        EXPECT_EQ(power(2.0, a), power(two, a));
+        EXPECT_EQ(power(10.0, a), power(ten, a));
+        EXPECT_EQ(log(a, 10.0), log(a, ten));
+    }
+}
+
 TEST(IntPower, WrapsAround) {
     Context<Scalar> context;
     const auto pow = [&](Int a, Int b) {
