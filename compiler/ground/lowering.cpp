@@ -48,7 +48,7 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     for (ir::VariableId parameter : scope_) store.indices.push_back(builder_.index(parameter));
     store.value = lower_as(cpf.body, scalar_of(model_.fluents[cpf.fluent].range));
 
-    ir::Block body;
+    ir::Block body = std::exchange(lets_, {});
     body.push_back({store});
     for (auto parameter = scope_.rbegin(); parameter != scope_.rend(); ++parameter) {
         if (program_[*parameter].size == 1) continue;
@@ -61,7 +61,8 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
 }
 
 ir::Computation Lowering::value_of(const model::Expr& expr) {
-    return {{}, lower(expr), expr.span};
+    const ir::NodeId value = lower(expr);
+    return {std::exchange(lets_, {}), value, expr.span};
 }
 
 // --------------------------------------------------------------------------- scope and places
@@ -120,6 +121,13 @@ ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
     return builder_.convert(lower(expr), type);
 }
 
+ir::NodeId Lowering::lower_lazily(const model::Expr& expr) {
+    ++branches_;
+    const ir::NodeId node = lower(expr);
+    --branches_;
+    return node;
+}
+
 std::vector<ir::NodeId> Lowering::lower_all(const std::vector<model::Expr>& exprs) {
     std::vector<ir::NodeId> nodes;
     for (const model::Expr& expr : exprs) nodes.push_back(lower(expr));
@@ -148,22 +156,19 @@ ir::NodeId Lowering::lower(const model::TypeFault& form, const model::Expr& expr
 }
 
 ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
-    std::vector<ir::NodeId> operands = lower_all(form.operands);
     switch (form.op) {
         case Operator::Multiply:
-            return product(form, operands.front(), operands.back());
-        case Operator::Equivalent:
-            return builder_.apply(Operator::Equal, std::move(operands));
+            return product(form);
         case Operator::And:
         case Operator::Or:
-            // The simple operand decides first whether the other one is evaluated.
-            if (is_simple(form.operands.back()) && builder_.facts(operands.front()).may_fault) {
-                std::swap(operands.front(), operands.back());
-            }
-            return builder_.apply(form.op, std::move(operands));
+        case Operator::Implies:
+            return connective(form);
+        case Operator::Equivalent:
+            return builder_.apply(Operator::Equal, lower_all(form.operands));
         default:
             break;
     }
+    std::vector<ir::NodeId> operands = lower_all(form.operands);
     const bool on_integers = program_[operands.front()].type == ir::Scalar::Int;
     std::optional<ir::Place> place;
     if (may_fault(form.op, on_integers)) {
@@ -172,34 +177,86 @@ ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
     return builder_.apply(form.op, std::move(operands), place);
 }
 
+// A simple right operand decides whether a fallible left one is evaluated, else the left operand
+// about the right one.
+ir::NodeId Lowering::connective(const model::Apply& form) {
+    const bool symmetric = form.op != Operator::Implies;
+    const bool right_first = symmetric && is_simple(form.operands.back());
+    const ir::NodeId left =
+        right_first ? lower_lazily(form.operands.front()) : lower(form.operands.front());
+    const ir::NodeId right =
+        right_first ? lower(form.operands.back()) : lower_lazily(form.operands.back());
+    if (right_first && builder_.facts(left).may_fault) {
+        return builder_.apply(form.op, {right, left});
+    }
+    return builder_.apply(form.op, {left, right});
+}
+
 // Outside of any scope, 0 * x is 0 whatever x is, and x is not evaluated. In a scope that depends
 // on the other objects in pyRDDLGym; there it is an ordinary product here.
-ir::NodeId Lowering::product(const model::Apply& form, ir::NodeId left, ir::NodeId right) {
-    const ir::NodeId whole = builder_.apply(Operator::Multiply, {left, right});
-    if (!scope_.empty()) return whole;
+ir::NodeId Lowering::product(const model::Apply& form) {
     const bool right_first = is_simple(form.operands.back());
-    const ir::NodeId first = right_first ? right : left;
-    const ir::NodeId other = right_first ? left : right;
+    const model::Expr& first_expr = right_first ? form.operands.back() : form.operands.front();
     const model::Expr& other_expr = right_first ? form.operands.front() : form.operands.back();
-    if (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault) return whole;
+    const ir::NodeId first = lower(first_expr);
+    const ir::NodeId other = scope_.empty() ? lower_lazily(other_expr) : lower(other_expr);
+    const bool is_plain =
+        !scope_.empty() || (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault);
+    if (!is_plain) return product_unless_zero(first, other, right_first);
+    const ir::NodeId left = right_first ? other : first;
+    const ir::NodeId right = right_first ? first : other;
+    return builder_.apply(Operator::Multiply, {left, right});
+}
+
+//     select(first == 0, first, first * other)
+//
+// The product of such a product goes into its second branch, so that x * y * z does not repeat
+// x * y in all three places: in the first branch it is zero already.
+ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first) {
     const ir::NodeId zero = builder_.convert(builder_.constant(false), program_[first].type);
-    return builder_.select(builder_.apply(Operator::Equal, {first, zero}), first, whole);
+    const auto test = [&](ir::NodeId id) {
+        return builder_.apply(Operator::Equal, {id, zero});
+    };
+    if (const auto* select = std::get_if<ir::Select>(&program_[first].form)) {
+        const auto [condition, then_value, else_value] = *select;
+        if (condition == test(then_value)) {
+            ++branches_;
+            const ir::NodeId rest = product_unless_zero(else_value, other, right_first);
+            --branches_;
+            return builder_.select(condition, then_value, rest);
+        }
+    }
+    first = named(first);
+    const ir::NodeId left = right_first ? other : first;
+    const ir::NodeId right = right_first ? first : other;
+    return builder_.select(test(first), first, builder_.apply(Operator::Multiply, {left, right}));
+}
+
+// A local for a value that is about to be used several times, outside of any scope: without it,
+// nested uses would multiply. What may fault keeps its place in a lazy branch, and what the
+// instance fixes stays an expression that bounds and passes can evaluate.
+ir::NodeId Lowering::named(ir::NodeId value) {
+    const ir::Facts& facts = builder_.facts(value);
+    if (ir::is_cheap(facts) || facts.uniform || (facts.may_fault && branches_ > 0)) return value;
+    const ir::LocalId local{program_.local_count++};
+    lets_.push_back({ir::Let{local, value}});
+    return builder_.local(local, program_[value].type);
 }
 
 ir::NodeId Lowering::lower(const model::If& form, const model::Expr&) {
     const ir::NodeId condition = lower(*form.condition);
-    const ir::NodeId then_value = lower(*form.then_branch);
-    return builder_.select(condition, then_value, lower(*form.else_branch));
+    const ir::NodeId then_value = lower_lazily(*form.then_branch);
+    return builder_.select(condition, then_value, lower_lazily(*form.else_branch));
 }
 
 // A chain of selects, the default (or the last case) at its end.
 ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     const ir::NodeId subject = lower(*form.subject);
     std::optional<ir::NodeId> rest;
-    if (form.default_case) rest = lower(**form.default_case);
+    if (form.default_case) rest = lower_lazily(**form.default_case);
     for (std::size_t member = form.cases.size(); member-- > 0;) {
         if (!form.cases[member]) continue;
-        const ir::NodeId value = lower(**form.cases[member]);
+        const ir::NodeId value = lower_lazily(**form.cases[member]);
         const ir::NodeId label = integer(static_cast<std::int64_t>(member));
         const ir::NodeId test = builder_.apply(Operator::Equal, {subject, label});
         rest = rest ? builder_.select(test, value, *rest) : value;

@@ -53,7 +53,12 @@ class Lowering {
 
     ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
     std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
-    ir::NodeId product(const model::Apply& form, ir::NodeId left, ir::NodeId right);
+    // What is not evaluated in any case.
+    ir::NodeId lower_lazily(const model::Expr& expr);
+    ir::NodeId connective(const model::Apply& form);
+    ir::NodeId product(const model::Apply& form);
+    ir::NodeId product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first);
+    ir::NodeId named(ir::NodeId value);
     ir::NodeId loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body);
     ir::NodeId row_major_index(std::span<const ir::VariableId> variables);
     ir::Place new_place(const model::Expr& expr, std::string what);
@@ -67,6 +72,8 @@ class Lowering {
     ir::Builder& builder_;
     Diagnostics& diagnostics_;
     std::vector<ir::VariableId> scope_;  // outermost first
+    int branches_ = 0;                   // how many lazy branches there are around
+    ir::Block lets_;                     // what the current CPF or condition computes first
     // Binders of equal name and type share a variable, so that equal expressions get equal ids.
     std::map<std::pair<std::string, model::TypeId>, ir::VariableId> variables_;
 };

@@ -40,6 +40,42 @@ TEST(Product, TakesAFluentThatMayBecomeInfiniteSeriously) {
               std::string::npos);
 }
 
+TEST(Product, NamesAFactorThatIsNotCheap) {
+    const ir::Program program = grounded(usual_problem("exp[f] * exp[x]"));
+    EXPECT_NE(step_text(program).find("let %0 = exp(action.f)\n"
+                                      "next.x = select(%0 == 0.0, %0, %0 * exp(state.x))\n"),
+              std::string::npos)
+        << step_text(program);
+}
+
+TEST(Product, OfAProductIsDecidedByItsFirstFactors) {
+    EXPECT_EQ(lowered("x * (1 / f) * (1 / x)"),
+              "select(state.x == 0.0, state.x, select(%0 == 0.0, %0, %0 * (1.0 / state.x)))");
+}
+
+TEST(Product, KeepsAFallibleFactorInItsBranch) {
+    const ir::Program program =
+        grounded(usual_problem("if (n > 0) then pow[n, n] * pow[n, n] else 0"));
+    EXPECT_EQ(step_text(program).find("let"), std::string::npos);
+}
+
+TEST(Product, OfManyFactorsStaysSmall) {
+    for (const std::string factor : {"exp[x]", "Poisson(x)", "(1 + exp[x])"}) {
+        std::string chain = factor;
+        for (int i = 0; i < 50; ++i) chain += " * " + factor;
+        const ir::Program plain = grounded(usual_problem(chain));
+        const ir::Program lazy = grounded(usual_problem("if (x > 3) then " + chain + " else 0"));
+        EXPECT_LT(ir::print(plain).size(), 200'000u);
+        EXPECT_LT(ir::print(lazy).size(), 400'000u);
+    }
+}
+
+TEST(Product, OfSumsOfProductsStaysSmall) {
+    std::string polynomial = "exp[x]";
+    for (int i = 0; i < 50; ++i) polynomial = "(" + polynomial + " + 1) * exp[x]";
+    EXPECT_LT(ir::print(grounded(usual_problem(polynomial))).size(), 50'000u);
+}
+
 TEST(Product, InAScopeIsPlain) {
     EXPECT_EQ(lowered("sum_{?o : obj} [v(?o) * (1 / x)]"),
               "sum[o in obj](state.v[o] * (1.0 / state.x))");
