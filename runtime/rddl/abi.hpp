@@ -2,6 +2,7 @@
 // into words, and no exception passes.
 #pragma once
 
+#include <rddl/action_choices.hpp>
 #include <rddl/batch.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/record_checks.hpp>
@@ -134,6 +135,28 @@ class SimulatorTable {
         return RDDL_OK;
     }
 
+    static std::int64_t action_choice_count(const rddl_simulator* simulator) {
+        return simulator == nullptr ? 0 : choice_count(*simulator->problem);
+    }
+
+    static rddl_error action_choice(const rddl_simulator* simulator, std::int64_t choice,
+                                    void* action) {
+        if (simulator == nullptr || choice < 0 || choice >= choice_count(*simulator->problem))
+            return RDDL_BAD_ARGUMENT;
+        const rddl_problem& problem = *simulator->problem;
+        if (problem.action_size == 0) return RDDL_OK;
+        if (action == nullptr) return RDDL_BAD_ARGUMENT;
+        std::memcpy(action, problem.default_action, static_cast<std::size_t>(problem.action_size));
+        write_choice(problem, choice, action);
+        return RDDL_OK;
+    }
+
+    static rddl_error action_mask(rddl_batch* batch, std::uint8_t* masks) {
+        if (batch == nullptr || masks == nullptr) return RDDL_BAD_ARGUMENT;
+        handle(batch).batch.action_mask(handle(batch).problem(), masks);
+        return RDDL_OK;
+    }
+
     // Calls body(k, environment) for each of the environments.
     template <class Body>
     static rddl_error for_each(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
@@ -222,7 +245,10 @@ class SimulatorTable {
                           .get_causes = get_causes,
                           .get_fault = get_fault,
                           .violated_preconditions = violated_preconditions,
-                          .copy = copy};
+                          .copy = copy,
+                          .action_choice_count = action_choice_count,
+                          .action_choice = action_choice,
+                          .action_mask = action_mask};
 };
 
 }  // namespace rddl

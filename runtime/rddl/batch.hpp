@@ -5,6 +5,7 @@
 // construction.
 #pragma once
 
+#include <rddl/action_choices.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
 #include <rddl/simulator.h>
@@ -117,9 +118,21 @@ class Batch {
     void violated_preconditions(const std::byte* actions, std::int32_t* first_violated) {
         for_each_environment([&](Workspace& workspace, std::int64_t i) {
             copy_record(workspace.action[0], actions, i, engine_->action_size());
-            Context<Scalar> context = episode(i).context_at(episode(i).steps + 1);
-            first_violated[i] =
-                engine_->violated_precondition(states_[i], workspace.action[0], context);
+            first_violated[i] = violated_precondition(workspace, i);
+        });
+    }
+
+    // One byte for each environment and choice (action_choices.hpp): is it allowed now?
+    void action_mask(const rddl_problem& problem, std::uint8_t* masks) {
+        const std::int64_t choices = choice_count(problem);
+        for_each_environment([&](Workspace& workspace, std::int64_t i) {
+            std::byte* const action = workspace.action[0];
+            copy_record(action, static_cast<const std::byte*>(problem.default_action), 0,
+                        engine_->action_size());
+            for_each_choice(problem, action, [&](std::int64_t choice) {
+                const bool allowed = choice == 0 || problem.max_nondef_actions != 0;
+                masks[i * choices + choice] = allowed && violated_precondition(workspace, i) < 0;
+            });
         });
     }
 
@@ -161,6 +174,12 @@ class Batch {
         start_next(*engine_, episode_of(i), options_.seed, identity, states_[i]);
         if (options_.partially_observed)
             std::memset(observations_[i], 0, engine_->observation_size());
+    }
+
+    // Of the action in the workspace.
+    int violated_precondition(Workspace& workspace, std::int64_t i) const {
+        Context<Scalar> context = episode(i).context_at(episode(i).steps + 1);
+        return engine_->violated_precondition(states_[i], workspace.action[0], context);
     }
 
     void step_environment(Workspace& workspace, std::int64_t i, const rddl_transition& out) {

@@ -142,6 +142,9 @@ typedef struct {
     char message[512]; /* names the cause, the ground objects and the value */
 } rddl_fault;
 
+/* Ints with more values than this between their bounds have no choices (action_choice_count). */
+#define RDDL_MOST_INT_CHOICES 1024
+
 typedef struct rddl_batch rddl_batch;
 typedef struct rddl_simulator rddl_simulator;
 
@@ -182,6 +185,19 @@ struct rddl_simulator {
 
     /* An independent copy, episodes and random streams included. NULL when out of memory. */
     rddl_batch* (*copy)(const rddl_batch*);
+
+    /* Choices, for solvers that change one action value at a time. Choice 0 is the default action
+     * (no-op). Then come, action-fluent by action-fluent in declaration order and grounding by
+     * grounding in row-major order, the default action with one value changed: a bool to its other
+     * value; an object, or an int with two bounds, to each of its values but the default, in
+     * ascending order. Reals, ints without two bounds and ints of more than RDDL_MOST_INT_CHOICES
+     * values are no part of it and stay at their default. */
+    int64_t (*action_choice_count)(const rddl_simulator*); /* at least 1 */
+    /* Writes the action record of a choice. */
+    rddl_error (*action_choice)(const rddl_simulator*, int64_t choice, void* action);
+    /* For each environment action_choice_count bytes: 1 where the choice satisfies all preconditions
+     * in the current state, else 0; also 0 for all but choice 0 where max_nondef_actions is 0. */
+    rddl_error (*action_mask)(rddl_batch*, uint8_t* masks);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

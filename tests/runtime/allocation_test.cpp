@@ -63,7 +63,10 @@ TEST(Allocations, DoNotHappenInSteps) {
                 batch.step();
             }
             std::int32_t violated[environments];
+            std::uint8_t masks[environments * 5];
             rddl_fault fault;
+            ASSERT_EQ(simulator()->action_choice_count(simulator()), 5);
+            simulator()->action_mask(batch.get(), masks);
             simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);
             simulator()->get_fault(batch.get(), 13, &fault);
             simulator()->set_state(batch.get(), 0, environments, batch.observations.data());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -210,6 +211,107 @@ TEST(Interface, ReportsPreconditionsWithoutEnforcingThem) {
     EXPECT_EQ(violated[2], -1);
     batch.step();
     EXPECT_EQ(batch.states()[1].repairs, 2);
+}
+
+// The choices of the tiny simulator: no-op, three repairs, the other mode. A hazard is real.
+constexpr std::int64_t tiny_choices = 5;
+
+TEST(Choices, AreTheSingleChangesOfTheDefaultAction) {
+    ASSERT_EQ(functions.action_choice_count(&functions), tiny_choices);
+    const auto choice = [](std::int64_t k) {
+        ActionRecord action;
+        EXPECT_EQ(functions.action_choice(&functions, k, &action), RDDL_OK);
+        EXPECT_EQ(action.hazard, 0.0);
+        return std::pair(action.repair, action.set_mode);
+    };
+    using Repair = decltype(ActionRecord::repair);
+    EXPECT_EQ(choice(0), std::pair(Repair{false, false, false}, std::int64_t{0}));
+    EXPECT_EQ(choice(1), std::pair(Repair{true, false, false}, std::int64_t{0}));
+    EXPECT_EQ(choice(3), std::pair(Repair{false, false, true}, std::int64_t{0}));
+    EXPECT_EQ(choice(4), std::pair(Repair{false, false, false}, std::int64_t{1}));
+    ActionRecord action;
+    EXPECT_EQ(functions.action_choice(&functions, -1, &action), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.action_choice(&functions, tiny_choices, &action), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.action_choice(&functions, 0, nullptr), RDDL_BAD_ARGUMENT);
+}
+
+using Mask = std::array<std::uint8_t, tiny_choices>;
+
+std::array<Mask, 2> masks_of(const rddl_simulator& simulator) {
+    const rddl_batch_options two{2, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1};
+    rddl_batch* const batch = simulator.create(&simulator, &two);
+    StateRecord state{};
+    state.wear = {0.0, 12.0, 0.0};
+    state.running = {true, true, true};
+    EXPECT_EQ(simulator.set_state(batch, 1, 1, &state), RDDL_OK);
+    std::array<Mask, 2> masks;
+    EXPECT_EQ(simulator.action_mask(batch, masks[0].data()), RDDL_OK);
+    EXPECT_EQ(simulator.action_mask(batch, nullptr), RDDL_BAD_ARGUMENT);
+    simulator.destroy(batch);
+    return masks;
+}
+
+// A worn machine must be repaired, others need no repair, and while one is worn nothing is fast.
+struct Strict : Simulator {
+    template <class L>
+    static typename L::Bool precondition(Index, const State<L>& state, const Action<L>& action,
+                                         Context<L>&) {
+        bool worn = false, fits = true;
+        for (Index m = 0; m < machines; ++m) {
+            worn |= state.wear[m] > 10.0;
+            fits &= action.repair[m] == (state.wear[m] > 10.0);
+        }
+        return fits && !(worn && action.set_mode == 1);
+    }
+};
+
+TEST(Choices, AreMaskedByThePreconditionsOfEachState) {
+    EXPECT_EQ(masks_of(functions)[0], (Mask{1, 1, 1, 1, 1}));
+    const rddl::SimulatorTable strict(problem, sites, rddl::Compiled<Strict>());
+    const auto masks = masks_of(*strict.get());
+    EXPECT_EQ(masks[0], (Mask{1, 0, 0, 0, 1}));
+    EXPECT_EQ(masks[1], (Mask{0, 0, 1, 0, 0})) << "here even the default action is illegal";
+}
+
+TEST(Choices, AreMaskedByTheLimitOfActions) {
+    rddl_problem limited = problem;
+    limited.max_nondef_actions = 0;
+    const rddl::SimulatorTable table(limited, sites, rddl::Compiled<Simulator>());
+    EXPECT_EQ(masks_of(*table.get())[0], (Mask{1, 0, 0, 0, 0}));
+}
+
+// Actions of three ints that are bounded differently; the default, 2, is no value of the last.
+TEST(Choices, OfIntsNeedTwoBoundsNotTooFarApart) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double lower[]{0.5, -infinity, 0.0, 5.0, 4.0};
+    const double upper[]{3.0, 3.0, 1e9, 6.0, 3.0};
+    const std::int64_t defaults[]{2, 2, 2, 2, 2};
+    rddl_fluent fluent{};
+    fluent.role = RDDL_ACTION;
+    fluent.scalar = RDDL_INT;
+    fluent.range_type = -1;
+    fluent.count = 5;
+    fluent.lower = lower;
+    fluent.upper = upper;
+    rddl_problem ints{};
+    ints.fluents = &fluent;
+    ints.fluent_count = 1;
+    ints.default_action = defaults;
+
+    std::vector<std::vector<std::int64_t>> all;
+    std::int64_t action[]{2, 2, 2, 2, 2};
+    rddl::for_each_choice(ints, action, [&](std::int64_t choice) {
+        EXPECT_EQ(choice, static_cast<std::int64_t>(all.size()));
+        all.emplace_back(action, action + 5);
+        std::vector<std::int64_t> written(defaults, defaults + 5);
+        rddl::write_choice(ints, choice, written.data());
+        EXPECT_EQ(written, all.back());
+    });
+    EXPECT_EQ(
+        all,
+        (std::vector<std::vector<std::int64_t>>{
+            {2, 2, 2, 2, 2}, {1, 2, 2, 2, 2}, {3, 2, 2, 2, 2}, {2, 2, 2, 5, 2}, {2, 2, 2, 6, 2}}));
+    EXPECT_EQ(rddl::choice_count(ints), 5);
 }
 
 TEST(Interface, CopiesAreIndependentAndGoOnAlike) {
