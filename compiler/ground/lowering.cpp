@@ -11,6 +11,10 @@
 namespace rddlc::grounding {
 namespace {
 
+// In operations (ir::Facts). Passes name what is used several times; this is for nested products,
+// which would grow exponentially until then.
+constexpr double largest_repeated_cost = 200;
+
 // What pyRDDLGym evaluates first when it is the right operand of * ^ |.
 bool is_simple(const model::Expr& expr) {
     if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
@@ -210,34 +214,38 @@ ir::NodeId Lowering::product(const model::Apply& form) {
 
 //     select(first == 0, first, first * other)
 //
-// The product of such a product goes into its second branch, so that x * y * z does not repeat
-// x * y in all three places: in the first branch it is zero already.
+// A large first factor is not repeated: it gets a name, or, where it must stay in a lazy branch,
+// hands the product down into its own second branch: in the first one it is zero already.
 ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first) {
     const ir::NodeId zero = builder_.convert(builder_.constant(false), program_[first].type);
     const auto test = [&](ir::NodeId id) {
         return builder_.apply(Operator::Equal, {id, zero});
     };
-    if (const auto* select = std::get_if<ir::Select>(&program_[first].form)) {
+    const bool is_large = builder_.facts(first).cost > largest_repeated_cost;
+    const auto* select = std::get_if<ir::Select>(&program_[first].form);
+    if (is_large && may_be_named(first)) {
+        first = named(first);
+    } else if (is_large && select) {
         const auto [condition, then_value, else_value] = *select;
         if (condition == test(then_value)) {
-            ++branches_;
             const ir::NodeId rest = product_unless_zero(else_value, other, right_first);
-            --branches_;
             return builder_.select(condition, then_value, rest);
         }
     }
-    first = named(first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
     return builder_.select(test(first), first, builder_.apply(Operator::Multiply, {left, right}));
 }
 
-// A local for a value that is about to be used several times, outside of any scope: without it,
-// nested uses would multiply. What may fault keeps its place in a lazy branch, and what the
-// instance fixes stays an expression that bounds and passes can evaluate.
-ir::NodeId Lowering::named(ir::NodeId value) {
+// What may fault keeps its place in a lazy branch, and what the instance fixes stays an expression
+// that bounds and passes can evaluate.
+bool Lowering::may_be_named(ir::NodeId value) const {
     const ir::Facts& facts = builder_.facts(value);
-    if (ir::is_cheap(facts) || facts.uniform || (facts.may_fault && branches_ > 0)) return value;
+    return !facts.uniform && (!facts.may_fault || branches_ == 0);
+}
+
+// A local for a value, outside of any scope.
+ir::NodeId Lowering::named(ir::NodeId value) {
     const ir::LocalId local{program_.local_count++};
     lets_.push_back({ir::Let{local, value}});
     return builder_.local(local, program_[value].type);

@@ -40,25 +40,6 @@ TEST(Product, TakesAFluentThatMayBecomeInfiniteSeriously) {
               std::string::npos);
 }
 
-TEST(Product, NamesAFactorThatIsNotCheap) {
-    const ir::Program program = grounded(usual_problem("exp[f] * exp[x]"));
-    EXPECT_NE(step_text(program).find("let %0 = exp(action.f)\n"
-                                      "next.x = select(%0 == 0.0, %0, %0 * exp(state.x))\n"),
-              std::string::npos)
-        << step_text(program);
-}
-
-TEST(Product, OfAProductIsDecidedByItsFirstFactors) {
-    EXPECT_EQ(lowered("x * (1 / f) * (1 / x)"),
-              "select(state.x == 0.0, state.x, select(%0 == 0.0, %0, %0 * (1.0 / state.x)))");
-}
-
-TEST(Product, KeepsAFallibleFactorInItsBranch) {
-    const ir::Program program =
-        grounded(usual_problem("if (n > 0) then pow[n, n] * pow[n, n] else 0"));
-    EXPECT_EQ(step_text(program).find("let"), std::string::npos);
-}
-
 TEST(Product, OfManyFactorsStaysSmall) {
     for (const std::string factor : {"exp[x]", "Poisson(x)", "(1 + exp[x])"}) {
         std::string chain = factor;
