@@ -85,7 +85,7 @@ struct Simulator {
         friction(state, scratch);
         position(state, next);
         drive(state, scratch, context);
-        turn(state, scratch, context);
+        turn(state, scratch);
         angle_change(state, scratch, next);
         pressure(state, scratch, context);
         speed_up(state, scratch, context);
@@ -134,18 +134,19 @@ struct Simulator {
 
     // turn  (domain.rddl:53)
     template <class L>
-    static void turn(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = rddl::cos(state.angle);
-        const Real term_2 = 0.1 * rddl::cos(state.angle);
-        const Real term_3 = rddl::branch(
-            context, term_2 == 0.0, [&] { return term_2; },
-            [&] { return term_2 * (rddl::cos(state.angle) - scratch.friction); });
-        const Real term_4 =
+        const Real term_2 = 0.1 * term;
+        const Real term_3 =
             rddl::select(term == 0.0, term, term * (scratch.drive - scratch.friction * 9.8));
+        const Real term_4 =
+            9.8 * rddl::sin(state.angle) - term_3 - 2e-06 * state.angle_change / 0.05;
         const Real term_5 =
-            9.8 * rddl::sin(state.angle) - term_4 - 2e-06 * state.angle_change / 0.05;
-        scratch.turn = term_5 / (0.5 * (1.3333333333333333 - term_3 / 1.1));
+            rddl::select(term_2 == 0.0, term_2, term_2 * (term - scratch.friction)) / 1.1;
+        const Real term_6 = 1.3333333333333333 - term_5;
+        const Real term_7 = 0.5 * term_6;
+        scratch.turn = term_4 / term_7;
     }
 
     // angle-change'  (domain.rddl:69)
