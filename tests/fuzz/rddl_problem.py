@@ -1,0 +1,155 @@
+"""A problem as data: what the generator makes, what is written as RDDL, what reduction shrinks."""
+
+import itertools
+import re
+from dataclasses import dataclass, field
+
+UNSURE = 999  # fraction bits of a real whose last digits depend on rounding
+
+
+@dataclass(frozen=True)
+class Expr:
+    """An expression, and what is known about its value.
+
+    Reals of which few bits are in use are computed without rounding, so that they must be equal
+    everywhere; magnitude and fraction tell how many.
+    """
+
+    kind: str  # bool, int, real or the name of a type
+    form: str  # RDDL with a %s for each part
+    parts: tuple["Expr", ...] = ()
+    magnitude: int = 1  # bits before the point
+    fraction: int = 0  # bits behind it
+    finite: bool = True
+
+    def __str__(self) -> str:
+        return self.form % self.parts
+
+    def is_exact(self) -> bool:
+        return self.magnitude + self.fraction <= 50
+
+    def all(self):
+        """This and everything below."""
+        yield self
+        for part in self.parts:
+            yield from part.all()
+
+
+@dataclass
+class Type:
+    name: str
+    enumerated: bool
+    members: list[str]  # without @
+
+    def literal(self, member: str) -> str:
+        return "@" + member if self.enumerated else member
+
+
+@dataclass
+class Fluent:
+    name: str
+    role: str  # state-fluent, ...
+    range: str
+    parameters: tuple[str, ...] = ()
+    default: str | None = None
+    values: dict[tuple[str, ...], str] = field(default_factory=dict)  # in the instance
+    # Of all its values, at all times.
+    magnitude: int = 6
+    fraction: int = 2
+    finite: bool = True
+
+    def is_exact(self) -> bool:
+        return self.magnitude + self.fraction <= 50
+
+
+@dataclass
+class Problem:
+    types: list[Type] = field(default_factory=list)
+    fluents: list[Fluent] = field(default_factory=list)
+    cpfs: dict[str, tuple[tuple[str, ...], Expr]] = field(default_factory=dict)  # left-hand side
+    reward: Expr = Expr("int", "0")
+    preconditions: list[Expr] = field(default_factory=list)
+    invariants: list[Expr] = field(default_factory=list)
+    terminations: list[Expr] = field(default_factory=list)
+    horizon: int = 20
+    max_nondef_actions: str = "pos-inf"
+
+    def type(self, name: str) -> Type | None:
+        return next((t for t in self.types if t.name == name), None)
+
+    def fluent(self, name: str) -> Fluent:
+        return next(f for f in self.fluents if f.name == name)
+
+    def groundings(self, fluent: Fluent):
+        members = [self.type(parameter).members for parameter in fluent.parameters]
+        return itertools.product(*members)
+
+    def expressions(self) -> list[Expr]:
+        cpfs = [body for _, body in self.cpfs.values()]
+        return cpfs + [self.reward] + self.preconditions + self.invariants + self.terminations
+
+    def text(self) -> str:
+        """Domain and instance in one."""
+        return self.domain_text() + self.instance_text()
+
+    def domain_text(self) -> str:
+        enumerated = [t for t in self.types if t.enumerated]
+        objects = [t for t in self.types if not t.enumerated]
+        lines = ["domain fuzz {", "    types {"]
+        lines += [f"        {t.name} : object;" for t in objects]
+        for t in enumerated:
+            lines.append(f"        {t.name} : {{ {', '.join('@' + m for m in t.members)} }};")
+        lines += ["    };", "    pvariables {"]
+        lines += ["        " + declaration(fluent) for fluent in self.fluents]
+        lines += ["    };", "    cpfs {"]
+        for name, (parameters, body) in self.cpfs.items():
+            head = f"{name}({', '.join(parameters)})" if parameters else name
+            lines.append(f"        {head} = {body};")
+        lines += ["    };", f"    reward = {self.reward};"]
+        for block, conditions in (
+            ("action-preconditions", self.preconditions),
+            ("state-invariants", self.invariants),
+            ("termination", self.terminations),
+        ):
+            if conditions:
+                lines += [f"    {block} {{", *(f"        {c};" for c in conditions), "    };"]
+        return "\n".join([*lines, "}", ""])
+
+    def instance_text(self) -> str:
+        objects = [t for t in self.types if not t.enumerated]
+        lines = ["non-fluents nf {", "    domain = fuzz;"]
+        if objects:
+            lists = [f"{t.name} : {{ {', '.join(t.members)} }};" for t in objects]
+            lines.append(f"    objects {{ {' '.join(lists)} }};")
+        lines += self._values("non-fluents", "non-fluent")
+        lines += ["}", "instance i {", "    domain = fuzz;", "    non-fluents = nf;"]
+        lines += self._values("init-state", "state-fluent")
+        lines += [f"    max-nondef-actions = {self.max_nondef_actions};"]
+        lines += [f"    horizon = {self.horizon};", "    discount = 0.9;", "}", ""]
+        return "\n".join(lines)
+
+    def _values(self, block: str, role: str) -> list[str]:
+        lines = []
+        for fluent in self.fluents:
+            if fluent.role == role:
+                types = [self.type(parameter) for parameter in fluent.parameters]
+                for objects, value in fluent.values.items():
+                    arguments = ", ".join(t.literal(o) for t, o in zip(types, objects))
+                    head = f"{fluent.name}({arguments})" if objects else fluent.name
+                    lines.append(f"        {head} = {value};")
+        return [f"    {block} {{", *lines, "    };"] if lines else []
+
+
+def declaration(fluent: Fluent) -> str:
+    parameters = f"({', '.join(fluent.parameters)})" if fluent.parameters else ""
+    default = f", default = {fluent.default}" if fluent.default is not None else ""
+    return f"{fluent.name}{parameters} : {{ {fluent.role}, {fluent.range}{default} }};"
+
+
+def variables_in(text: str) -> set[str]:
+    return set(re.findall(r"\?[A-Za-z0-9_-]+", text))
+
+
+def names_in(text: str) -> set[str]:
+    """Fluents by name, primes removed."""
+    return set(re.findall(r"(?<![?@\w-])[A-Za-z](?:[\w-]*[A-Za-z0-9])?", text))
