@@ -103,16 +103,16 @@ bool check_not_captured(const Vector& vector, const ast::VectorReference& writte
 
 struct VectorRow {
     std::string_view name;
-    model::VectorDistribution distribution;
+    VectorDistribution distribution;
     std::vector<std::size_t> axes;  // underscores in each argument
 };
 
 const VectorRow* vector_row(std::string_view name) {
     static const std::array rows = {
-        VectorRow{"MultivariateNormal", model::VectorDistribution::MultivariateNormal, {1, 2}},
-        VectorRow{"MultivariateStudent", model::VectorDistribution::MultivariateStudent, {1, 2, 0}},
-        VectorRow{"Dirichlet", model::VectorDistribution::Dirichlet, {1}},
-        VectorRow{"Multinomial", model::VectorDistribution::Multinomial, {0, 1}},
+        VectorRow{"MultivariateNormal", VectorDistribution::MultivariateNormal, {1, 2}},
+        VectorRow{"MultivariateStudent", VectorDistribution::MultivariateStudent, {1, 2, 0}},
+        VectorRow{"Dirichlet", VectorDistribution::Dirichlet, {1}},
+        VectorRow{"Multinomial", VectorDistribution::Multinomial, {0, 1}},
     };
     const auto found = std::ranges::find(rows, name, &VectorRow::name);
     return found == rows.end() ? nullptr : &*found;
@@ -156,10 +156,10 @@ bool check_trials(const Vector& trials, const ast::VectorReference& written, Con
 
 // ------------------------------------------------------------------------ matrix functions
 
-std::optional<model::MatrixOperator> matrix_operator(std::string_view name) {
-    if (name == "inverse") return model::MatrixOperator::Inverse;
-    if (name == "pinverse") return model::MatrixOperator::PseudoInverse;
-    if (name == "cholesky") return model::MatrixOperator::Cholesky;
+std::optional<MatrixOperator> matrix_operator(std::string_view name) {
+    if (name == "inverse") return MatrixOperator::Inverse;
+    if (name == "pinverse") return MatrixOperator::PseudoInverse;
+    if (name == "cholesky") return MatrixOperator::Cholesky;
     return std::nullopt;
 }
 
@@ -194,8 +194,7 @@ Typed check_matrix_function(const ast::MatrixFunction& function, Span span, Scop
                         fmt::format("row and column of '{}' must be different variables", name)});
         return std::nullopt;
     }
-    const bool needs_square = *op != model::MatrixOperator::PseudoInverse;
-    if (needs_square && !check_square(name, *row, *column, span, context)) return std::nullopt;
+    if (!check_square(name, *row, *column, span, context)) return std::nullopt;
     return model::Expr{model::real_type, span,
                        model::MatrixFunction{*op, *row, *column, std::move(*element)}};
 }
@@ -245,7 +244,7 @@ Typed check_random_vector(const ast::RandomVector& vector, Span span, Scope& sco
         return std::nullopt;
     }
     if (!row) return std::nullopt;
-    const bool counts = row->distribution == model::VectorDistribution::Multinomial;
+    const bool counts = row->distribution == VectorDistribution::Multinomial;
     model::RandomVector node{row->distribution, axis.value_or(0), {}};
     for (std::size_t i = 0; i < vector.arguments.size(); ++i) {
         const ast::VectorReference& written = vector.arguments[i];

@@ -2,6 +2,7 @@
 
 #include "emit/literals.hpp"
 #include "emit/operators.hpp"
+#include "ir/call.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -225,6 +226,25 @@ std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeI
     uses_.stores_next |= storage == ir::Storage::Next;
     uses_.stores_observation |= storage == ir::Storage::Observation;
     return text;
+}
+
+std::string Expressions::view(const ir::TableView& view, bool is_written) {
+    if (is_written) return target(view.buffer, view.indices);
+    std::string text = record(view.buffer);
+    for (ir::NodeId id : view.indices) text += "[" + index(id).text + "]";
+    return text;
+}
+
+std::string Expressions::call_text(const ir::Call& call) {
+    const ir::Extent extent = ir::extent_of(unit_.program, call);
+    const bool overwrites = ir::signature_of(call.callee).overwrites_inputs;
+    std::vector<std::string> arguments;
+    if (call.place) arguments.push_back(place(*call.place));
+    arguments.push_back(unit_.count_of(extent.type, extent.size));
+    for (ir::NodeId scalar : call.scalars) arguments.push_back(text(scalar));
+    for (const ir::TableView& input : call.inputs) arguments.push_back(view(input, overwrites));
+    arguments.push_back(view(call.output, true));
+    return "rddl::" + function_of(call.callee) + "(" + comma_separated(arguments) + ")";
 }
 
 // Uniform indices first in brackets; from the first other one on, the lanes differ.

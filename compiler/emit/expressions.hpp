@@ -50,6 +50,8 @@ class Expressions {
     std::string type(ir::Scalar scalar);
     // An element to store into: next.x[i][j].
     std::string target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices);
+    // A statement that fills a table.
+    std::string call_text(const ir::Call& call);
     // The call of an aggregation or of a draw over objects, up to its lambda.
     std::string call_head(const ir::Node& binder);
     // "[&](rddl::Index r)"; without the name where the body does not use it.
@@ -99,6 +101,7 @@ class Expressions {
     std::string arguments(const std::vector<ir::NodeId>& operands);
     std::string place(const ir::Place& place);
     std::string record(ir::BufferId buffer);
+    std::string view(const ir::TableView& view, bool is_written);
     Spelled index(ir::NodeId id);
     bool is_plain_index(ir::NodeId id) const;
 

@@ -119,6 +119,13 @@ void FunctionBody::statement(const ir::Loop& loop) {
     expressions_.return_to(before);
 }
 
+void FunctionBody::statement(const ir::Call& call) {
+    const auto column = static_cast<std::size_t>(level_ * indentation);
+    const std::string text = expressions_.call_text(call) + ";";
+    if (fits(text.size())) return line(text);
+    for (const std::string& each : fill_call(text, 0, column)) line(each);
+}
+
 void FunctionBody::value(const std::string& lead, ir::NodeId id) {
     prepare(lead, id);
     write(lead, id);

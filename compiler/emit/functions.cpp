@@ -7,6 +7,7 @@
 #include "emit/tables.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace rddlc::cpp {
@@ -82,13 +83,14 @@ std::string function(const std::string& result, const std::string& name,
     return text + body + indented("}", level);
 }
 
-std::string body_text(const Unit& unit, FunctionBody& body, Span span) {
+std::string body_text(const Unit& unit, FunctionBody& body, Span span, bool has_scratch = false) {
     const bool directives = unit.options.line_directives;
     std::string text;
     const Uses& uses = body.uses();
     if (uses.bool_type) text += indented("using Bool = typename L::Bool;", level + 1);
     if (uses.int_type) text += indented("using Int = typename L::Int;", level + 1);
     if (uses.real_type) text += indented("using Real = typename L::Real;", level + 1);
+    if (has_scratch) text += indented("Scratch<L> scratch{};", level + 1);
     for (const std::string& line : body.lines()) {
         if (directives) text += line_directive(unit.sources, span);
         text += line + "\n";
@@ -168,14 +170,17 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
         FunctionBody body(unit, level + 1);
         body.block(computation.body);
         body.return_value(computation.value);
-        unite(all, body.uses());
-        const std::vector<Parameter> parameters = only_used(record_parameters(body.uses()));
+        // Nobody hands tables to conditions; those that need some have their own.
+        Uses uses = body.uses();
+        const bool has_scratch = std::exchange(uses.scratch, false);
+        unite(all, uses);
+        const std::vector<Parameter> parameters = only_used(record_parameters(uses));
         calls.push_back(names[k] + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) +
                         ")");
         functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
                                     unit.where(computation.span));
         functions += function("typename L::Bool", names[k], parameters,
-                              body_text(unit, body, computation.span));
+                              body_text(unit, body, computation.span, has_scratch));
     }
     std::vector<Parameter> parameters = {{"rddl::Index", "k", !computations.empty()},
                                          record_parameter("State", "state", all.state, false)};

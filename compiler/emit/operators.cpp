@@ -1,5 +1,7 @@
 #include "emit/operators.hpp"
 
+#include "support/match.hpp"
+
 #include <stdexcept>
 
 namespace rddlc::cpp {
@@ -21,6 +23,31 @@ OperatorSpelling connective(const char* word, Level level) {
 // Comparisons inside comparisons always get parentheses.
 OperatorSpelling comparison(const char* word) {
     return infix(word, Level::Comparison, Level::Additive, Level::Additive);
+}
+
+// NegativeBinomial -> negative_binomial
+std::string snake_case(std::string_view name) {
+    std::string word;
+    for (char c : name) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (upper && !word.empty()) word += '_';
+        word += upper ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return word;
+}
+
+std::string_view function_name(MatrixOperator op) {
+    switch (op) {
+        case MatrixOperator::Determinant:
+            return "determinant";
+        case MatrixOperator::Inverse:
+            return "inverse";
+        case MatrixOperator::PseudoInverse:
+            return "pseudo_inverse";
+        case MatrixOperator::Cholesky:
+            return "cholesky";
+    }
+    throw std::logic_error("an unknown matrix function reached the emitter");
 }
 
 }  // namespace
@@ -93,15 +120,16 @@ std::string function_of(Reduction reduction) {
     throw std::logic_error("an average reached the emitter");
 }
 
-// NegativeBinomial -> negative_binomial
 std::string function_of(Distribution distribution) {
-    std::string word;
-    for (char c : name_of(distribution)) {
-        const bool upper = c >= 'A' && c <= 'Z';
-        if (upper && !word.empty()) word += '_';
-        word += upper ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return word;
+    return snake_case(name_of(distribution));
+}
+
+std::string function_of(const ir::Callee& callee) {
+    return match(
+        callee, [](MatrixOperator op) { return std::string(function_name(op)); },
+        [](VectorDistribution distribution) {
+            return "sample::" + snake_case(name_of(distribution));
+        });
 }
 
 }  // namespace rddlc::cpp

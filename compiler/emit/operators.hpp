@@ -19,5 +19,6 @@ OperatorSpelling spelling_of(Operator op, bool on_ints);
 
 std::string function_of(Reduction reduction);
 std::string function_of(Distribution distribution);  // in rddl::sample
+std::string function_of(const ir::Callee& callee);   // in rddl
 
 }  // namespace rddlc::cpp

@@ -29,8 +29,12 @@ bool Unit::is_lazy(const ir::Select& select) const {
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {
-    const auto all = static_cast<std::int64_t>(program.types[variable.type].objects.size());
-    return variable.size == all ? names.counts[variable.type] : std::to_string(variable.size);
+    return count_of(variable.type, variable.size);
+}
+
+std::string Unit::count_of(std::uint32_t type, std::int64_t size) const {
+    const auto all = static_cast<std::int64_t>(program.types[type].objects.size());
+    return size == all ? names.counts[type] : std::to_string(size);
 }
 
 std::string Unit::where(Span span) const {

@@ -28,6 +28,8 @@ struct Unit {
     bool is_lazy(const ir::Select& select) const;
     // The number of objects that a loop runs over, by the name of its type where it is all of them.
     std::string size_of(const ir::Variable& variable) const;
+    // A number of objects, by the name of the type where it is all of them.
+    std::string count_of(std::uint32_t type, std::int64_t size) const;
     // "domain.rddl:41"
     std::string where(Span span) const;
 };

@@ -1,11 +1,14 @@
 #include "ground/ground.hpp"
 
 #include "ground/bounds.hpp"
+#include "ground/codes.hpp"
 #include "ground/declare.hpp"
 #include "ground/finiteness.hpp"
 #include "ground/lowering.hpp"
 #include "ground/unsupported.hpp"
+#include "ir/analysis.hpp"
 #include "ir/builder.hpp"
+#include "ir/layout.hpp"
 #include "ir/verify.hpp"
 
 #include <utility>
@@ -18,6 +21,22 @@ std::vector<ir::Computation> lower_all(const std::vector<model::Expr>& condition
     std::vector<ir::Computation> lowered;
     for (const model::Expr& condition : conditions) lowered.push_back(lowering.value_of(condition));
     return lowered;
+}
+
+// Conditions have their tables on the stack.
+constexpr std::size_t most_condition_bytes = 1 << 20;
+
+void report_large_conditions(const ir::Program& program, Diagnostics& diagnostics) {
+    if (ir::record_layout(program, ir::Storage::Scratch).size <= most_condition_bytes) return;
+    for (const auto* conditions :
+         {&program.preconditions, &program.invariants, &program.terminations}) {
+        for (const ir::Computation& condition : *conditions) {
+            if (!ir::fills_tables(condition.body)) continue;
+            diagnostics.report({grounding::not_supported_yet, condition.span,
+                                "valid RDDL, not supported yet: matrix functions in conditions "
+                                "where all tables of a step take more than 1 MB"});
+        }
+    }
 }
 
 }  // namespace
@@ -41,6 +60,7 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         program.invariants = lower_all(model.state_invariants, lowering);
         program.terminations = lower_all(model.terminations, lowering);
     }
+    report_large_conditions(program, diagnostics);
     grounding::find_bounds(model, declarations.buffers, program, diagnostics);
     if (diagnostics.error_count() > errors_before) return std::nullopt;
 #ifndef NDEBUG

@@ -43,8 +43,7 @@ Lowering::Lowering(const model::Model& model, const std::vector<FluentBuffers>& 
 
 // --------------------------------------------------------------------- definitions and values
 
-// Loops over the parameters, outermost first, around one store. A parameter over a single object
-// needs no loop: its index is 0.
+// Loops over the parameters around one store, behind what it needs first.
 ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     enter(cpf.parameters);
     const FluentBuffers& buffers = buffers_[cpf.fluent];
@@ -52,21 +51,27 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     for (ir::VariableId parameter : scope_) store.indices.push_back(builder_.index(parameter));
     store.value = lower_as(cpf.body, scalar_of(model_.fluents[cpf.fluent].range));
 
-    ir::Block body = std::exchange(lets_, {});
-    body.push_back({store});
-    for (auto parameter = scope_.rbegin(); parameter != scope_.rend(); ++parameter) {
-        if (program_[*parameter].size == 1) continue;
-        ir::Loop loop{*parameter, std::move(body)};
-        body.clear();
-        body.push_back({std::move(loop)});
-    }
+    ir::Block body = std::exchange(prelude_, {});
+    body.push_back(looped({store}, scope_));
     leave(cpf.parameters.size());
     return {store.target, std::move(body), cpf.span};
 }
 
 ir::Computation Lowering::value_of(const model::Expr& expr) {
     const ir::NodeId value = lower(expr);
-    return {std::exchange(lets_, {}), value, expr.span};
+    return {std::exchange(prelude_, {}), value, expr.span};
+}
+
+// Inside loops, outermost first. A variable over a single object needs none: its index is 0.
+ir::Statement Lowering::looped(ir::Statement statement,
+                               std::span<const ir::VariableId> variables) const {
+    for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
+        if (program_[*variable].size == 1) continue;
+        ir::Loop loop{*variable, {}};
+        loop.body.push_back(std::move(statement));
+        statement = {std::move(loop)};
+    }
+    return statement;
 }
 
 // --------------------------------------------------------------------------- scope and places
@@ -102,17 +107,22 @@ ir::NodeId Lowering::row_major_index(std::span<const ir::VariableId> variables) 
 }
 
 ir::Place Lowering::new_place(const model::Expr& expr, std::string what) {
+    return new_place(expr, std::move(what), scope_);
+}
+
+ir::Place Lowering::new_place(const model::Expr& expr, std::string what,
+                              const std::vector<ir::VariableId>& scope) {
     constexpr double largest = std::numeric_limits<std::uint32_t>::max();
     double count = 1;
-    for (ir::VariableId variable : scope_) count *= static_cast<double>(program_[variable].size);
+    for (ir::VariableId variable : scope) count *= static_cast<double>(program_[variable].size);
     if (count > largest) {
         diagnostics_.report(
             {too_many_groundings, expr.span,
              fmt::format("'{}' has {:.0f} groundings, more than {:.0f}", what, count, largest)});
     }
-    program_.sites.push_back({expr.span, scope_, std::move(what)});
+    program_.sites.push_back({expr.span, scope, std::move(what)});
     const auto site = static_cast<std::uint32_t>(program_.sites.size() - 1);
-    return {ir::SiteId{site}, row_major_index(scope_)};
+    return {ir::SiteId{site}, row_major_index(scope)};
 }
 
 // -------------------------------------------------------------------------------- expressions
@@ -247,7 +257,7 @@ bool Lowering::may_be_named(ir::NodeId value) const {
 // A local for a value, outside of any scope.
 ir::NodeId Lowering::named(ir::NodeId value) {
     const ir::LocalId local{program_.local_count++};
-    lets_.push_back({ir::Let{local, value}});
+    prelude_.push_back({ir::Let{local, value}});
     return builder_.local(local, program_[value].type);
 }
 
@@ -345,8 +355,7 @@ ir::NodeId Lowering::lower(const model::DiscreteOver& form, const model::Expr& e
 }
 
 // report_unsupported() has refused these.
-template <class Unsupported>
-ir::NodeId Lowering::lower(const Unsupported&, const model::Expr& expr) {
+ir::NodeId Lowering::lower(const model::External&, const model::Expr& expr) {
     return builder_.fault(scalar_of(expr.type), new_place(expr, "not supported yet"));
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,10 @@ class Lowering {
     ir::NodeId lower(const model::Sample& form, const model::Expr& expr);
     ir::NodeId lower(const model::Discrete& form, const model::Expr& expr);
     ir::NodeId lower(const model::DiscreteOver& form, const model::Expr& expr);
-    template <class Unsupported>
-    ir::NodeId lower(const Unsupported& form, const model::Expr& expr);
+    ir::NodeId lower(const model::External& form, const model::Expr& expr);
+    ir::NodeId lower(const model::Determinant& form, const model::Expr& expr);
+    ir::NodeId lower(const model::MatrixFunction& form, const model::Expr& expr);
+    ir::NodeId lower(const model::RandomVector& form, const model::Expr& expr);
 
     ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
     std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
@@ -63,8 +66,39 @@ class Lowering {
     ir::NodeId loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body);
     ir::NodeId row_major_index(std::span<const ir::VariableId> variables);
     ir::Place new_place(const model::Expr& expr, std::string what);
+    ir::Place new_place(const model::Expr& expr, std::string what,
+                        const std::vector<ir::VariableId>& scope);
     ir::NodeId integer(std::int64_t value) { return builder_.constant(value); }
     std::int64_t size_of(model::VariableId id) const;
+    ir::Statement looped(ir::Statement statement, std::span<const ir::VariableId> variables) const;
+
+    // lowering_tables.cpp
+    struct Matrix {
+        ir::NodeId element;
+        ir::VariableId row, column;
+        std::vector<ir::VariableId> outer;  // in scope, used by the element
+    };
+    void run_before(ir::Statement statement, std::span<const ir::VariableId> variables);
+    ir::BufferId new_table(std::string_view name, ir::Scalar scalar,
+                           std::span<const ir::VariableId> dimensions, const model::Expr& expr);
+    ir::BufferId filled_table(std::string_view name, ir::NodeId value,
+                              std::span<const ir::VariableId> variables, const model::Expr& expr);
+    std::string unused_name(std::string_view wish) const;
+    std::vector<ir::NodeId> indices_of(std::span<const ir::VariableId> variables);
+    std::vector<ir::VariableId> variables_in(const std::vector<ir::NodeId>& nodes,
+                                             const std::vector<ir::VariableId>& candidates) const;
+    void call_matrix_operator(MatrixOperator op, const Matrix& matrix, ir::BufferId result,
+                              const model::Expr& expr);
+    ir::BufferId buffer_of(const model::VectorReference& reference) const;
+    ir::NodeId element_of(const model::VectorReference& reference,
+                          const std::vector<ir::VariableId>& axes);
+    ir::TableView view_of(const model::VectorReference& reference,
+                          const std::vector<ir::VariableId>& axes, std::string_view name,
+                          const model::Expr& expr);
+    ir::TableView vector_of(const model::VectorReference& reference, ir::VariableId axis,
+                            const model::Expr& expr);
+    ir::TableView factor_of(const model::VectorReference& reference, ir::VariableId axis,
+                            const model::Expr& expr);
 
     const model::Model& model_;
     const std::vector<FluentBuffers>& buffers_;
@@ -74,7 +108,7 @@ class Lowering {
     Diagnostics& diagnostics_;
     std::vector<ir::VariableId> scope_;  // outermost first
     int branches_ = 0;                   // how many lazy branches there are around
-    ir::Block lets_;                     // what the current CPF or condition computes first
+    ir::Block prelude_;                  // what the current CPF or condition computes first
     // Binders of equal name and type share a variable, so that equal expressions get equal ids.
     std::map<std::pair<std::string, model::TypeId>, ir::VariableId> variables_;
 };

@@ -1,4 +1,4 @@
-// What is valid RDDL but has no IR yet: random vectors, matrix functions, external functions.
+// What is valid RDDL but has no IR yet: external functions.
 #pragma once
 
 #include "model/model.hpp"

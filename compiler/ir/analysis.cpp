@@ -159,6 +159,7 @@ class Collector {
     // Of the operators that may fault.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
+        if (op == Operator::Defined) return operands[0].has_value();
         return operands[0] && operands[0]->lower > 0;
     }
 
@@ -179,7 +180,11 @@ void append_roots(const Block& block, std::vector<NodeId>& roots) {
                 roots.insert(roots.end(), store.indices.begin(), store.indices.end());
                 roots.push_back(store.value);
             },
-            [&](const Loop& loop) { append_roots(loop.body, roots); });
+            [&](const Loop& loop) { append_roots(loop.body, roots); },
+            [&](const Call& call) {
+                const std::vector<NodeId> operands = operands_of(call);
+                roots.insert(roots.end(), operands.begin(), operands.end());
+            });
     }
 }
 
@@ -225,6 +230,35 @@ std::vector<NodeId> operands_of(const Node& node) {
         [&](const Discrete& discrete) { return with_place(discrete.place, discrete.weights); },
         [&](const DiscreteOver& discrete) { return with_place(discrete.place, {discrete.weight}); },
         [](const Fault& fault) { return std::vector{fault.place.index}; });
+}
+
+std::vector<const Block*> blocks_of(const Program& program) {
+    std::vector<const Block*> blocks;
+    for (const Definition& definition : program.step) blocks.push_back(&definition.body);
+    blocks.push_back(&program.reward.body);
+    for (const auto* conditions :
+         {&program.preconditions, &program.invariants, &program.terminations}) {
+        for (const Computation& condition : *conditions) blocks.push_back(&condition.body);
+    }
+    return blocks;
+}
+
+bool fills_tables(const Block& block) {
+    bool fills = false;
+    for_each_statement<Store>(block, [&](const Store&) { fills = true; });
+    return fills;
+}
+
+std::vector<NodeId> operands_of(const Call& call) {
+    std::vector<NodeId> operands;
+    const auto add = [&](const std::vector<NodeId>& ids) {
+        operands.insert(operands.end(), ids.begin(), ids.end());
+    };
+    for (const TableView& input : call.inputs) add(input.indices);
+    add(call.scalars);
+    add(call.output.indices);
+    if (call.place) operands.push_back(call.place->index);
+    return operands;
 }
 
 std::optional<Place> place_of(const Node& node) {
@@ -284,7 +318,12 @@ bool is_stochastic(const Program& program) {
                            std::holds_alternative<DiscreteOver>(node.form);
         if (reachable[index] && draws) return true;
     }
-    return false;
+    bool draws_vector = false;
+    for (const Block* block : blocks_of(program)) {
+        for_each_statement<Call>(*block,
+                                 [&](const Call& call) { draws_vector |= call.place.has_value(); });
+    }
+    return draws_vector;
 }
 
 }  // namespace rddlc::ir

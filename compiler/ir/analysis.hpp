@@ -44,6 +44,26 @@ std::optional<Place> place_of(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
+// The statements of every definition and computation.
+std::vector<const Block*> blocks_of(const Program& program);
+
+// Calls visit(form) for every Let, Store, Loop or Call, those of nested loops included.
+template <class Form, class Visit>
+void for_each_statement(const Block& block, const Visit& visit) {
+    for (const Statement& statement : block) {
+        if (const auto* form = std::get_if<Form>(&statement.form)) visit(*form);
+        if (const auto* loop = std::get_if<Loop>(&statement.form)) {
+            for_each_statement<Form>(loop->body, visit);
+        }
+    }
+}
+
+// Does it store to buffers?
+bool fills_tables(const Block& block);
+
+// What a call evaluates before it looks at its tables.
+std::vector<NodeId> operands_of(const Call& call);
+
 // Every value and index that the statements evaluate, in order, those of nested loops included.
 std::vector<NodeId> roots_of(const Block& block);
 std::vector<NodeId> roots_of(const Computation& computation);

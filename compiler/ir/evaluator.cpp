@@ -1,7 +1,9 @@
 #include "ir/evaluator.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/call.hpp"
 #include "ir/layout.hpp"
+#include "ir/table_kernels.hpp"
 #include "support/match.hpp"
 
 #include <rddl/distributions.hpp>
@@ -20,19 +22,8 @@ void number_lets(const Block& block, std::size_t& next, std::vector<std::size_t>
     for (const Statement& statement : block) {
         match(
             statement.form, [&](const Let& let) { slots[let.local.index] = next++; },
-            [&](const Loop& loop) { number_lets(loop.body, next, slots); }, [](const Store&) {});
+            [&](const Loop& loop) { number_lets(loop.body, next, slots); }, [](const auto&) {});
     }
-}
-
-std::vector<const Block*> blocks_of(const Program& program) {
-    std::vector<const Block*> blocks;
-    for (const Definition& definition : program.step) blocks.push_back(&definition.body);
-    blocks.push_back(&program.reward.body);
-    for (const auto* conditions :
-         {&program.preconditions, &program.invariants, &program.terminations}) {
-        for (const Computation& condition : *conditions) blocks.push_back(&condition.body);
-    }
-    return blocks;
 }
 
 template <class T>
@@ -134,7 +125,8 @@ void Evaluator::run(const Block& block, Frame& frame) const {
                     frame.set(loop.variable, i);
                     run(loop.body, frame);
                 }
-            });
+            },
+            [&](const Call& form) { call(form, frame); });
     }
 }
 
@@ -168,11 +160,35 @@ void Evaluator::store(const Store& form, Frame& frame) const {
     }
 }
 
+void Evaluator::call(const Call& form, Frame& frame) const {
+    TableArguments arguments{.size = extent_of(*program_, form).size,
+                             .inputs = {},
+                             .real_scalar = 0,
+                             .int_scalar = 0,
+                             .output = element(form.output.buffer, form.output.indices, frame)};
+    for (std::size_t i = 0; i < form.inputs.size(); ++i) {
+        arguments.inputs[i] = element(form.inputs[i].buffer, form.inputs[i].indices, frame);
+    }
+    for (NodeId scalar : form.scalars) {
+        if ((*program_)[scalar].type == Scalar::Real) {
+            arguments.real_scalar = value<double>(scalar, frame);
+        } else {
+            arguments.int_scalar = value<std::int64_t>(scalar, frame);
+        }
+    }
+    const rddl::Place here = place(form.place, frame);
+    match(form.callee,
+          [&](auto callee) { call_on_tables(callee, arguments, here, frame.context_); });
+}
+
 std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const {
     const Buffer& buffer = (*program_)[id];
     std::int64_t index = 0;
     for (std::size_t axis = 0; axis < indices.size(); ++axis) {
         index = index * buffer.shape[axis] + value<std::int64_t>(indices[axis], frame);
+    }
+    for (std::size_t axis = indices.size(); axis < buffer.shape.size(); ++axis) {
+        index *= buffer.shape[axis];
     }
     const Origin origin = origins_[id.index];
     const std::size_t offset = static_cast<std::size_t>(index) * size_of(buffer.scalar);

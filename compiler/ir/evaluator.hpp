@@ -76,10 +76,12 @@ class Evaluator {
     void pack_constants();
     void number_slots();
 
+    // Where the element begins, or the part that the leading indices choose.
     std::byte* element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
     rddl::Place place(const std::optional<Place>& place, Frame& frame) const;
     void store(const Store& store, Frame& frame) const;
     void let(const Let& let, Frame& frame) const;
+    void call(const Call& call, Frame& frame) const;
 
     template <class T>
     T apply(const Apply& form, Frame& frame) const;

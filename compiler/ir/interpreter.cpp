@@ -1,10 +1,25 @@
 #include "ir/interpreter.hpp"
 
+#include "ir/analysis.hpp"
 #include "ir/layout.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace rddlc::ir {
+namespace {
+
+bool do_conditions_fill_tables(const Program& program) {
+    const auto does = [](const Computation& condition) {
+        return fills_tables(condition.body);
+    };
+    return std::ranges::any_of(program.preconditions, does) ||
+           std::ranges::any_of(program.invariants, does) ||
+           std::ranges::any_of(program.terminations, does);
+}
+
+}  // namespace
 
 Interpreter::Interpreter(Program program)
     : program_(std::make_unique<const Program>(std::move(program))),
@@ -14,7 +29,8 @@ Interpreter::Interpreter(Program program)
       observation_size_(program_->partially_observed()
                             ? record_layout(*program_, Storage::Observation).size
                             : state_size_),
-      scratch_size_(record_layout(*program_, Storage::Scratch).size) {}
+      scratch_size_(record_layout(*program_, Storage::Scratch).size),
+      conditions_fill_tables_(do_conditions_fill_tables(*program_)) {}
 
 void Interpreter::reset(std::byte* state) const {
     write_initial(Storage::State, state);
@@ -71,6 +87,8 @@ int Interpreter::first_violated(const std::vector<Computation>& conditions, Reco
 }
 
 bool Interpreter::holds(const Computation& condition, Records records, Context& context) const {
+    std::vector<std::byte> scratch(conditions_fill_tables_ ? scratch_size_ : 0);
+    records.set(Storage::Scratch, scratch.data());
     Evaluator::Frame frame(evaluator_, records, context);
     evaluator_.run(condition.body, frame);
     return evaluator_.value<bool>(condition.value, frame);

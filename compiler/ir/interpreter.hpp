@@ -48,6 +48,7 @@ class Interpreter {
     std::unique_ptr<const Program> program_;
     Evaluator evaluator_;
     std::size_t state_size_, action_size_, observation_size_, scratch_size_;
+    bool conditions_fill_tables_;
 };
 
 }  // namespace rddlc::ir

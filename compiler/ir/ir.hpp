@@ -6,9 +6,12 @@
 //
 // Invariants, checked by verify.hpp: operands precede their users in the pool; every loop index is
 // used inside the statement or reduction that binds it, and not bound again there (several loops
-// side by side may bind the same variable); types fit; each site is used by one node; the right
-// operand of And, Or and Implies cannot fault; buffers are read after they are computed.
+// side by side may bind the same variable); types fit; each site is used by one node or call; the
+// right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
+
+#include "model/vocabulary.hpp"
+#include "support/source.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -16,9 +19,6 @@
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "model/vocabulary.hpp"
-#include "support/source.hpp"
 
 namespace rddlc::ir {
 
@@ -45,11 +45,11 @@ struct Variable {
 };
 
 enum class Storage : std::uint8_t {
-    Constant,     // a table fixed by the instance
-    State,        // read only, except in `reset`
-    Action,       // read only
-    Scratch,      // interm- and derived-fluents, large temporaries
-    Next,         // the next state: one buffer for each State buffer, same name and shape
+    Constant,  // a table fixed by the instance
+    State,     // read only, except in `reset`
+    Action,    // read only
+    Scratch,   // interm- and derived-fluents, large temporaries
+    Next,      // the next state: one buffer for each State buffer, same name and shape
     Observation,
 };
 
@@ -58,10 +58,10 @@ struct Buffer {
     std::string name;  // the RDDL name of the fluent, or a name made by a pass
     Storage storage;
     Scalar scalar;
-    std::vector<std::int64_t> shape;       // empty: one value
-    std::vector<std::uint32_t> types;      // one per dimension, index into Program::types
-    std::optional<std::uint32_t> fluent;   // index into Program::fluents
-    std::vector<Value> values;             // Constant: the table; State: initial; Action: defaults
+    std::vector<std::int64_t> shape;      // empty: one value
+    std::vector<std::uint32_t> types;     // one per dimension, index into Program::types
+    std::optional<std::uint32_t> fluent;  // index into Program::fluents
+    std::vector<Value> values;            // Constant: the table; State: initial; Action: defaults
     Span span;
 
     std::int64_t count() const;
@@ -178,8 +178,23 @@ struct Loop {
     VariableId variable;
     Block body;
 };
+// A part of a buffer: the leading dimensions have indices, the others are passed whole.
+struct TableView {
+    BufferId buffer;
+    std::vector<NodeId> indices;
+};
+using Callee = std::variant<MatrixOperator, VectorDistribution>;
+// A function of whole tables. call.hpp says what each one expects, and which ones use their inputs
+// as room to work in. A matrix without a result gives nan, which Operator::Defined finds.
+struct Call {
+    Callee callee;
+    std::vector<TableView> inputs;
+    std::vector<NodeId> scalars;
+    TableView output;            // Scratch
+    std::optional<Place> place;  // exactly for draws; the elements are draws of one place
+};
 struct Statement {
-    std::variant<Let, Store, Loop> form;
+    std::variant<Let, Store, Loop, Call> form;
 };
 
 // One CPF, or a table made by a pass: the statements that fill one buffer.
@@ -232,7 +247,7 @@ struct Program {
     // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
     // their place.
     std::vector<Definition> step;
-    Computation reward;  // Real
+    Computation reward;                      // Real
     std::vector<Computation> preconditions;  // Bool, as are the next two
     std::vector<Computation> invariants;
     std::vector<Computation> terminations;

@@ -1,6 +1,7 @@
 #include "ir/kernels.hpp"
 
 #include <rddl/distributions.hpp>
+#include <rddl/linear_algebra.hpp>
 
 #include <cstdlib>
 
@@ -129,6 +130,8 @@ double apply_real(Operator op, double a, double b, rddl::Place place, Context& c
             return rddl::ln_gamma(context, place, a);
         case Operator::Gamma:
             return rddl::gamma(context, place, a);
+        case Operator::Defined:
+            return rddl::defined(context, place, a);
         default:
             unreachable_operator();
     }

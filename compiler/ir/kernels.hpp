@@ -42,7 +42,7 @@ std::int64_t apply_int(Operator op, std::int64_t a, std::int64_t b, rddl::Place 
                        Context& context);
 // On one real, to int: Sign, Round, Floor, Ceil.
 std::int64_t apply_to_int(Operator op, double a);
-// On one or two reals, to real. `place` is used by LnGamma and Gamma.
+// On one or two reals, to real. `place` is used by LnGamma, Gamma and Defined.
 double apply_real(Operator op, double a, double b, rddl::Place place, Context& context);
 
 // Draws, by the type of their value. A distribution of one parameter ignores `b`.

@@ -1,5 +1,6 @@
 #include "ir/print.hpp"
 
+#include "ir/call.hpp"
 #include "support/match.hpp"
 #include "support/writer.hpp"
 
@@ -243,6 +244,18 @@ class Printer {
         writer_.line(fmt::format("for {}", binding(loop.variable))).indent();
         block(loop.body);
         writer_.dedent();
+    }
+
+    void print(const Call& call) {
+        std::vector<std::string> arguments;
+        for (NodeId scalar : call.scalars) arguments.push_back(expression(scalar));
+        for (const TableView& input : call.inputs) {
+            arguments.push_back(element(input.buffer, input.indices));
+        }
+        const std::string name = lower_case(ir::name_of(call.callee));
+        writer_.line(fmt::format(
+            "fill {} = {}({})", element(call.output.buffer, call.output.indices),
+            call.place ? "sample " + name + at(*call.place) : name, fmt::join(arguments, ", ")));
     }
 
     // -------------------------------------------------------------------- expressions

@@ -19,11 +19,15 @@ void change_roots(Computation& computation, const Change& change) {
     change(computation.value);
 }
 
-void change_targets(Block& block, const std::function<void(BufferId&)>& change) {
+void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
     for (Statement& statement : block) {
         match(
             statement.form, [](Let&) {}, [&](Store& store) { change(store.target); },
-            [&](Loop& loop) { change_targets(loop.body, change); });
+            [&](Loop& loop) { change_tables(loop.body, change); },
+            [&](Call& call) {
+                for (TableView& input : call.inputs) change(input.buffer);
+                change(call.output.buffer);
+            });
     }
 }
 
@@ -67,7 +71,13 @@ void change_roots(Block& block, const Change& change) {
                 change_all(store.indices, change);
                 change(store.value);
             },
-            [&](Loop& loop) { change_roots(loop.body, change); });
+            [&](Loop& loop) { change_roots(loop.body, change); },
+            [&](Call& call) {
+                for (TableView& input : call.inputs) change_all(input.indices, change);
+                change_all(call.scalars, change);
+                change_all(call.output.indices, change);
+                if (call.place) change(call.place->index);
+            });
     }
 }
 
@@ -85,7 +95,11 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
     }
     for (Definition& definition : program.step) {
         change(definition.target);
-        change_targets(definition.body, change);
+        change_tables(definition.body, change);
+    }
+    change_tables(program.reward.body, change);
+    for (auto* conditions : {&program.preconditions, &program.invariants, &program.terminations}) {
+        for (Computation& condition : *conditions) change_tables(condition.body, change);
     }
 }
 

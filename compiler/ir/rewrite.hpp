@@ -26,7 +26,7 @@ void change_operands(Node& node, const Change& change);
 void change_roots(Block& block, const Change& change);
 void change_roots(Program& program, const Change& change);
 
-// The same for all buffers that nodes load from, statements store to, and definitions fill.
+// The same for all buffers that nodes load from, statements read or write, and definitions fill.
 void change_buffers(Program& program, const std::function<void(BufferId&)>& change);
 
 }  // namespace rddlc::ir

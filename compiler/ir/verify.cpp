@@ -1,6 +1,7 @@
 #include "ir/verify.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/call.hpp"
 #include "ir/print.hpp"
 #include "support/match.hpp"
 
@@ -133,13 +134,25 @@ class Verifier {
                     require(loop.variable.index < program_.variables.size(),
                             "there is no variable {}", loop.variable.index);
                     ids_are_known(loop.body);
-                });
+                },
+                [&](const Call& call) { ids_are_known(call); });
         }
+    }
+
+    void ids_are_known(const Call& call) {
+        for (const TableView& input : call.inputs) id_is_known(input.buffer);
+        id_is_known(call.output.buffer);
+        require(!call.place || call.place->site.index < program_.sites.size(),
+                "there is no site {}", call.place ? call.place->site.index : 0);
+    }
+
+    void id_is_known(BufferId buffer) {
+        require(buffer.index < program_.buffers.size(), "there is no buffer {}", buffer.index);
     }
 
     void nodes() {
         const std::vector<bool> reachable = reachable_nodes(program_);
-        std::vector<int> site_uses(program_.sites.size());
+        std::vector<int> site_uses = calls_by_site();
         for (std::uint32_t index = 0; index < program_.nodes.size(); ++index) {
             if (!reachable[index]) continue;
             const Node& node = program_.nodes[index];
@@ -156,6 +169,16 @@ class Verifier {
         for (std::size_t site = 0; site < site_uses.size(); ++site) {
             require(site_uses[site] <= 1, "site {} is used {} times", site, site_uses[site]);
         }
+    }
+
+    std::vector<int> calls_by_site() const {
+        std::vector<int> uses(program_.sites.size());
+        for (const Block* block : blocks_of(program_)) {
+            for_each_statement<Call>(*block, [&](const Call& call) {
+                if (call.place) ++uses[call.place->site.index];
+            });
+        }
+        return uses;
     }
 
     void not_bound_inside_itself(NodeId binder) {
@@ -314,11 +337,7 @@ class Verifier {
         const StorageSet readable = {Storage::Constant, Storage::State, Storage::Action,
                                      Storage::Scratch, Storage::Next};
         for (const Definition& definition : program_.step) {
-            block(definition.body, {}, readable);
-            std::set<BufferId> targets;
-            for_each_store(definition.body,
-                           [&](const Store& store) { targets.insert(store.target); });
-            for (BufferId target : targets) complete(target);
+            body(definition.body, readable);
         }
         for (std::uint32_t index = 0; index < program_.buffers.size(); ++index) {
             const Buffer& buffer = program_.buffers[index];
@@ -334,46 +353,63 @@ class Verifier {
         const StorageSet of_state = {Storage::Constant, Storage::State};
         const StorageSet of_action = {Storage::Constant, Storage::State, Storage::Action};
         for (const Computation& condition : program_.preconditions) {
+            defined_.clear();  // nothing of the step is there
             computation("precondition", condition, Scalar::Bool, of_action);
         }
         for (const Computation& condition : program_.invariants) {
+            defined_.clear();
             computation("invariant", condition, Scalar::Bool, of_state);
         }
         for (const Computation& condition : program_.terminations) {
+            defined_.clear();
             computation("termination", condition, Scalar::Bool, of_state);
         }
     }
 
-    template <class Visit>
-    void for_each_store(const Block& statements, const Visit& visit) const {
-        for (const Statement& statement : statements) {
-            if (const auto* store = std::get_if<Store>(&statement.form)) visit(*store);
-            if (const auto* loop = std::get_if<Loop>(&statement.form)) {
-                for_each_store(loop->body, visit);
+    // A table is complete behind the outermost statement that fills it. The scope behind the body.
+    Scope body(const Block& statements, const StorageSet& readable) {
+        const std::set<BufferId> before = defined_;
+        Scope scope;
+        for (const Statement& each : statements) {
+            statement(each, scope, readable);
+            for (BufferId target : filled_by(each)) {
+                require(!before.contains(target), "'{}' is computed twice", program_[target].name);
+                defined_.insert(target);
             }
         }
+        return scope;
     }
 
-    void complete(BufferId target) {
-        require(defined_.insert(target).second, "'{}' is computed twice", program_[target].name);
+    // Inputs that a call has worked in hold nothing any more.
+    std::set<BufferId> filled_by(const Statement& each) {
+        std::set<BufferId> filled;
+        for_each_statement<Store>({each}, [&](const Store& store) { filled.insert(store.target); });
+        for_each_statement<Call>({each}, [&](const Call& call) {
+            for (BufferId written : written_buffers(call)) defined_.erase(written);
+            filled.insert(call.output.buffer);
+        });
+        return filled;
     }
 
     void computation(std::string_view name, const Computation& computation, Scalar expected,
                      const StorageSet& readable) {
-        const Scope scope = block(computation.body, {}, readable);
-        use(computation.value, scope, readable);
+        const Scope scope = body(computation.body, with_scratch(computation.body, readable));
+        use(computation.value, scope, with_scratch(computation.body, readable));
         require(type(computation.value) == expected, "the type of a {} is wrong", name);
     }
 
-    // The scope behind the statements.
-    Scope block(const Block& statements, Scope scope, const StorageSet& readable) {
-        for (const Statement& statement : statements) {
-            match(
-                statement.form, [&](const Let& form) { let(form, scope, readable); },
-                [&](const Store& form) { store(form, scope, readable); },
-                [&](const Loop& form) { loop(form, scope, readable); });
-        }
-        return scope;
+    // A computation may read the tables that it fills.
+    static StorageSet with_scratch(const Block& statements, StorageSet readable) {
+        if (!statements.empty()) readable.insert(Storage::Scratch);
+        return readable;
+    }
+
+    void statement(const Statement& statement, Scope& scope, const StorageSet& readable) {
+        match(
+            statement.form, [&](const Let& form) { let(form, scope, readable); },
+            [&](const Store& form) { store(form, scope, readable); },
+            [&](const Loop& form) { loop(form, scope, readable); },
+            [&](const Call& form) { call(form, scope, readable); });
     }
 
     void let(const Let& form, Scope& scope, const StorageSet& readable) {
@@ -399,7 +435,50 @@ class Verifier {
     void loop(const Loop& form, Scope scope, const StorageSet& readable) {
         require(scope.variables.insert(form.variable).second, "'{}' is bound inside itself",
                 program_[form.variable].name);
-        block(form.body, std::move(scope), readable);
+        for (const Statement& each : form.body) statement(each, scope, readable);
+    }
+
+    void call(const Call& form, const Scope& scope, const StorageSet& readable) {
+        const std::string name = name_of(form.callee);
+        const CallSignature signature = signature_of(form.callee);
+        require(tables_fit(form, signature), "the tables of '{}' do not fit", name);
+        require(scalars_fit(form, signature), "the scalars of '{}' do not fit", name);
+        require(form.place.has_value() == is_draw(form.callee), "'{}' has a place, or needs one",
+                name);
+        for (BufferId written : written_buffers(form)) {
+            require(program_[written].storage == Storage::Scratch, "'{}' works in '{}'", name,
+                    program_[written].name);
+        }
+        for (NodeId operand : operands_of(form)) use(operand, scope, readable);
+        for (std::size_t i = 0; i + signature.room < form.inputs.size(); ++i) {
+            readable_now(form.inputs[i].buffer, readable);
+        }
+    }
+
+    bool tables_fit(const Call& form, const CallSignature& signature) const {
+        if (form.inputs.size() != signature.input_axes.size()) return false;
+        const auto fits = [&](const TableView& view, std::size_t axes, Scalar scalar) {
+            const Buffer& buffer = program_[view.buffer];
+            const auto is_int = [&](NodeId id) {
+                return type(id) == Scalar::Int;
+            };
+            const auto ranges_over_extent = [&](std::int64_t size) {
+                return size == extent_of(program_, form).size;
+            };
+            return view.indices.size() + axes == buffer.shape.size() && buffer.scalar == scalar &&
+                   std::ranges::all_of(view.indices, is_int) &&
+                   std::all_of(buffer.shape.end() - static_cast<std::ptrdiff_t>(axes),
+                               buffer.shape.end(), ranges_over_extent);
+        };
+        for (std::size_t i = 0; i < form.inputs.size(); ++i) {
+            if (!fits(form.inputs[i], signature.input_axes[i], Scalar::Real)) return false;
+        }
+        return fits(form.output, signature.output_axes, signature.output);
+    }
+
+    bool scalars_fit(const Call& form, const CallSignature& signature) const {
+        if (!signature.scalar) return form.scalars.empty();
+        return form.scalars.size() == 1 && type(form.scalars.front()) == *signature.scalar;
     }
 
     // Everything below `root` may be evaluated here.
@@ -411,7 +490,9 @@ class Verifier {
                 "a variable of '{}' is not bound", print(program_, root));
         for (NodeId id : below(root)) {
             const Node& node = program_[id];
-            if (const auto* load = std::get_if<Load>(&node.form)) readable_now(*load, readable);
+            if (const auto* load = std::get_if<Load>(&node.form)) {
+                readable_now(load->buffer, readable);
+            }
             if (const auto* local = std::get_if<Local>(&node.form)) {
                 require(
                     scope.locals.contains(local->local) && let_types_.at(local->local) == node.type,
@@ -423,11 +504,11 @@ class Verifier {
         }
     }
 
-    void readable_now(const Load& load, const StorageSet& readable) {
-        const Buffer& buffer = program_[load.buffer];
+    void readable_now(BufferId id, const StorageSet& readable) {
+        const Buffer& buffer = program_[id];
         require(readable.contains(buffer.storage), "'{}' must not be read here", buffer.name);
         const bool computed = buffer.storage == Storage::Scratch || buffer.storage == Storage::Next;
-        require(!computed || defined_.contains(load.buffer), "'{}' is read before it is computed",
+        require(!computed || defined_.contains(id), "'{}' is read before it is computed",
                 buffer.name);
     }
 

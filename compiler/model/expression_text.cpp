@@ -62,17 +62,6 @@ void append(const Layout& layout, std::size_t room, int indent, std::string& out
     out += layout.close;
 }
 
-std::string_view name_of(MatrixOperator op) {
-    constexpr std::string_view names[] = {"inverse", "pinverse", "cholesky"};
-    return names[static_cast<std::size_t>(op)];
-}
-
-std::string_view name_of(VectorDistribution distribution) {
-    constexpr std::string_view names[] = {"MultivariateNormal", "MultivariateStudent", "Dirichlet",
-                                          "Multinomial"};
-    return names[static_cast<std::size_t>(distribution)];
-}
-
 class ExpressionText {
   public:
     explicit ExpressionText(const Model& model) : model_(model) {}

@@ -123,9 +123,8 @@ struct Determinant {
     VariableId row, column;
     ExprBox element;
 };
-enum class MatrixOperator : std::uint8_t { Inverse, PseudoInverse, Cholesky };
 struct MatrixFunction {
-    MatrixOperator op;
+    MatrixOperator op;  // not Determinant
     VariableId row, column;  // bound by the enclosing scope
     ExprBox element;
 };
@@ -142,7 +141,6 @@ struct External {
     std::vector<VariableId> captured;
     std::vector<VectorReference> arguments;
 };
-enum class VectorDistribution : std::uint8_t { MultivariateNormal, MultivariateStudent, Dirichlet, Multinomial };
 struct RandomVector {
     VectorDistribution distribution;
     VariableId axis;  // a parameter of the CPF

@@ -65,6 +65,7 @@ constexpr OperatorRow operators[] = {
     {Operator::Hypot, "hypot", "hypot", 2, true},
     {Operator::LnGamma, "ln_gamma", "lngamma", 1, true},
     {Operator::Gamma, "gamma", "gamma", 1, true},
+    {Operator::Defined, "defined", "", 1, false},
 };
 
 struct ReductionRow {
@@ -144,6 +145,15 @@ std::string_view name_of(Reduction reduction) {
 std::string_view name_of(Distribution distribution) {
     return row(distribution).name;
 }
+std::string_view name_of(MatrixOperator op) {
+    constexpr std::string_view names[] = {"det", "inverse", "pinverse", "cholesky"};
+    return names[static_cast<std::size_t>(op)];
+}
+std::string_view name_of(VectorDistribution distribution) {
+    constexpr std::string_view names[] = {"MultivariateNormal", "MultivariateStudent", "Dirichlet",
+                                          "Multinomial"};
+    return names[static_cast<std::size_t>(distribution)];
+}
 
 int arity_of(Operator op) {
     return row(op).arity;
@@ -157,7 +167,7 @@ int arity_of(Distribution distribution) {
 
 bool may_fault(Operator op, bool on_integers) {
     return (op == Operator::Power && on_integers) || op == Operator::LnGamma ||
-           op == Operator::Gamma;
+           op == Operator::Gamma || op == Operator::Defined;
 }
 
 std::optional<Role> role_named(std::string_view name) {

@@ -34,6 +34,7 @@ enum class Operator : std::uint8_t {
     Log,                                      // log[x, base]
     Hypot,
     LnGamma, Gamma,                           // fault unless the operand is > 0
+    Defined,                                  // not in RDDL: real -> real, faults on nan
 };
 
 enum class Reduction : std::uint8_t {
@@ -47,6 +48,14 @@ enum class Distribution : std::uint8_t {
     Gompertz, ChiSquare, Kumaraswamy,
 };
 
+// Functions of a whole matrix. Determinant is written det_{...}, the others name[row=, col=][...].
+enum class MatrixOperator : std::uint8_t { Determinant, Inverse, PseudoInverse, Cholesky };
+
+// Draws of a whole vector, written Name[?x](...).
+enum class VectorDistribution : std::uint8_t {
+    MultivariateNormal, MultivariateStudent, Dirichlet, Multinomial,
+};
+
 // "state-fluent", ...
 std::string_view name_of(Role role);
 
@@ -55,13 +64,15 @@ std::string_view name_of(Operator op);
 std::string_view source_name_of(Operator op);
 std::string_view name_of(Reduction reduction);        // as in RDDL: "sum", "forall", ...
 std::string_view name_of(Distribution distribution);  // as in RDDL: "Normal", ...
+std::string_view name_of(MatrixOperator op);          // as in RDDL: "det", "inverse", ...
+std::string_view name_of(VectorDistribution distribution);  // as in RDDL: "Dirichlet", ...
 
 int arity_of(Operator op);
 // Written name[...] in RDDL, unlike the infix and prefix operators.
 bool is_function(Operator op);
 int arity_of(Distribution distribution);
 
-// True for operators that fault on some operands: Power on ints, LnGamma, Gamma.
+// True for operators that fault on some operands: Power on ints, LnGamma, Gamma, Defined.
 bool may_fault(Operator op, bool on_integers);
 
 std::optional<Role> role_named(std::string_view name);

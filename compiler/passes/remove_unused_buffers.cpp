@@ -1,8 +1,8 @@
 #include "passes/remove_unused_buffers.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/call.hpp"
 #include "ir/rewrite.hpp"
-#include "support/match.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,20 +11,23 @@ namespace rddlc::passes {
 namespace {
 
 bool may_fault(const ir::Definition& definition, const std::vector<ir::Facts>& facts) {
-    return std::ranges::any_of(ir::roots_of(definition.body),
-                               [&](ir::NodeId root) { return facts[root.index].may_fault; });
+    bool may_fault = std::ranges::any_of(ir::roots_of(definition.body), [&](ir::NodeId root) {
+        return facts[root.index].may_fault;
+    });
+    ir::for_each_statement<ir::Call>(
+        definition.body, [&](const ir::Call& call) { may_fault |= ir::is_draw(call.callee); });
+    return may_fault;
 }
 
-void mark_stores(const ir::Block& block, std::vector<bool>& used) {
-    for (const ir::Statement& statement : block) {
-        match(
-            statement.form, [](const ir::Let&) {},
-            [&](const ir::Store& store) { used[store.target.index] = true; },
-            [&](const ir::Loop& loop) { mark_stores(loop.body, used); });
-    }
+void mark_written(const ir::Block& block, std::vector<bool>& used) {
+    ir::for_each_statement<ir::Store>(
+        block, [&](const ir::Store& store) { used[store.target.index] = true; });
+    ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
+        for (ir::BufferId written : ir::written_buffers(call)) used[written.index] = true;
+    });
 }
 
-// Loaded by something that the program evaluates, or part of a record that others see.
+// Read by something that the program evaluates, or part of a record that others see.
 std::vector<bool> used_buffers(const ir::Program& program) {
     std::vector<bool> used(program.buffers.size());
     for (std::size_t index = 0; index < used.size(); ++index) {
@@ -35,6 +38,11 @@ std::vector<bool> used_buffers(const ir::Program& program) {
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
         const auto* load = std::get_if<ir::Load>(&program.nodes[index].form);
         if (load && reachable[index]) used[load->buffer.index] = true;
+    }
+    for (const ir::Block* block : ir::blocks_of(program)) {
+        ir::for_each_statement<ir::Call>(*block, [&](const ir::Call& call) {
+            for (const ir::TableView& input : call.inputs) used[input.buffer.index] = true;
+        });
     }
     return used;
 }
@@ -55,7 +63,7 @@ bool drop_a_definition(ir::Program& program, const std::vector<ir::Facts>& facts
 // Removes buffers that are neither read nor written and renumbers the others.
 void drop_buffers(ir::Program& program) {
     std::vector<bool> used = used_buffers(program);
-    for (const ir::Definition& definition : program.step) mark_stores(definition.body, used);
+    for (const ir::Block* block : ir::blocks_of(program)) mark_written(*block, used);
     std::vector<ir::BufferId> renumbered(used.size());
     std::vector<ir::Buffer> kept;
     for (std::size_t index = 0; index < used.size(); ++index) {

@@ -1,5 +1,6 @@
 #include "passes/share_subexpressions.hpp"
 
+#include "ir/call.hpp"
 #include "ir/rewrite.hpp"
 #include "support/match.hpp"
 
@@ -20,7 +21,10 @@ std::set<ir::BufferId> stored_buffers(const ir::Block& block) {
         match(
             statement.form, [](const ir::Let&) {},
             [&](const ir::Store& store) { stored.insert(store.target); },
-            [&](const ir::Loop& loop) { stored.merge(stored_buffers(loop.body)); });
+            [&](const ir::Loop& loop) { stored.merge(stored_buffers(loop.body)); },
+            [&](const ir::Call& call) {
+                for (ir::BufferId written : ir::written_buffers(call)) stored.insert(written);
+            });
     }
     return stored;
 }

@@ -47,6 +47,9 @@ enum class FaultKind : std::uint8_t {
     ProbabilitySum,  // not 1
     WeightSum,       // not > 0, or infinite
     CountTooLarge,   // a draw beyond the range of int
+    PositiveWeight,  // not > 0
+    Covariance,      // not positive definite
+    Undefined,       // no value; the site's text is the message
 };
 
 struct FaultRecord {

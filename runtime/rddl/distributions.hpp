@@ -11,3 +11,4 @@
 #include <rddl/distributions/discrete.hpp>
 #include <rddl/distributions/gamma.hpp>
 #include <rddl/distributions/poisson.hpp>
+#include <rddl/distributions/vectors.hpp>

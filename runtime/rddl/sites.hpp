@@ -20,7 +20,7 @@ struct SiteVariable {
 // Place::site is an index into the table of sites; Place::index is row-major over `scope`.
 struct Site {
     rddl_source source;
-    const char* what;  // "Bernoulli", "pow", ...; of a type fault, the whole message
+    const char* what;  // "Bernoulli", "pow", ...; of Type and Undefined, the whole message
     std::span<const SiteVariable> scope;
 };
 
@@ -65,6 +65,12 @@ constexpr std::string_view requirement_of(FaultKind kind) {
             return "weights must have a positive, finite sum";
         case FaultKind::CountTooLarge:
             return "expected count must be at most 9.2e18";
+        case FaultKind::PositiveWeight:
+            return "weights must be positive";
+        case FaultKind::Covariance:
+            return "covariance must be positive definite";
+        case FaultKind::Undefined:
+            return "value is undefined";
     }
     return "value is wrong";
 }
@@ -98,6 +104,10 @@ class FixedText {
 
 namespace detail {
 
+constexpr bool has_value(FaultKind kind) {
+    return kind != FaultKind::Type && kind != FaultKind::Covariance && kind != FaultKind::Undefined;
+}
+
 // " (at ?c = c3, ?d = d1)"
 inline void describe_objects(FixedText& text, const Site& site, std::int64_t index) {
     if (site.scope.empty()) return;
@@ -120,8 +130,9 @@ inline void describe_fault(const FaultRecord& fault, const Site& site, std::span
     FixedText text(buffer);
     text << site.source.file << ":" << std::int64_t{site.source.line} << ":"
          << std::int64_t{site.source.column} << ": " << site.what;
-    if (fault.kind != FaultKind::Type)
-        text << "'s " << requirement_of(fault.kind) << ", found " << fault.value;
+    if (fault.kind != FaultKind::Type && fault.kind != FaultKind::Undefined)
+        text << "'s " << requirement_of(fault.kind);
+    if (detail::has_value(fault.kind)) text << ", found " << fault.value;
     detail::describe_objects(text, site, fault.place.index);
 }
 

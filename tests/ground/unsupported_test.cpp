@@ -19,24 +19,6 @@ void expect_refused(const std::string& messages, const std::string& what) {
         << messages;
 }
 
-TEST(Unsupported, RandomVectors) {
-    const std::string messages = refusal(
-        "MEAN(obj) : { non-fluent, real, default = 0.0 };\n"
-        "COV(obj, obj) : { non-fluent, real, default = 1.0 };\n"
-        "v(obj) : { state-fluent, real, default = 0.0 };",
-        "v'(?o) = MultivariateNormal[?o](MEAN(_), COV(_, _));");
-    expect_refused(messages, "the random vector 'MultivariateNormal'");
-}
-
-TEST(Unsupported, MatrixFunctions) {
-    expect_refused(refusal("m(obj, obj) : { state-fluent, real, default = 1.0 };",
-                           "m'(?r, ?c) = inverse[row=?r, col=?c][m(?r, ?c)];"),
-                   "the matrix function 'inverse'");
-    expect_refused(refusal("m(obj, obj) : { state-fluent, real, default = 1.0 };",
-                           "m'(?r, ?c) = det_{?x : obj, ?y : obj} m(?x, ?y);"),
-                   "the matrix function 'det'");
-}
-
 TEST(Unsupported, ExternalFunctions) {
     expect_refused(
         refusal("v(obj) : { state-fluent, real, default = 1.0 };", "v'(?o) = 1.0 + $f[?o](v(_));"),
@@ -45,13 +27,13 @@ TEST(Unsupported, ExternalFunctions) {
 
 TEST(Unsupported, AreReportedAllAtOnce) {
     const std::string messages = refusal(
-        "m(obj, obj) : { state-fluent, real, default = 1.0 };\n"
-        "v(obj) : { state-fluent, real, default = 1.0 };",
-        "m'(?r, ?c) = cholesky[row=?r, col=?c][m(?r, ?c)];\n"
-        "v'(?o) = $f[?o](v(_)) * det_{?x : obj, ?y : obj} m(?x, ?y);");
-    expect_refused(messages, "the matrix function 'cholesky'");
+        "v(obj) : { state-fluent, real, default = 1.0 };\n"
+        "w(obj) : { state-fluent, real, default = 1.0 };",
+        "v'(?o) = $f[?o](v(_)) * $g[?o](w(_));\n"
+        "w'(?o) = if (v(?o) > 0) then $h[?o](v(_)) else 0;");
     expect_refused(messages, "the external function '$f'");
-    expect_refused(messages, "the matrix function 'det'");
+    expect_refused(messages, "the external function '$g'");
+    expect_refused(messages, "the external function '$h'");
 }
 
 TEST(Unsupported, TooManyGroundingsOfADraw) {

@@ -49,6 +49,15 @@ inline double standard_gamma(Draws& draws, double shape) {
     return boost * detail::standard_gamma_from_one(draws, shape + 1.0);
 }
 
+// Standard t: a normal over the root of a chi-square divided by its degrees of freedom.
+inline double standard_student(Draws& draws, double degrees) {
+    const double normal = normal_quantile(draws.open_uniform());
+    if (degrees > std::numeric_limits<double>::max()) return normal;
+    const double shape = 0.5 * degrees;
+    const double ln_ratio = std::log(shape) - ln_standard_gamma(draws, shape);
+    return normal * std::exp(0.5 * ln_ratio);
+}
+
 namespace sample {
 
 // Mean shape * scale.
@@ -84,18 +93,10 @@ typename L::Real beta(Context<L>& context, Place place, typename L::Real a, type
     return draw_in_each_lane(context, place, a_is_valid && b_is_valid, kernel, a, b);
 }
 
-// Standard t: a normal over the root of a chi-square divided by its degrees of freedom.
 template <class L>
 typename L::Real student(Context<L>& context, Place place, typename L::Real degrees) {
     const auto valid = context.require(degrees > 0.0, FaultKind::DegreesOfFreedom, place, degrees);
-    const auto kernel = [](Draws& draws, double df) {
-        const double normal = normal_quantile(draws.open_uniform());
-        if (df > std::numeric_limits<double>::max()) return normal;
-        const double shape = 0.5 * df;
-        const double ln_ratio = std::log(shape) - ln_standard_gamma(draws, shape);
-        return normal * std::exp(0.5 * ln_ratio);
-    };
-    return draw_in_each_lane(context, place, valid, kernel, degrees);
+    return draw_in_each_lane(context, place, valid, standard_student, degrees);
 }
 
 }  // namespace sample

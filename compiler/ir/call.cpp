@@ -1,0 +1,64 @@
+#include "ir/call.hpp"
+
+#include "support/match.hpp"
+
+#include <cstdlib>
+
+namespace rddlc::ir {
+namespace {
+
+CallSignature signature(MatrixOperator op) {
+    switch (op) {
+        case MatrixOperator::Determinant:
+            return {{2}, true, 0, {}, 0, Scalar::Real};
+        case MatrixOperator::Inverse:
+            return {{2}, true, 0, {}, 2, Scalar::Real};
+        case MatrixOperator::PseudoInverse:
+            return {{2, 2}, true, 1, {}, 2, Scalar::Real};
+        case MatrixOperator::Cholesky:
+            return {{2}, false, 0, {}, 2, Scalar::Real};
+    }
+    std::abort();
+}
+
+CallSignature signature(VectorDistribution distribution) {
+    switch (distribution) {
+        case VectorDistribution::MultivariateNormal:  // mean, Cholesky factor of the covariance
+            return {{1, 2}, false, 0, {}, 1, Scalar::Real};
+        case VectorDistribution::MultivariateStudent:  // the same, and degrees of freedom
+            return {{1, 2}, false, 0, Scalar::Real, 1, Scalar::Real};
+        case VectorDistribution::Dirichlet:  // weights
+            return {{1}, false, 0, {}, 1, Scalar::Real};
+        case VectorDistribution::Multinomial:  // probabilities, and trials
+            return {{1}, false, 0, Scalar::Int, 1, Scalar::Int};
+    }
+    std::abort();
+}
+
+}  // namespace
+
+CallSignature signature_of(const Callee& callee) {
+    return match(callee, [](auto which) { return signature(which); });
+}
+
+std::string name_of(const Callee& callee) {
+    return match(callee, [](auto which) { return std::string(rddlc::name_of(which)); });
+}
+
+bool is_draw(const Callee& callee) {
+    return std::holds_alternative<VectorDistribution>(callee);
+}
+
+Extent extent_of(const Program& program, const Call& call) {
+    const Buffer& buffer = program[call.inputs.front().buffer];
+    return {buffer.shape.back(), buffer.types.back()};
+}
+
+std::vector<BufferId> written_buffers(const Call& call) {
+    std::vector<BufferId> written = {call.output.buffer};
+    if (!signature_of(call.callee).overwrites_inputs) return written;
+    for (const TableView& input : call.inputs) written.push_back(input.buffer);
+    return written;
+}
+
+}  // namespace rddlc::ir

@@ -1,0 +1,40 @@
+// What the functions behind Call expect, in one table.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc::ir {
+
+struct CallSignature {
+    std::vector<std::size_t> input_axes;  // 1: a vector, 2: a square matrix; of Real
+    bool overwrites_inputs;               // to work in them: they are Scratch
+    std::size_t room;                     // of the inputs, how many at the end are nothing else
+    std::optional<Scalar> scalar;         // the type of the scalar, where there is one
+    std::size_t output_axes;              // 0: one value
+    Scalar output;
+};
+
+CallSignature signature_of(const Callee& callee);
+
+// As in RDDL: "cholesky", "Dirichlet".
+std::string name_of(const Callee& callee);
+
+// It draws at random, so it has a place.
+bool is_draw(const Callee& callee);
+
+// The dimension over which vectors and matrices range: the last one of the first input.
+struct Extent {
+    std::int64_t size;
+    std::uint32_t type;  // index into Program::types
+};
+Extent extent_of(const Program& program, const Call& call);
+
+// What the call changes: the output, and inputs that it works in.
+std::vector<BufferId> written_buffers(const Call& call);
+
+}  // namespace rddlc::ir
