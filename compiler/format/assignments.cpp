@@ -52,7 +52,7 @@ class RowReader {
   private:
     void add_row_with_comments() {
         Lead lead = cursor_.take_lead();
-        rows_.push_back({std::move(lead), {}, 0, plain(cursor_, ";")});
+        rows_.push_back({std::move(lead), {}, 0, nest(plain(cursor_, ";"))});
         row_is_full_ = true;
     }
 

@@ -109,9 +109,10 @@ class Renderer {
         push(command.indent + indentation, command.mode, node.body);
     }
     void print(const Command& command, const Align& node) {
-        const std::size_t column = column_of(command);
-        const bool drifted = column > std::max(last_alignment, command.indent + indentation);
-        push(drifted ? command.indent + indentation : column, command.mode, node.body);
+        const std::size_t nested = command.indent + indentation;
+        const std::size_t column = must_break_ ? nested : current_.size();
+        const bool drifted = column > std::max(last_alignment, nested);
+        push(drifted ? nested : column, command.mode, node.body);
     }
     void print(const Command& command, const Group& node) {
         const Command in_one_line{command.indent, Mode::Flat, node.body.get()};
@@ -144,10 +145,6 @@ class Renderer {
         stack_.push_back({indent, mode, doc.get()});
     }
 
-    std::size_t column_of(const Command& command) const {
-        return must_break_ ? command.indent : current_.size();
-    }
-
     void add(const Command& command, std::string_view text) {
         if (text.empty() || (must_break_ && is_blank(text))) return;
         if (must_break_) new_line(command.indent);
@@ -170,7 +167,7 @@ class Renderer {
 
     // Whether the text up to the next line break fits on the page, that of what follows included.
     bool fits(const Command& candidate) const {
-        Measure measure{page_width, column_of(candidate)};
+        Measure measure{page_width, must_break_ ? candidate.indent : current_.size()};
         std::vector<Command> todo{candidate};
         std::size_t rest = stack_.size();
         while (!measure.done) {

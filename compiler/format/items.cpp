@@ -42,6 +42,10 @@ bool aligns(std::span<const Item> items, std::size_t indent,
     });
 }
 
+bool continues_paragraph(const Item& above, const Item& below) {
+    return !below.lead.separates() && !above.cells.empty() && !below.cells.empty();
+}
+
 void print_paragraph(std::span<const Item> items, std::size_t indent,
                      std::vector<TextLine>& lines) {
     std::vector<std::size_t> widths = column_widths(items);
@@ -106,7 +110,8 @@ void print_lead(const Lead& lead, std::size_t indent, std::vector<TextLine>& lin
 
 void print_items(const std::vector<Item>& items, std::size_t indent, std::vector<TextLine>& lines) {
     for (std::size_t begin = 0; begin < items.size();) {
-        const std::size_t end = paragraph_end(items, begin);
+        std::size_t end = begin + 1;
+        while (end < items.size() && continues_paragraph(items[end - 1], items[end])) ++end;
         print_paragraph(std::span(items).subspan(begin, end - begin), indent, lines);
         begin = end;
     }

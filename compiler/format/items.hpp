@@ -8,8 +8,8 @@
 
 namespace rddlc::format {
 
-// A declaration. Neighbours without a blank line or a comment between them form a paragraph; in a
-// paragraph, the n-th cells of all items are equally wide.
+// A declaration. Neighbours without a blank line or a comment between them form a paragraph, if
+// they have cells; in a paragraph, the n-th cells of all items are equally wide.
 struct Item {
     Lead lead;
     std::vector<std::string> cells;
@@ -18,14 +18,6 @@ struct Item {
 
 void print_lead(const Lead& lead, std::size_t indent, std::vector<TextLine>& lines);
 void print_items(const std::vector<Item>& items, std::size_t indent, std::vector<TextLine>& lines);
-
-// The end of the paragraph that begins at `begin`. Elements have a `lead`.
-template <class Element>
-std::size_t paragraph_end(const std::vector<Element>& elements, std::size_t begin) {
-    std::size_t end = begin + 1;
-    while (end < elements.size() && !elements[end].lead.separates()) ++end;
-    return end;
-}
 
 // The text of a file: comments behind lines that follow each other begin in one column, and blank
 // lines stand neither at the ends nor twice in a row.

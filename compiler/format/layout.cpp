@@ -130,13 +130,14 @@ class Layout {
         Lead lead = cursor_.take_lead();
         std::vector<std::string> cells;
         if (!has_comments_inside(cursor_, ";")) cells.push_back(plain_text(cursor_, ":"));
-        return {std::move(lead), std::move(cells), plain(cursor_, ";")};
+        return {std::move(lead), std::move(cells), nest(plain(cursor_, ";"))};
     }
 
     // "name(types)" ": { kind," "type," "default = value };"
     Item pvariable() {
         Lead lead = cursor_.take_lead();
-        if (has_comments_inside(cursor_, ";")) return {std::move(lead), {}, plain(cursor_, ";")};
+        if (has_comments_inside(cursor_, ";"))
+            return {std::move(lead), {}, nest(plain(cursor_, ";"))};
         std::vector<std::string> cells{plain_text(cursor_, ":")};
         cursor_.take(":");
         cursor_.take("{");
@@ -184,7 +185,9 @@ class Layout {
         Lead lead = cursor_.take_lead();
         if (has_comments_inside(cursor_, "=")) {
             Doc head = plain_before(cursor_, "=");
-            return {std::move(lead), {}, concat({std::move(head), equation(cpf.body, unbounded)})};
+            return {std::move(lead),
+                    {},
+                    nest(concat({std::move(head), equation(cpf.body, unbounded)}))};
         }
         std::string head = plain_text(cursor_, "=");
         Doc right = equation(cpf.body, head.size() + 1);
