@@ -92,7 +92,7 @@ struct Simulator {
         velocity(state, scratch, next);
     }
 
-    // angle'  (domain.rddl:68)
+    // angle'  (domain.rddl:76)
     template <class L>
     static void angle(const State<L>& state, State<L>& next) {
         next.angle = state.angle + 0.02 * state.angle_change;
@@ -110,7 +110,7 @@ struct Simulator {
         scratch.friction = 5e-04 * rddl::to_real(rddl::sign(state.velocity));
     }
 
-    // position'  (domain.rddl:66)
+    // position'  (domain.rddl:74)
     template <class L>
     static void position(const State<L>& state, State<L>& next) {
         next.position = state.position + 0.02 * state.velocity;
@@ -132,7 +132,7 @@ struct Simulator {
         scratch.drive = (scratch.force + term_2) / 1.1;
     }
 
-    // turn  (domain.rddl:53)
+    // turn  (domain.rddl:55)
     template <class L>
     static void turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
@@ -149,13 +149,13 @@ struct Simulator {
         scratch.turn = term_4 / term_7;
     }
 
-    // angle-change'  (domain.rddl:69)
+    // angle-change'  (domain.rddl:77)
     template <class L>
     static void angle_change(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         next.angle_change = state.angle_change + 0.02 * scratch.turn;
     }
 
-    // pressure  (domain.rddl:59)
+    // pressure  (domain.rddl:64)
     template <class L>
     static void pressure(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
         using Real = typename L::Real;
@@ -169,7 +169,7 @@ struct Simulator {
         scratch.pressure = 10.780000000000001 - 0.05 * (term_2 + term_3);
     }
 
-    // speed-up  (domain.rddl:62)
+    // speed-up  (domain.rddl:68)
     template <class L>
     static void speed_up(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
         using Real = typename L::Real;
@@ -184,7 +184,7 @@ struct Simulator {
             (scratch.force + 0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure) / 1.1;
     }
 
-    // velocity'  (domain.rddl:67)
+    // velocity'  (domain.rddl:75)
     template <class L>
     static void velocity(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         next.velocity = state.velocity + 0.02 * scratch.speed_up;
@@ -216,13 +216,13 @@ struct Simulator {
         }
     }
 
-    // abs[position] > TRACK-LIMIT  (domain.rddl:76)
+    // abs[position] > TRACK-LIMIT  (domain.rddl:84)
     template <class L>
     static typename L::Bool termination_0(const State<L>& state) {
         return rddl::absolute(state.position) > 2.4;
     }
 
-    // abs[angle] > ANGLE-LIMIT  (domain.rddl:77)
+    // abs[angle] > ANGLE-LIMIT  (domain.rddl:85)
     template <class L>
     static typename L::Bool termination_1(const State<L>& state) {
         return rddl::absolute(state.angle) > 0.2094384;
@@ -303,8 +303,8 @@ inline constexpr rddl_fluent fluents[] = {
 };
 
 inline constexpr rddl_condition terminations[] = {
-    {"abs[position] > TRACK-LIMIT", {source_file, 76, 9}},
-    {"abs[angle] > ANGLE-LIMIT", {source_file, 77, 9}},
+    {"abs[position] > TRACK-LIMIT", {source_file, 84, 9}},
+    {"abs[angle] > ANGLE-LIMIT", {source_file, 85, 9}},
 };
 // clang-format on
 

@@ -185,7 +185,7 @@ struct Simulator {
         }
     }
 
-    // status'(?p)  (domain.rddl:83)
+    // status'(?p)  (domain.rddl:84)
     template <class L>
     static void status(const State<L>& state, const Scratch<L>& scratch, State<L>& next,
                        rddl::Context<L>& context) {
@@ -229,7 +229,7 @@ struct Simulator {
         }
     }
 
-    // forall_{?p : parcel} [status(?p) == @delivered]  (domain.rddl:94)
+    // forall_{?p : parcel} [status(?p) == @delivered]  (domain.rddl:97)
     template <class L>
     static typename L::Bool termination_0(const State<L>& state) {
         using Bool = typename L::Bool;
@@ -260,7 +260,7 @@ struct Simulator {
         }
     }
 
-    // forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting...  (domain.rddl:99)
+    // forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waitin...  (domain.rddl:102)
     template <class L>
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
         using Bool = typename L::Bool;
@@ -269,7 +269,7 @@ struct Simulator {
         });
     }
 
-    // forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]  (domain.rddl:101)
+    // forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]  (domain.rddl:104)
     template <class L>
     static typename L::Bool precondition_1(const Action<L>& action) {
         using Bool = typename L::Bool;
@@ -359,12 +359,12 @@ inline constexpr rddl_fluent fluents[] = {
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ "
      "position(?v) == ORIGIN(?p)) ]",
-     {source_file, 99, 9}},
-    {"forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]", {source_file, 101, 9}},
+     {source_file, 102, 9}},
+    {"forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]", {source_file, 104, 9}},
 };
 
 inline constexpr rddl_condition terminations[] = {
-    {"forall_{?p : parcel} [status(?p) == @delivered]", {source_file, 94, 9}},
+    {"forall_{?p : parcel} [status(?p) == @delivered]", {source_file, 97, 9}},
 };
 // clang-format on
 

@@ -245,7 +245,7 @@ struct Simulator {
         }
     }
 
-    // forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]  (domain.rddl:83)
+    // forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]  (domain.rddl:84)
     template <class L>
     static typename L::Bool invariant_0(const State<L>& state) {
         using Bool = typename L::Bool;
@@ -282,7 +282,7 @@ struct Simulator {
         });
     }
 
-    // forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare...  (domain.rddl:78)
+    // forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bar...  (domain.rddl:78)
     template <class L>
     static typename L::Bool precondition_1(const State<L>& state, const Action<L>& action) {
         using Bool = typename L::Bool;
@@ -362,13 +362,13 @@ inline constexpr rddl_fluent fluents[] = {
 
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]", {source_file, 77, 9}},
-    {"forall_{?c : xpos, ?r : ypos} [clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | "
-     "CLEARING(?c, ?r))]",
+    {"forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | "
+     "CLEARING(?c, ?r)) ]",
      {source_file, 78, 9}},
 };
 
 inline constexpr rddl_condition invariants[] = {
-    {"forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]", {source_file, 83, 9}},
+    {"forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]", {source_file, 84, 9}},
 };
 // clang-format on
 
