@@ -17,6 +17,7 @@ struct Command {
 Command add_list_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
+Command add_fmt_command(CLI::App& program);
 Command add_run_command(CLI::App& program);
 Command add_replay_command(CLI::App& program);
 Command add_bench_command(CLI::App& program);

@@ -28,6 +28,7 @@ constexpr const char* examples =
     "  rddl list traffic\n"
     "  rddl info MountainCar_ippc2023 1\n"
     "  rddl check domain.rddl instance.rddl\n"
+    "  rddl fmt domain.rddl instance.rddl\n"
     "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n\n"
     "'rddl COMMAND --help' tells more about a command.";
 
@@ -91,9 +92,10 @@ ExitStatus run(int argc, char** argv) {
     program.require_subcommand(1);
     program.get_formatter()->column_width(32);
 
-    const std::array commands{add_list_command(program),   add_info_command(program),
-                              add_check_command(program),  add_run_command(program),
-                              add_replay_command(program), add_bench_command(program)};
+    const std::array commands{add_list_command(program),  add_info_command(program),
+                              add_check_command(program), add_fmt_command(program),
+                              add_run_command(program),   add_replay_command(program),
+                              add_bench_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,137 @@
+// rddl fmt: the canonical layout of RDDL files.
+#include "commands.hpp"
+#include "driver/files.hpp"
+#include "format/format.hpp"
+#include "progress.hpp"
+#include "support/render.hpp"
+#include "unified_diff.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+namespace rddlc::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FormatOptions {
+    std::vector<std::string> files;
+    std::string output;
+    bool check = false;
+    bool diff = false;
+    bool to_stdout = false;
+};
+
+void require_consistent(const FormatOptions& options) {
+    const int ways = options.check + options.diff + options.to_stdout + !options.output.empty();
+    const bool is_check_with_diff = options.check && options.diff && ways == 2;
+    if (ways > 1 && !is_check_with_diff)
+        throw Failure("of --check, --diff, --stdout and -o, only --check and --diff go together",
+                      "", usage_error);
+    if (!options.output.empty() && options.files.size() != 1)
+        throw Failure("-o takes the text of one file", "", usage_error);
+}
+
+std::optional<FileId> read(const std::string& path, Sources& sources) {
+    if (path != "-") return sources.load(path);
+    return sources.add("<stdin>", {std::istreambuf_iterator<char>(std::cin), {}});
+}
+
+void write(const fs::path& path, const std::string& text) {
+    TemporaryFile file(path, "");
+    if (!file.write(text))
+        throw Failure(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::exists(status)) fs::permissions(file.path(), status.permissions(), ignored);
+    if (!file.rename_to_final())
+        throw Failure(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+}
+
+// A link stays one: what it leads to is written.
+void replace(const fs::path& path, const std::string& text) {
+    std::error_code ignored;
+    const fs::path target = fs::canonical(path, ignored);
+    write(target.empty() ? path : target, text);
+}
+
+struct Formatted {
+    const std::string& path;
+    const std::string& before;
+    const std::string& after;
+
+    bool changes() const { return before != after; }
+};
+
+// What the options ask for, with one file.
+void deliver(const FormatOptions& options, const Formatted& file) {
+    if (options.diff)
+        fmt::print("{}", unified_diff(file.path, file.before, file.path, file.after));
+    else if (options.check)
+        fmt::print("{}", file.changes() ? file.path + "\n" : "");
+    else if (!options.output.empty())
+        write(options.output, file.after);
+    else if (options.to_stdout || file.path == "-")
+        fmt::print("{}", file.after);
+    else if (file.changes())
+        replace(file.path, file.after);
+}
+
+ExitStatus format_one(const FormatOptions& options, const std::string& path) {
+    Sources sources;
+    const std::optional<FileId> file = read(path, sources);
+    if (!file) throw Failure(fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
+    Diagnostics diagnostics;
+    const std::optional<std::string> text = format_file(sources, *file, diagnostics);
+    if (!text) {
+        fmt::print(stderr, "{}", render(diagnostics, sources, {.color = is_terminal(2)}));
+        return diagnosed;
+    }
+    const Formatted formatted{path, sources[*file].text(), *text};
+    deliver(options, formatted);
+    return options.check && formatted.changes() ? diagnosed : success;
+}
+
+ExitStatus format(const FormatOptions& options) {
+    require_consistent(options);
+    ExitStatus status = success;
+    for (const std::string& path : options.files)
+        if (format_one(options, path) != success) status = diagnosed;
+    return status;
+}
+
+}  // namespace
+
+Command add_fmt_command(CLI::App& program) {
+    CLI::App* const app =
+        program.add_subcommand("fmt", "Lay out RDDL files, with all their comments");
+    app->footer(
+        "Files are rewritten in place; those that are laid out well are not touched. Nothing but\n"
+        "blanks and line breaks changes.\n\n"
+        "Examples:\n"
+        "  rddl fmt domain.rddl instance.rddl\n"
+        "  rddl fmt --check *.rddl               list files that would change\n"
+        "  rddl fmt --diff domain.rddl\n"
+        "  rddl fmt - <old.rddl >new.rddl");
+    const auto options = std::make_shared<FormatOptions>();
+    app->add_option("FILE", options->files, "RDDL files; - reads stdin and writes stdout")
+        ->required();
+    app->add_flag("--check", options->check,
+                  "Change nothing; list files that would change and end with status 1");
+    app->add_flag("--diff", options->diff, "Change nothing; show what would change");
+    app->add_flag("--stdout", options->to_stdout, "Write to stdout");
+    app->add_option("-o,--output", options->output, "Write to another file")->type_name("FILE");
+    return {app, [options] {
+                return format(*options);
+            }};
+}
+
+}  // namespace rddlc::cli
