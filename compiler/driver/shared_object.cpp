@@ -48,7 +48,7 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
     const char* compiler = std::getenv("CXX");
     std::vector<std::string> command = words(compiler ? compiler : "");
     if (command.empty()) command = {"c++"};
-    for (const char* flag : {"-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off",
+    for (const char* flag : {"-std=c++20", "-O3", "-shared", "-fPIC", "-ffp-contract=off",
                              "-DRDDL_ENTRY=rddl_simulator_entry"}) {
         command.push_back(flag);
     }

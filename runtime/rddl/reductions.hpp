@@ -85,14 +85,14 @@ constexpr T maximum_over(Index n, Body&& body) {
 template <class Bool, class Body>
 constexpr Bool for_all(Index n, Body&& body) {
     Bool all{true};
-    for (Index i = 0; i < n; ++i) all = body(i) && all;
+    for (Index i = 0; i < n; ++i) all = Bool(all & body(i));
     return all;
 }
 
 template <class Bool, class Body>
 constexpr Bool exists(Index n, Body&& body) {
     Bool any{false};
-    for (Index i = 0; i < n; ++i) any = body(i) || any;
+    for (Index i = 0; i < n; ++i) any = Bool(any | body(i));
     return any;
 }
 
