@@ -88,7 +88,10 @@ void deliver(const FormatOptions& options, const Formatted& file) {
 ExitStatus format_one(const FormatOptions& options, const std::string& path) {
     Sources sources;
     const std::optional<FileId> file = read(path, sources);
-    if (!file) throw Failure(fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
+    if (!file) {
+        fmt::print(stderr, "rddl: error: cannot read '{}': {}\n", path, std::strerror(errno));
+        return diagnosed;
+    }
     Diagnostics diagnostics;
     const std::optional<std::string> text = format_file(sources, *file, diagnostics);
     if (!text) {

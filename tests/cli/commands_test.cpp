@@ -11,7 +11,7 @@ constexpr const char* interpreted = " --engine interpreter";
 TEST_F(Program, ExplainsItself) {
     const Outcome help = run("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* command : {"list", "info", "check", "run", "replay", "bench"}) {
+    for (const char* command : {"list", "info", "check", "fmt", "run", "replay", "bench"}) {
         EXPECT_NE(help.out.find(std::string("\n  ") + command), std::string::npos) << command;
         const Outcome own = run(std::string(command) + " --help");
         EXPECT_EQ(own.status, 0);
