@@ -51,8 +51,18 @@ def repository_cases(problem: str) -> list[Case]:
 
 def example_cases() -> list[Case]:
     """The problems of examples/."""
+    return cases_in(ROOT / "examples")
+
+
+def probe_cases() -> list[Case]:
+    """The problems of probes/: what no problem of the repository uses."""
+    return cases_in(Path(__file__).with_name("probes"))
+
+
+def cases_in(folder: Path) -> list[Case]:
+    """The problems in the subfolders."""
     cases = []
-    for domain in sorted((ROOT / "examples").glob("*/domain.rddl")):
+    for domain in sorted(folder.glob("*/domain.rddl")):
         for instance in sorted(domain.parent.glob("instance*.rddl")):
             number = instance.stem.removeprefix("instance") or "1"
             cases.append(Case(domain.parent.name, number, domain, instance))

@@ -18,8 +18,8 @@ from pathlib import Path
 
 from compare import Findings, compare_draws, compare_transitions, judge_draws
 from ours import Replayed, ReplayFailure, replay, trace
-from problems import CORE, ROOT, Case, all_problems, example_cases, repository_cases
-from problems import smallest_median_largest
+from problems import CORE, ROOT, Case, all_problems, example_cases, probe_cases
+from problems import repository_cases, smallest_median_largest
 from recordings import recording_of
 from reference import Plan
 from report import failure_text, row_text, table_head, write_document
@@ -92,6 +92,8 @@ def compare_bit_for_bit(report: Report, replayed: dict[str, Replayed], options) 
 def chosen_cases(options) -> list[Case]:
     if options.examples:
         return example_cases()
+    if options.probes:
+        return probe_cases()
     problems = options.problems or (all_problems() if options.all else CORE)
     by_problem = [repository_cases(problem) for problem in problems]
     if options.smallest_median_largest:
@@ -104,6 +106,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
     parser.add_argument("--all", action="store_true", help="all problems of rddlrepository")
     parser.add_argument("--examples", action="store_true", help="the problems of examples/")
+    parser.add_argument("--probes", action="store_true", help="the problems of probes/")
     parser.add_argument(
         "--smallest-median-largest", action="store_true", help="up to three instances a problem"
     )
