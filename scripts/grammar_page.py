@@ -87,7 +87,7 @@ def wrapped(line: str, indent: int, width: int = 96) -> list[str]:
 def ebnf(name: str, right: str) -> str:
     right = right.replace("~[", "[^").replace(r"'\''", '"\'"')
     line = f"{name} ::= {right}"
-    if len(line) <= 106:
+    if len(line) <= 110:
         return line
     parts = [f"    {'|' if i else ' '} {part}" for i, part in enumerate(alternatives(right))]
     if len(parts) == 1:
