@@ -95,7 +95,7 @@ class Verifier {
         for (NodeId root : roots_of(program_)) {
             require(root.index < program_.nodes.size(), "there is no node {}", root.index);
         }
-        for (const Definition& definition : program_.step) ids_are_known(definition.body);
+        for (const Block* block : blocks_of(program_)) ids_are_known(*block);
         return complaints_.size() == before;
     }
 

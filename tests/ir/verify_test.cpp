@@ -139,5 +139,67 @@ TEST_F(VerifyTest, FindsTablesOfTheWrongSize) {
     EXPECT_EQ(complaint(), "'CONNECTED' has 2 values instead of 3");
 }
 
+class VerifyCallTest : public VerifyTest {
+  protected:
+    // Fills a matrix, then computes its determinant.
+    VerifyCallTest() {
+        const NodeId row = w.builder().index(w.c);
+        const NodeId column = w.builder().index(w.d);
+        matrix_ = add_table("matrix", 2);
+        const BufferId result = add_table("determinant", 0);
+        Loop columns{w.d, {}};
+        columns.body.push_back({Store{matrix_, {row, column}, w.real(1)}});
+        Loop rows{w.c, {}};
+        rows.body.push_back({std::move(columns)});
+        w.program.reward.body.push_back({std::move(rows)});
+        w.program.reward.body.push_back(
+            {Call{MatrixOperator::Determinant, {{matrix_, {}}}, {}, {result, {}}, {}}});
+        w.program.reward.value = w.load(result);
+    }
+
+    BufferId add_table(std::string name, std::size_t axes) {
+        Buffer buffer{std::move(name), Storage::Scratch, Scalar::Real, {}, {}, {}, {}, {}};
+        buffer.shape.assign(axes, 3);
+        buffer.types.assign(axes, 0);
+        w.program.buffers.push_back(std::move(buffer));
+        return {static_cast<std::uint32_t>(w.program.buffers.size() - 1)};
+    }
+    Call& call() { return std::get<Call>(w.program.reward.body.back().form); }
+
+    BufferId matrix_;
+};
+
+TEST_F(VerifyCallTest, AcceptsAWellFormedCall) {
+    EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(VerifyCallTest, FindsTablesThatDoNotFit) {
+    call().inputs.clear();
+    EXPECT_NE(complaint().find("the tables of 'det' do not fit"), std::string::npos);
+}
+
+TEST_F(VerifyCallTest, FindsScalarsAndPlacesThatDoNotFit) {
+    call().scalars = {w.integer(3)};
+    EXPECT_NE(complaint().find("the scalars of 'det' do not fit"), std::string::npos);
+    call().scalars.clear();
+    call().place = Place{{2}, w.integer(0)};
+    EXPECT_NE(complaint().find("'det' has a place, or needs one"), std::string::npos);
+}
+
+TEST_F(VerifyCallTest, FindsTablesReadBeforeTheyAreFilled) {
+    w.program.reward.body.erase(w.program.reward.body.begin());
+    EXPECT_EQ(complaint(), "'matrix' is read before it is computed");
+}
+
+TEST_F(VerifyCallTest, FindsTablesReadAfterTheyWereOverwritten) {
+    w.program.reward.value = w.builder().load(matrix_, {w.integer(0), w.integer(1)});
+    EXPECT_EQ(complaint(), "'matrix' is read before it is computed");
+}
+
+TEST_F(VerifyCallTest, FindsUnknownIds) {
+    call().output.buffer = BufferId{99};
+    EXPECT_NE(complaint().find("there is no buffer 99"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rddlc::ir

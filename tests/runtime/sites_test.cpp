@@ -39,6 +39,15 @@ TEST(FaultMessages, OfTypesAreTheSitesText) {
               "a.rddl:1:2: x' is an int, and its value here is a real");
 }
 
+TEST(FaultMessages, OfMatricesHaveNoValue) {
+    const Site inverse{{"a.rddl", 1, 2}, "the matrix of 'inverse' is singular", {}};
+    EXPECT_EQ(message({FaultKind::Undefined, {0, 0}, 0}, inverse),
+              "a.rddl:1:2: the matrix of 'inverse' is singular");
+    const Site normal{{"a.rddl", 1, 2}, "MultivariateNormal", {}};
+    EXPECT_EQ(message({FaultKind::Covariance, {0, 0}, 0}, normal),
+              "a.rddl:1:2: MultivariateNormal's covariance must be positive definite");
+}
+
 TEST(FaultMessages, AreCutOffAtTheEndOfTheBuffer) {
     const std::string long_text(600, 'x');
     const Site site{{"a.rddl", 1, 2}, long_text.c_str(), scope};
@@ -48,7 +57,7 @@ TEST(FaultMessages, AreCutOffAtTheEndOfTheBuffer) {
 }
 
 TEST(FaultMessages, SayWhatEveryKindRequires) {
-    for (int kind = 0; kind <= static_cast<int>(FaultKind::CountTooLarge); ++kind)
+    for (int kind = 0; kind <= static_cast<int>(FaultKind::Undefined); ++kind)
         EXPECT_NE(requirement_of(static_cast<FaultKind>(kind)), "value is wrong") << kind;
 }
 
