@@ -1,5 +1,6 @@
 // `if`, `switch`, and the distribution that lists the members of a type.
 #include "check/expressions.hpp"
+#include "check/names.hpp"
 #include "check/types.hpp"
 
 #include <fmt/format.h>
@@ -55,11 +56,12 @@ std::optional<std::vector<std::optional<std::size_t>>> match_labels(
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const Object* object = find(context.names.objects, std::string(labels[i].name));
         if (!object || object->type != type_id) {
-            context.report(diagnose(bad_label, labels[i].span,
-                                    fmt::format("'{}' is not a member of type '{}'", labels[i].name,
-                                                type.name))
-                               .note(type.span, "declared here")
-                               .with_hint(suggestion(context, labels[i].name, type.objects)));
+            const std::string literal = fmt::format("@{}", labels[i].name);
+            context.report(
+                diagnose(bad_label, labels[i].span,
+                         fmt::format("'{}' is not a member of type '{}'", literal, type.name))
+                    .note(type.span, "declared here")
+                    .with_hint(suggestion(context, literal, as_literals(type.objects))));
             sound = false;
             continue;
         }

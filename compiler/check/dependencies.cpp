@@ -156,7 +156,11 @@ void report_cycle(const std::vector<std::size_t>& cpfs, const std::vector<Span>&
         diagnostic.notes.push_back(
             {mentions[i], fmt::format("'{}' needs '{}'", cpf_name(cpfs[i], context),
                                       cpf_name(cpfs[(i + 1) % cpfs.size()], context))});
-    diagnostic.hint = "dependencies are between fluents, whatever their arguments";
+    const bool has_arguments = std::ranges::any_of(cpfs, [&](std::size_t cpf) {
+        return !context.fluent(context.model.cpfs[cpf].fluent).parameters.empty();
+    });
+    if (has_arguments)
+        diagnostic.hint = "dependencies are between fluents, whatever their arguments";
     context.report(std::move(diagnostic));
 }
 

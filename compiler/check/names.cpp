@@ -56,19 +56,25 @@ void report_unknown_name(const ast::Reference& reference, Scope& scope) {
     Context& context = scope.context;
     const std::string& name = reference.name.text;
     const std::string subtraction = as_subtraction(name, context);
-    const std::string call = reference.arguments.empty() ? "" : hint_for_call(name);
-    Diagnostic diagnostic{call.empty() ? unknown_name : round_brackets, reference.name.span,
-                          fmt::format("'{}' is not declared", name)};
-    if (!call.empty()) {
-        diagnostic.message = fmt::format("'{}' is not a fluent", name);
+    const std::string call = hint_for_call(name);
+    const bool is_call = !call.empty() && !reference.arguments.empty();
+    Diagnostic diagnostic{is_call ? round_brackets : unknown_name, reference.name.span,
+                          fmt::format("'{}' is not {}", name, is_call ? "a fluent" : "declared")};
+    if (!call.empty())
         diagnostic.hint = call;
-    } else if (!subtraction.empty()) {
+    else if (!subtraction.empty())
         diagnostic.hint =
             fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name);
-    } else {
+    else if (context.names.types.contains(name))
+        diagnostic.hint = fmt::format("'{}' is a type, and has no value", name);
+    else
         diagnostic.hint = suggestion(context, name, candidates(reference, context));
-    }
     context.report(std::move(diagnostic));
+}
+
+std::vector<std::string> as_literals(std::vector<std::string> names) {
+    for (std::string& name : names) name.insert(0, "@");
+    return names;
 }
 
 std::vector<std::string> enumerated_members(const Context& context) {

@@ -14,4 +14,7 @@ void report_unknown_name(const ast::Reference& reference, Scope& scope);
 // The literals a domain may use, without "@".
 std::vector<std::string> enumerated_members(const Context& context);
 
+// With "@".
+std::vector<std::string> as_literals(std::vector<std::string> names);
+
 }  // namespace rddlc::checking

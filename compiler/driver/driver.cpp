@@ -168,6 +168,7 @@ Stage stage_of(Form form) {
 Compilation compile(const CompileOptions& options) {
     Run run(options);
     run_stages(run);
+    run.result.diagnostics.sort_by_position();
     return std::move(run.result);
 }
 

@@ -60,7 +60,9 @@ std::string square_brackets_of_a_distribution(const SyntaxError& error) {
 
 std::string binder_form(const SyntaxError& error) {
     if (error.context->getRuleIndex() == Parser::RuleTypedVariable)
-        return "every variable needs its type, as in sum_{?x : type} ...";
+        return is(&error.found(), Parser::PRIMITIVE)
+                   ? "variables range over types of objects, which are declared in 'types'"
+                   : "every variable needs its type, as in sum_{?x : type} ...";
     const Token* name = error.before(is(error.before(1), Parser::UNDERSCORE) ? 2 : 1);
     if (name == nullptr || !contains(aggregations, name->getText())) return "";
     const bool wrong = is(&error.found(), Parser::OPEN_CURLY) ||
