@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 
 namespace rddlc {
 
 namespace {
+
+// Places in a text have 32 bits, and devices have no end.
+constexpr std::size_t largest_file = std::size_t{1} << 28;
 
 // Lines end at "\n", "\r\n" or a lone "\r".
 std::vector<std::uint32_t> find_line_begins(std::string_view text) {
@@ -71,15 +74,21 @@ FileId Sources::add(std::string path, std::string text) {
 std::optional<FileId> Sources::load(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return std::nullopt;
-    std::ostringstream text;
-    text << stream.rdbuf();
-    // Reading an empty file sets failbit on `text`; only a failing device makes `stream` bad,
-    // and a folder opens but cannot be read.
-    if (stream.bad() || std::filesystem::is_directory(path)) {
+    std::string text;
+    std::array<char, 1 << 16> block;
+    while (text.size() <= largest_file &&
+           (stream.read(block.data(), block.size()) || stream.gcount() > 0))
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    // A folder opens but cannot be read.
+    if (stream.bad()) {
         errno = std::filesystem::is_directory(path) ? EISDIR : EIO;
         return std::nullopt;
     }
-    return add(path.string(), std::move(text).str());
+    if (text.size() > largest_file) {
+        errno = EFBIG;
+        return std::nullopt;
+    }
+    return add(path.string(), std::move(text));
 }
 
 std::string_view Sources::text(Span span) const {
