@@ -12,6 +12,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace rddlc::cli {
@@ -120,6 +121,9 @@ ExitStatus run_and_report(int argc, char** argv) {
         fmt::print(stderr, "rddl: error: {}\n", failure.what());
         if (!failure.hint.empty()) fmt::print(stderr, "  {}\n", failure.hint);
         return failure.status;
+    } catch (const std::system_error& error) {
+        fmt::print(stderr, "rddl: error: {}\n", error.what());
+        return diagnosed;
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "rddl: error: not enough memory\n");
         return diagnosed;

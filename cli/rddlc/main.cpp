@@ -2,13 +2,17 @@
 #include "driver/codes.hpp"
 #include "driver/driver.hpp"
 #include "driver/explain.hpp"
+#include "driver/files.hpp"
 #include "driver/version.hpp"
 #include "options.hpp"
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
 
 namespace rddlc::cli {
 namespace {
@@ -27,6 +31,17 @@ void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
     if (is_text && !counts.empty()) fmt::print(stderr, "{}\n", counts);
 }
 
+// To standard output, at once, so that a full disk shows.
+ExitStatus write(std::string_view text, const Options& options) {
+    const bool written =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (written) return success;
+    Diagnostics diagnostics;
+    diagnostics.report(cannot_write("standard output", errno));
+    print_diagnostics(diagnostics, {}, options.render);
+    return diagnosed;
+}
+
 ExitStatus refuse(const Options& options) {
     Diagnostics diagnostics;
     for (const std::string& option : options.not_supported_yet) {
@@ -39,17 +54,14 @@ ExitStatus refuse(const Options& options) {
 }
 
 ExitStatus run(const Options& options) {
-    if (options.explained) {
-        fmt::print("{}", *explain(*options.explained));
-        return success;
-    }
+    if (options.explained) return write(*explain(*options.explained), options);
     if (!options.not_supported_yet.empty()) return refuse(options);
 
     const Compilation compilation = compile(options.compile);
-    fmt::print("{}", compilation.printed);
+    const ExitStatus written = write(compilation.printed, options);
     print_diagnostics(compilation.diagnostics, compilation.sources, options.render);
     if (options.verbose) print_times(compilation);
-    return compilation.diagnostics.has_errors() ? diagnosed : success;
+    return compilation.diagnostics.has_errors() ? diagnosed : written;
 }
 
 }  // namespace
@@ -60,9 +72,7 @@ int main(int argc, char** argv) {
     try {
         const auto [options, status] = cli::parse_command_line(argc, argv);
         if (!options) return status;
-        const int result = cli::run(*options);
-        const bool written = std::fflush(stdout) == 0;
-        return written ? result : cli::diagnosed;
+        return cli::run(*options);
     } catch (const std::exception& error) {
         fmt::print(stderr,
                    "rddlc: internal error: {}\n"

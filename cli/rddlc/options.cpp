@@ -92,6 +92,7 @@ void declare(CLI::App& program, Arguments& arguments) {
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->type_name("WHEN");
     program.add_option("--lanes", arguments.lanes, "environments that one step computes at once")
+        ->check(CLI::PositiveNumber)
         ->type_name("N");
     program.add_option("--real", arguments.real, "double or float")
         ->check(CLI::IsMember({"double", "float"}))
