@@ -1,0 +1,143 @@
+"""Wrong command lines are refused, and what cannot be written leaves nothing half-written behind."""
+
+import os
+import unittest
+
+from commands import (DIAGNOSED, EXAMPLES, RDDL, RDDLC, ROOT, SUCCESS, USAGE, CommandTest,
+                      no_disk_space)
+
+PROBLEM = EXAMPLES[0] / "domain.rddl", EXAMPLES[0] / "instance.rddl"
+
+
+class Output(CommandTest):
+    def names(self) -> list[str]:
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def test_missing_folder(self):
+        for name in "nowhere/sim.cpp", "nowhere/sim.hpp", "nowhere/sim.so", "/proc/sim.cpp":
+            self.assert_refused(self.run_command(RDDLC, *PROBLEM, "-o", name), "E0902")
+        self.assertEqual(self.names(), [])
+
+    def test_folder(self):
+        for name in "sim.cpp", "sim.so":
+            (self.folder / name).mkdir()
+            result = self.run_command(RDDLC, *PROBLEM, "-o", name)
+            self.assert_refused(result, "Is a directory [E0902]")
+            self.assertEqual(os.listdir(self.folder / name), [])
+        self.assertEqual(self.names(), ["sim.cpp", "sim.so"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_forbidden(self):
+        self.folder.chmod(0o500)
+        self.addCleanup(self.folder.chmod, 0o700)
+        for name in "sim.cpp", "sim.so":
+            result = self.run_command(RDDLC, *PROBLEM, "-o", name)
+            self.assert_refused(result, "Permission denied [E0902]")
+        self.assertEqual(self.names(), [])
+
+    def test_full_disk(self):
+        """An older file stays as it was; a new one does not appear."""
+        self.write("old.cpp", "older")
+        for name in "old.cpp", "new.cpp", "new.so":
+            result = self.run_command(RDDLC, *PROBLEM, "-o", name, preexec_fn=no_disk_space)
+            self.assert_refused(result, "File too large [E0902]")
+        self.assertEqual(self.names(), ["old.cpp"])
+        self.assertEqual((self.folder / "old.cpp").read_text(), "older")
+
+    def test_full_device(self):
+        (self.folder / "sim.cpp").symlink_to("/dev/full")
+        result = self.run_command(RDDLC, *PROBLEM, "-o", "sim.cpp")
+        self.assert_refused(result, "No space left on device [E0902]")
+        result = self.run_command("sh", "-c", f'"{RDDLC}" "$@" > /dev/full', "sh", *PROBLEM)
+        self.assertEqual(result.status, DIAGNOSED, result)
+
+    def test_errors_write_nothing(self):
+        self.write("broken.rddl", "domain d { reward = 1 + ; }")
+        for name in "sim.cpp", "sim.so":
+            self.assert_refused(self.run_command(RDDLC, "broken.rddl", "-o", name), "E0101")
+        self.assertEqual(self.names(), ["broken.rddl"])
+
+    def test_input_as_output(self):
+        text = "domain d { reward = 1; }"
+        self.write("input.cpp", text)
+        self.assert_refused(self.run_command(RDDLC, "input.cpp", "-o", "input.cpp"), "E0906")
+        self.assert_refused(self.run_command(RDDLC, "input.cpp", "-o", "./input.cpp"), "E0906")
+        (self.folder / "link.cpp").symlink_to("input.cpp")
+        self.assert_refused(self.run_command(RDDLC, "input.cpp", "-o", "link.cpp"), "E0906")
+        result = self.run_command(RDDLC, "input.cpp", "-o", "sim.cpp", "--MD", "--MF", "input.cpp")
+        self.assert_refused(result, "E0906")
+        self.assertEqual((self.folder / "input.cpp").read_text(), text)
+
+    def test_unknown_kind(self):
+        for name in "sim", "sim.c", "sim.cpp.txt", ".cpp":
+            result = self.run_command(RDDLC, *PROBLEM, "-o", name)
+            self.assert_refused(result, "E0903")
+            self.assertIn(f"'{name}'", result.errors)
+        self.assertEqual(self.names(), [])
+
+    def test_no_compiler(self):
+        result = self.run_command(RDDLC, *PROBLEM, "-o", "sim.so", environment={"CXX": "no-c++"})
+        self.assert_refused(result, "E0905")
+        self.assertIn("set CXX", result.errors)
+        self.assertEqual(self.names(), [])
+        result = self.run_command(RDDL, "run", *PROBLEM,
+                                  environment={"CXX": "no-c++", "XDG_CACHE_HOME": str(self.folder)})
+        self.assertEqual(result.status, DIAGNOSED, result)
+        self.assertIn("no-c++", result.errors)
+
+
+class Explain(CommandTest):
+    def test_every_page(self):
+        for page in sorted((ROOT / "docs/diagnostics").glob("*.md")):
+            result = self.run_command(RDDLC, "--explain", page.stem)
+            self.assertEqual(result.status, SUCCESS, result)
+            self.assertTrue(result.output.startswith(f"# {page.stem}: "), result)
+
+
+class Options(CommandTest):
+    def test_not_supported_yet(self):
+        for option in "--lanes=8", "--real=float":
+            result = self.run_command(RDDLC, *PROBLEM, option)
+            self.assert_refused(result, "E0904")
+            self.assertIn(option, result.errors)
+            self.assertEqual(result.output, "")
+
+    def test_wrong_command_lines(self):
+        for words in ([RDDLC], [RDDLC, *PROBLEM, "third.rddl"], [RDDLC, *PROBLEM, "--nonsense"],
+                      [RDDLC, *PROBLEM, "--print=nonsense"], [RDDLC, *PROBLEM, "-o"],
+                      [RDDLC, *PROBLEM, "--stop-after=lunch"], [RDDLC, *PROBLEM, "--lanes=x"],
+                      [RDDLC, "--explain", "E9999"], [RDDLC, "--explain", "nonsense"],
+                      [RDDLC, *PROBLEM, "-Wno-nonsense"],
+                      [RDDL], [RDDL, "nonsense"], [RDDL, "run"], [RDDL, "check"],
+                      [RDDL, "run", *PROBLEM, "--episodes=-1"], [RDDL, "run", *PROBLEM, "--seed=x"],
+                      [RDDL, "run", *PROBLEM, "--engine=steam"]):
+            result = self.run_command(*words)
+            self.assertEqual(result.status, USAGE, f"{words}\n{result}")
+            self.assertNotEqual(result.errors, "", words)
+
+    def test_warnings(self):
+        """Shown, silenced by code or altogether, made errors."""
+        self.write("warns.rddl", """
+            domain tank {
+                pvariables { water : { state-fluent, real, default = 5.0 }; };
+                cpfs { water' = water; };
+                reward = 0;
+                reward = water;
+            }
+            non-fluents none { domain = tank; }
+            instance one { domain = tank; non-fluents = none; horizon = 10; discount = 1.0; }""")
+        check = [RDDLC, "warns.rddl", "--check"]
+        shown = self.run_command(*check)
+        self.assertEqual(shown.status, SUCCESS)
+        self.assertIn("warning: this 'reward' is ignored", shown.errors)
+        for silence in "-Wno-W0201", "-w":
+            result = self.run_command(*check, silence)
+            self.assertEqual((result.status, result.errors), (SUCCESS, ""))
+        for strict in "-Werror", "-Werror=W0201":
+            result = self.run_command(*check, strict)
+            self.assertEqual(result.status, DIAGNOSED)
+            self.assertIn("[W0201]", result.errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
