@@ -125,7 +125,7 @@ inline void describe_objects(FixedText& text, const Site& site, std::int64_t ind
 
 }  // namespace detail
 
-// "reservoir.rddl:41:18: Bernoulli's probability must be in [0, 1], found 1.3 (at ?c = c3)"
+// "domain.rddl:41:18: Bernoulli's probability must be in [0, 1], found 1.3 (at ?c = c3)"
 inline void describe_fault(const FaultRecord& fault, const Site& site, std::span<char> buffer) {
     FixedText text(buffer);
     text << site.source.file << ":" << std::int64_t{site.source.line} << ":"
