@@ -3,6 +3,7 @@
     .venv/bin/python benchmarks/compare.py                    the problems of the conformance tests
     .venv/bin/python benchmarks/compare.py --require 100      and fail below that ratio
     .venv/bin/python benchmarks/compare.py --json out.json    the figures for other programs
+    .venv/bin/python benchmarks/compare.py --write            and docs/benchmarks.md
 
 Both sides step one environment in one thread under uniformly random actions, of which as many
 entries differ from the default as max-nondef-actions allows. The actions are drawn beforehand;
@@ -26,7 +27,8 @@ from pathlib import Path
 import numpy as np
 import pyRDDLGym
 
-ROOT = Path(__file__).resolve().parents[1]
+from document import ROOT, machine_text, markdown_table, write_section
+
 sys.path.insert(0, str(ROOT / "tests/conformance"))
 
 from problems import CORE, Case, repository_cases, smallest_median_largest  # noqa: E402
@@ -137,6 +139,20 @@ def table_head() -> str:
     return f"{titles}\n{'':30} {columns} {columns} {'ratio':>8}"
 
 
+def markdown(comparisons: list[Comparison]) -> str:
+    rows = [("instance", "pyRDDLGym", "rddlc", "ratio")]
+    for comparison in comparisons:
+        medians = (statistics.median(comparison.reference), statistics.median(comparison.ours))
+        figures = (*medians, comparison.ratio)
+        rows.append((comparison.case.label, *(f"{figure:,.0f}" for figure in figures)))
+    return markdown_table(rows)
+
+
+def versions_text() -> str:
+    packages = ", ".join(f"{name} {version(name)}" for name in ("pyRDDLGym", "numpy"))
+    return f"{machine_text()}; Python {platform.python_version()}, {packages}"
+
+
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
@@ -146,6 +162,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=5, help="turns of each side")
     parser.add_argument("--require", type=float, help="fail below this ratio")
     parser.add_argument("--json", type=Path, help="write the figures to this file")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     return parser.parse_args()
 
 
@@ -160,8 +177,8 @@ def chosen_cases(options: argparse.Namespace) -> list[Case]:
 
 def main() -> int:
     options = parse_arguments()
-    print(f"{platform.machine()}, Python {platform.python_version()}, numpy {version('numpy')}, ", end="")
-    print(f"pyRDDLGym {version('pyRDDLGym')}; {options.rounds} rounds of {options.seconds:g} s\n")
+    rounds = f"{options.rounds} rounds of {options.seconds:g} s"
+    print(f"{versions_text()}; {rounds}\n")
     print(table_head())
     comparisons = []
     for case in chosen_cases(options):
@@ -170,6 +187,8 @@ def main() -> int:
     if options.json:
         figures = [comparison.as_json() for comparison in comparisons]
         options.json.write_text(json.dumps(figures, indent=2) + "\n")
+    if options.write:
+        write_section("comparison", f"{versions_text()}; {rounds}:\n\n{markdown(comparisons)}")
     slow = [c for c in comparisons if options.require and c.ratio < options.require]
     for comparison in slow:
         print(f"{comparison.case.label}: ratio {comparison.ratio:.0f} is below {options.require:g}")

@@ -31,10 +31,30 @@ def replay(
     points: list[DrawPoint],
     engine: str,
 ) -> Replayed:
-    """All transitions and draws of one instance. The horizon is off: lines are independent steps."""
+    """All transitions and draws of one instance."""
+    lines = [request_line(problem, state, action) for state, action in walk.starts(len(walk))]
+    lines += [request_line(problem, p.state, p.action, repeat=p.count()) for p in points]
+    answers, text = ask(rddl, case, lines, engine)
+    return Replayed(
+        transitions=outcome_columns(problem, answers[: len(walk)]),
+        draws=[outcome_columns(problem, answer["samples"]) for answer in answers[len(walk) :]],
+        text=text,
+    )
+
+
+def faults(
+    rddl: Path, case: Case, problem: Problem, starts: list[tuple[Values, Values]], engine: str
+) -> list[str | None]:
+    """The fault's message for each state and action, or nothing where the step succeeds."""
+    lines = [request_line(problem, state, action) for state, action in starts]
+    return [answer.get("fault") for answer in ask(rddl, case, lines, engine)[0]]
+
+
+def ask(rddl: Path, case: Case, lines: list[str], engine: str) -> tuple[list[dict], bytes]:
+    """What `rddl replay` answers, line by line. The horizon is off: lines are independent steps."""
     with tempfile.TemporaryDirectory(prefix="conformance-") as folder:
         asked, answered = Path(folder, "input.jsonl"), Path(folder, "output.jsonl")
-        asked.write_text("".join(request_lines(problem, walk, points)))
+        asked.write_text("".join(lines))
         command = [rddl, "replay", case.domain_path, case.instance_path]
         command += ["--input", asked, "--output", answered]
         command += ["--seed", "1", "--horizon", "0", f"--engine={engine}"]
@@ -43,16 +63,12 @@ def replay(
             raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")
         text = answered.read_bytes()
     answers = [json.loads(line) for line in text.splitlines()]
-    if len(answers) != len(walk) + len(points):
-        raise ReplayFailure(f"{len(walk) + len(points)} lines asked, {len(answers)} answered")
+    if len(answers) != len(lines):
+        raise ReplayFailure(f"{len(lines)} lines asked, {len(answers)} answered")
     for number, answer in enumerate(answers):
         if "error" in answer:
             raise ReplayFailure(f"line {number + 1} refused: {answer['error']}")
-    return Replayed(
-        transitions=outcome_columns(problem, answers[: len(walk)]),
-        draws=[outcome_columns(problem, answer["samples"]) for answer in answers[len(walk) :]],
-        text=text,
-    )
+    return answers, text
 
 
 def trace(rddl: Path, case: Case, engine: str, episodes: int = 3) -> list[str]:
@@ -63,13 +79,6 @@ def trace(rddl: Path, case: Case, engine: str, episodes: int = 3) -> list[str]:
     if result.returncode != 0:
         raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")
     return result.stdout.splitlines()[1:]  # the header names the engine
-
-
-def request_lines(problem: Problem, walk: Transitions, points: list[DrawPoint]):
-    for state, action in walk.starts(len(walk)):
-        yield request_line(problem, state, action)
-    for point in points:
-        yield request_line(problem, point.state, point.action, repeat=point.count())
 
 
 def request_line(problem: Problem, state: Values, action: Values, **more) -> str:

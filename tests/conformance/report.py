@@ -8,8 +8,8 @@ DOCUMENT = ROOT / "docs/conformance.md"
 BEGIN, END = "<!-- begin of the table -->", "<!-- end of the table -->"
 MOST_FAILURES = 8
 
-HEAD = ("instance", "steps", "values", "worst difference", "draws", "tests", "least p", "result")
-WIDTHS = (34, 5, 7, 16, 8, 6, 8, 10)
+HEAD = ("instance", "steps", "values", "worst difference", "draws", "tests", "least p", "faults", "result")
+WIDTHS = (34, 5, 7, 16, 8, 6, 8, 6, 10)
 
 
 def cells(report) -> tuple[str, ...]:
@@ -26,6 +26,7 @@ def cells(report) -> tuple[str, ...]:
         f"{report.draw_points} x {report.draws}" if report.draw_points else "-",
         str(tests) if tests else "-",
         f"{least:.0e}" if tests else "-",
+        str(report.refusals) if report.refusals else "-",
         "DISAGREES" if report.failures else "agrees",
     )
 

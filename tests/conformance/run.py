@@ -16,12 +16,13 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from compare import Findings, compare_draws, compare_transitions, judge_draws
-from ours import Replayed, ReplayFailure, replay, trace
+from compare import Findings, compare_draws, compare_transitions, describe_start, judge_draws
+from ours import Replayed, ReplayFailure, faults, replay, trace
 from problems import CORE, ROOT, Case, all_problems, example_cases, probe_cases
 from problems import repository_cases, smallest_median_largest
-from recordings import recording_of
+from recordings import recording_of, refusals_of
 from reference import Plan
+from refusals import RefusalPlan, Refusals
 from report import failure_text, row_text, table_head, write_document
 
 FALSE_ALARM_RATE = 1e-6  # of the whole run
@@ -36,6 +37,7 @@ class Report:
     transitions: int = 0
     draw_points: int = 0
     draws: int = 0  # at each point
+    refusals: int = 0  # states and actions at which the reference stops with an error
     findings: dict[str, Findings] = field(default_factory=dict)  # by engine
     failures: list[str] = field(default_factory=list)
     seconds: float = 0.0
@@ -56,19 +58,24 @@ def compare_case(task: tuple[Case, argparse.Namespace, float]) -> Report:
 def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
     plan = Plan(draws=options.draws, draw_points=options.draw_points, seconds=options.seconds)
     recording = recording_of(report.case, plan, options.cache)
+    refusals = refusals_of(report.case, RefusalPlan(), options.cache)
     problem, walk, points = recording.problem, recording.walk, recording.points
     report.transitions = len(walk)
     report.draws = max((point.count() for point in points), default=0)
     report.draw_points = sum(point.count() == report.draws for point in points)
+    report.refusals = len(refusals.refused)
     replayed: dict[str, Replayed] = {}
     for engine in options.engine:
         try:
             found = replay(options.rddl, report.case, problem, walk, points, engine)
+            heedless = replay_heedless(report, options, refusals, engine)
         except ReplayFailure as failure:
             report.failures.append(f"{engine}: {failure}")
             continue
         findings = report.findings[engine] = Findings()
         compare_transitions(problem, walk, found.transitions, findings)
+        if heedless:
+            compare_transitions(problem, refusals.walk, heedless.transitions, findings)
         for point, draws in zip(points, found.draws):
             compare_draws(problem, point, draws, findings)
         judge_draws(findings, false_alarm_rate)
@@ -76,6 +83,19 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
         replayed[engine] = found
     if len(replayed) == len(ENGINES):
         compare_bit_for_bit(report, replayed, options)
+
+
+def replay_heedless(report: Report, options, refusals: Refusals, engine: str) -> Replayed | None:
+    """The steps of the walk that heeds no precondition; where it was refused, ours must fault."""
+    starts = [(refused.state, refused.action) for refused in refusals.refused]
+    found = faults(options.rddl, report.case, refusals.problem, starts, engine) if starts else []
+    for refused, fault in zip(refusals.refused, found):
+        if fault is None:
+            start = describe_start(refused.state, refused.action)
+            report.failures.append(f"{engine}: no fault, but pyRDDLGym: {refused.message}; {start}")
+    if refusals.walk is None:
+        return None
+    return replay(options.rddl, report.case, refusals.problem, refusals.walk, [], engine)
 
 
 def compare_bit_for_bit(report: Report, replayed: dict[str, Replayed], options) -> None:

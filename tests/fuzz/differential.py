@@ -54,7 +54,7 @@ def compare(problem: Problem, folder: Path, programs: Programs, engines: list[st
     if checked.returncode != 0:
         return verdict.fail("rejected", checked.stdout + checked.stderr)
     if programs.exercise:
-        exercised = execute([programs.exercise, *files])
+        exercised = execute([programs.exercise, "--steps", "30", *files])
         if exercised.returncode != 0:
             return verdict.fail("optimisation", exercised.stdout + exercised.stderr)
     traces = {}

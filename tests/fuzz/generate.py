@@ -30,7 +30,10 @@ ROUGH_FUNCTIONS = (
 )  # fmt: skip
 EDGE_FUNCTIONS = (
     "ln[%s]", "sqrt[%s]", "acos[%s]", "asin[%s]", "exp[%s]", "cosh[%s]", "sinh[%s]", "tan[%s]",
+    "sin[%s]", "cos[%s]", "atan[%s]", "tanh[%s]", "hypot[%s, %s]", "log[%s, %s]", "lngamma[abs[%s] + 0.5]",
+    "gamma[abs[%s] + 0.5]", "pow[%s + 0.0, %s]",
 )  # fmt: skip
+LARGE_INTS = ("9223372036854775807", "4611686018427387904", "3037000500", "9007199254740993")
 
 
 class Generator:
@@ -42,6 +45,8 @@ class Generator:
         self.scope: list[tuple[str, str]] = []  # variable and type
         self.work = 1
         self.variable_count = 0
+        self.nested_terms = 0  # argmax or Discrete_ in arguments within one another
+        self.likings: dict[tuple, float] = {}
 
     def generate(self) -> Problem:
         self.make_types()
@@ -66,9 +71,15 @@ class Generator:
         return self.pick([t for t in self.problem.types if t.members])
 
     def pick_weighted(self, options):
-        """One of (weight, value)."""
+        """One of (weight, value). Each problem has its likes: so that it holds much of the same."""
         weights, values = zip(*options)
-        return self.rng.choices(values, weights)[0]
+        liked = [weight * self.liking(len(values), i) for i, weight in enumerate(weights)]
+        return self.rng.choices(values, liked)[0]
+
+    def liking(self, *option) -> float:
+        if option not in self.likings:
+            self.likings[option] = self.pick([0.1, 0.5, 1.0, 1.0, 2.0, 6.0])
+        return self.likings[option]
 
     def size(self, type_name: str) -> int:
         return len(self.problem.type(type_name).members)
@@ -437,7 +448,7 @@ class Generator:
             (1, lambda d: self.switch("real", part, d)),
             (2, self.exact_division),
             (1, lambda d: self.unary(self.real(d, rough))),
-            (1, self.edge),
+            (2, self.edge),
             (1, lambda d: self.numeric_chain(d, rough)),
             (1, lambda d: self.dirac(self.real(d, rough))),
         ]
@@ -498,6 +509,9 @@ class Generator:
     def rounding(self, depth: int) -> Expr:
         value = self.number(depth)
         name = self.pick(["round", "floor", "ceil", "sgn"])
+        if self.chance(0.1):
+            large = self.pick(["9223372036854775807.0", "10000000000000000000.0", "4503599627370497.5"])
+            value = Expr("real", f"({self.pick(['max', 'min'])}[%s, {large}])", (value,), 70)
         magnitude = value.magnitude + 1 if value.finite else 64
         return Expr("int", f"{name}[%s]", (value,), magnitude)
 
@@ -530,7 +544,7 @@ class Generator:
         fluent = self.reference("int", 0)
         if fluent is None:
             return None
-        literal = Expr("int", self.pick(["9223372036854775807", "4611686018427387904", "3037000500"]))
+        literal = Expr("int", self.pick(LARGE_INTS))
         return Expr("int", f"(%s {self.pick(['+', '*', '-'])} %s)", (fluent, literal), 64)
 
     def exact_division(self, depth: int) -> Expr | None:
@@ -551,10 +565,8 @@ class Generator:
         divisor = self.number(depth - 1)
         magnitude = max(value.magnitude, divisor.magnitude)
         fraction = max(value.fraction, divisor.fraction)
-        if not (value.finite and divisor.finite):
-            return value
         if "real" not in (value.kind, divisor.kind):
-            value = Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction)
+            value = Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
         return Expr("real", "fmod[%s, %s]", (value, divisor), magnitude, fraction, False)
 
     def numeric_chain(self, depth: int, rough: bool) -> Expr | None:
@@ -602,16 +614,14 @@ class Generator:
 
     def edge_function(self, depth: int) -> Expr:
         """Functions outside of their domain: of exact numbers, so that nan and inf are sure."""
-        if self.chance(0.3):
-            base, exponent = self.number(depth), self.number(depth)
-            if base.kind != "real":
-                base = Expr("real", "(%s + 0.0)", (base,), base.magnitude + 1, base.fraction, base.finite)
-            return Expr("real", "pow[%s + 0.0, %s]", (base, exponent), 30, UNSURE, False)
-        value = self.number(depth)
         form = self.pick(EDGE_FUNCTIONS)
-        if form.startswith("tan[") and value.magnitude > 20:
+        parts = [self.number(depth) for _ in range(form.count("%s"))]
+        if form.startswith("pow") and parts[0].kind != "real":
+            first = parts[0]
+            parts[0] = Expr("real", "(%s + 0.0)", (first,), first.magnitude + 1, first.fraction, first.finite)
+        if form[:3] in ("tan", "sin", "cos") and parts[0].magnitude > 20:
             form = "sqrt[%s]"
-        return Expr("real", form, (value,), 30, UNSURE, False)
+        return Expr("real", form, tuple(parts), 30, UNSURE, False)
 
     # ------------------------------------------------------------- aggregations and choices
 
@@ -666,7 +676,9 @@ class Generator:
     def arg_best(self, type_name: str, depth: int) -> Expr:
         variable = self.fresh_variable()
         self.scope.append((variable, type_name))
-        body = self.number(depth)
+        self.nested_terms += 1
+        body = self.number(depth) if self.nested_terms <= 3 else self.constant("int")
+        self.nested_terms -= 1
         self.scope.pop()
         form = f"{self.pick(['argmax', 'argmin'])}_{{{variable} : {type_name}}} [%s]"
         return Expr(type_name, form, (body,))
@@ -780,7 +792,9 @@ class Generator:
     def discrete_over(self, type_name: str, depth: int) -> Expr:
         variable = self.fresh_variable()
         self.scope.append((variable, type_name))
-        weight = self.positive(depth)
+        self.nested_terms += 1
+        weight = self.positive(depth) if self.nested_terms <= 3 else Expr("real", "0.5")
+        self.nested_terms -= 1
         self.scope.pop()
         return Expr(type_name, f"UnnormDiscrete_{{{variable} : {type_name}}} [%s]", (weight,))
 

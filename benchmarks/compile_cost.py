@@ -1,0 +1,171 @@
+"""What it costs to compile the problems of rddlrepository: by rddlc, and then by the C++ compiler.
+
+    .venv/bin/python benchmarks/compile_cost.py                  all 586 instances; half an hour
+    .venv/bin/python benchmarks/compile_cost.py RecSim_ippc2023  some problems
+    .venv/bin/python benchmarks/compile_cost.py --no-build       rddlc alone
+    .venv/bin/python benchmarks/compile_cost.py --require        and fail above the limits
+
+Limits: rddlc within 1 s and 500 MB on each instance, the C++ compiler at -O2 within 10 s on each
+and within 2 s in the median. Wall-clock times, one process at a time. A time over its limit is
+measured again, up to twice, and the least counts: other programs only ever add to it.
+"""
+
+import argparse
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from document import ROOT, machine_text, markdown_table, write_section
+
+sys.path.insert(0, str(ROOT / "tests/conformance"))
+
+from problems import Case, all_problems, repository_cases  # noqa: E402
+
+COMPILE_SECONDS, COMPILE_MEGABYTES = 1.0, 500.0
+BUILD_SECONDS, MEDIAN_BUILD_SECONDS = 10.0, 2.0
+ATTEMPTS = 3
+
+
+@dataclass
+class Cost:
+    """Of one instance."""
+
+    problem: str
+    instance: str
+    compile_seconds: float
+    compile_megabytes: float  # largest resident size of rddlc
+    lines: int  # of the emitted file
+    code_lines: int  # without what stands in the initialisers of tables and lists of objects
+    build_seconds: float | None = None
+
+    @property
+    def label(self) -> str:
+        return f"{self.problem} {self.instance}"
+
+
+def run_measured(command: list[str]) -> tuple[float, float]:
+    """Wall-clock seconds and the largest resident size in MB; ends the program if it fails."""
+    begin = time.perf_counter()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    seconds = time.perf_counter() - begin
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"exit status {process.returncode}: {' '.join(command)}")
+    return seconds, usage.ru_maxrss / 1024
+
+
+def least(command: list[str], limit: float) -> tuple[float, float]:
+    seconds, megabytes = run_measured(command)
+    for _ in range(ATTEMPTS - 1):
+        if seconds <= limit:
+            break
+        seconds = min(seconds, run_measured(command)[0])
+    return seconds, megabytes
+
+
+def code_line_count(text: str) -> int:
+    """Lines of the emitted text, not counting those within initialisers in braces."""
+    return re.sub(r"= \{.*?\};", "", text, flags=re.DOTALL).count("\n")
+
+
+def cost_of(case: Case, options: argparse.Namespace, folder: Path) -> Cost:
+    emitted, library = folder / "sim.cpp", folder / "sim.so"
+    files = [str(case.domain_path), str(case.instance_path)]
+    seconds, megabytes = least([str(options.rddlc), *files, "-o", str(emitted)], COMPILE_SECONDS)
+    text = emitted.read_text()
+    cost = Cost(case.problem, case.instance, seconds, megabytes, text.count("\n"), code_line_count(text))
+    if options.build:
+        flags = ["-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC", f"-I{ROOT / 'runtime'}"]
+        command = [options.cxx, *flags, str(emitted), "-o", str(library)]
+        cost.build_seconds, _ = least(command, BUILD_SECONDS)
+    return cost
+
+
+def row_text(cost: Cost) -> str:
+    build = "-" if cost.build_seconds is None else f"{cost.build_seconds:.2f}"
+    sizes = f"{cost.compile_megabytes:>7.0f} {cost.lines:>8} {cost.code_lines:>8}"
+    return f"{cost.label:38} {cost.compile_seconds:>8.3f} {sizes} {build:>8}"
+
+
+def distribution(name: str, costs: list[Cost], value) -> tuple[str, ...]:
+    """Median, 95 of 100, and the largest with its instance."""
+    ordered = sorted(costs, key=value)
+    values = [value(cost) for cost in ordered]
+    return (
+        name,
+        f"{statistics.median(values):.2f}",
+        f"{values[int(0.95 * (len(values) - 1))]:.2f}",
+        f"{values[-1]:.2f}",
+        ordered[-1].label,
+    )
+
+
+def summary_rows(costs: list[Cost]) -> list[tuple[str, ...]]:
+    rows = [("", "median", "95 %", "largest", "of")]
+    rows.append(distribution("rddlc, seconds", costs, lambda cost: cost.compile_seconds))
+    rows.append(distribution("rddlc, MB", costs, lambda cost: cost.compile_megabytes))
+    rows.append(distribution("emitted lines without tables", costs, lambda cost: cost.code_lines))
+    built = [cost for cost in costs if cost.build_seconds is not None]
+    if built:
+        rows.append(distribution("C++ compiler at -O2, seconds", built, lambda cost: cost.build_seconds))
+    return rows
+
+
+def excesses(costs: list[Cost]) -> list[str]:
+    """What is over its limit, a line each."""
+    lines = []
+    for cost in costs:
+        if cost.compile_seconds > COMPILE_SECONDS:
+            lines.append(f"{cost.label}: rddlc took {cost.compile_seconds:.2f} s")
+        if cost.compile_megabytes > COMPILE_MEGABYTES:
+            lines.append(f"{cost.label}: rddlc took {cost.compile_megabytes:.0f} MB")
+        if (cost.build_seconds or 0) > BUILD_SECONDS:
+            lines.append(f"{cost.label}: the C++ compiler took {cost.build_seconds:.1f} s")
+    built = [cost.build_seconds for cost in costs if cost.build_seconds is not None]
+    if built and statistics.median(built) > MEDIAN_BUILD_SECONDS:
+        lines.append(f"the C++ compiler took {statistics.median(built):.2f} s in the median")
+    return lines
+
+
+def parse_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
+    parser.add_argument("--rddlc", type=Path, default=ROOT / "build/bin/rddlc", help="our compiler")
+    parser.add_argument("--cxx", default=os.environ.get("CXX", "c++"), help="the C++ compiler")
+    parser.add_argument("--no-build", dest="build", action="store_false", help="run only rddlc")
+    parser.add_argument("--require", action="store_true", help="fail above the limits")
+    parser.add_argument("--json", type=Path, help="write the figures to this file")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
+    return parser.parse_args()
+
+
+def main() -> int:
+    options = parse_arguments()
+    cases = [c for problem in options.problems or all_problems() for c in repository_cases(problem)]
+    print(f"{'':38} {'rddlc s':>8} {'MB':>7} {'lines':>8} {'code':>8} {'C++ s':>8}")
+    costs = []
+    with tempfile.TemporaryDirectory() as folder:
+        for case in cases:
+            costs.append(cost_of(case, options, Path(folder)))
+            print(row_text(costs[-1]), flush=True)
+    table = markdown_table(summary_rows(costs))
+    over = excesses(costs)
+    verdict = f"{len(costs)} instances, {len(over)} over a limit"
+    print(f"\n{table}\n\n{verdict}", *over, sep="\n")
+    if options.json:
+        options.json.write_text(json.dumps([asdict(cost) for cost in costs], indent=2) + "\n")
+    if options.write:
+        write_section("compile cost", f"{machine_text()}; {verdict}:\n\n{table}")
+    return 1 if options.require and over else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
