@@ -24,7 +24,7 @@ Statistics statistics_of(const std::vector<double>& values) {
 }
 
 std::string number_text(double value) {
-    return fmt::format("{:.6g}", value);
+    return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value);
 }
 
 std::string rate_text(double per_second) {

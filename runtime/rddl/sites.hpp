@@ -89,7 +89,10 @@ class FixedText {
         return *this;
     }
     FixedText& operator<<(std::int64_t value) { return write_number(value); }
-    FixedText& operator<<(double value) { return write_number(value); }  // shortest exact form
+    // In the shortest exact form; a nan, whose sign means nothing, without it.
+    FixedText& operator<<(double value) {
+        return value != value ? *this << std::string_view("nan") : write_number(value);
+    }
 
   private:
     FixedText& write_number(auto value) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace rddl {
@@ -46,6 +47,14 @@ TEST(FaultMessages, OfMatricesHaveNoValue) {
     const Site normal{{"a.rddl", 1, 2}, "MultivariateNormal", {}};
     EXPECT_EQ(message({FaultKind::Covariance, {0, 0}, 0}, normal),
               "a.rddl:1:2: MultivariateNormal's covariance must be positive definite");
+}
+
+TEST(FaultMessages, ShowNoSignOfANan) {
+    const Site site{{"a.rddl", 1, 2}, "Bernoulli", {}};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double value : {nan, -nan})
+        EXPECT_EQ(message({FaultKind::Probability, {0, 0}, value}, site),
+                  "a.rddl:1:2: Bernoulli's probability must be in [0, 1], found nan");
 }
 
 TEST(FaultMessages, AreCutOffAtTheEndOfTheBuffer) {
