@@ -103,6 +103,7 @@ Json description_json(const ProblemDescription& d) {
             {"discount", problem.discount},
             {"max_nondef_actions",
              problem.max_nondef_actions < 0 ? Json(nullptr) : Json(problem.max_nondef_actions)},
+            {"action_choices", d.simulator->action_choice_count(d.simulator.get())},
             {"characteristics", characteristics_json(c)},
             {"sizes", sizes},
             {"types", types_json(d.model)},

@@ -23,6 +23,14 @@ std::string counted(std::int64_t count, std::string_view what) {
     return fmt::format("{} {}{}", grouped(count), what, count == 1 ? "" : "s");
 }
 
+// What a solver chooses among that changes one action value at a time (simulator.h).
+std::string choices_text(const rddl_simulator& simulator) {
+    const std::int64_t count = simulator.action_choice_count(&simulator);
+    if (count == 1) return "1: the default";
+    return fmt::format("{}: the default, or {} of one value", grouped(count),
+                       counted(count - 1, "change"));
+}
+
 std::string general_section(const ProblemDescription& d) {
     const rddl_problem& problem = *d.simulator->problem;
     Table table({{""}, {""}});
@@ -37,6 +45,7 @@ std::string general_section(const ProblemDescription& d) {
         {"actions at once", limit ? fmt::format("at most {} of {} may differ from the default",
                                                 grouped(*limit), grouped(actions))
                                   : "no limit"});
+    table.add_row({"action choices", choices_text(*d.simulator)});
     return table.text();
 }
 

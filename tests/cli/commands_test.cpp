@@ -113,6 +113,7 @@ TEST_F(Program, DescribesAProblem) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     for (const char* part :
          {"tanks_1 (instance.rddl)", "12 steps", "at most 2 of 5 may differ from the default",
+          "action choices   5: the default, or 4 changes of one value",
           "stochastic: water', reward", "Exponential, Normal", "mixed, concurrent",
           "3 action-preconditions", "tank     object            3  t1, t2, t3", "[-2, 1]"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
@@ -123,6 +124,7 @@ TEST_F(Program, DescribesAProblemAsJson) {
     EXPECT_EQ(info["domain"], "tanks");
     EXPECT_EQ(info["horizon"], 12);
     EXPECT_EQ(info["max_nondef_actions"], 2);
+    EXPECT_EQ(info["action_choices"], 5);
     EXPECT_EQ(info["characteristics"]["random_cpfs"], (json{"water'"}));
     EXPECT_EQ(info["sizes"]["state"]["values"], 5);
     EXPECT_EQ(info["sizes"]["state"]["bytes"], 40);
