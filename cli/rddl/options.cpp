@@ -24,4 +24,20 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
                      "Compile anew instead of using a simulator compiled before");
 }
 
+void add_preconditions_option(CLI::App& command, Preconditions& preconditions) {
+    command
+        .add_option_function<std::string>(
+            "--preconditions",
+            [&preconditions](const std::string& name) {
+                preconditions = name == "warn"    ? Preconditions::Warn
+                                : name == "error" ? Preconditions::Error
+                                : name == "noop"  ? Preconditions::Noop
+                                                  : Preconditions::Ignore;
+            },
+            "Illegal actions: ignore (default) and warn take them, error refuses, noop does "
+            "nothing")
+        ->check(CLI::IsMember({"ignore", "warn", "error", "noop"}).description(""))
+        ->type_name("WHAT");
+}
+
 }  // namespace rddlc::cli

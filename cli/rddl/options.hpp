@@ -3,6 +3,7 @@
 
 #include "load_simulator.hpp"
 #include "problem_lookup.hpp"
+#include "violations.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -21,5 +22,8 @@ void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool 
 
 // --engine, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
+
+// --preconditions
+void add_preconditions_option(CLI::App& command, Preconditions& preconditions);
 
 }  // namespace rddlc::cli

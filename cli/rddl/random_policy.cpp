@@ -19,6 +19,9 @@ namespace {
 // The policy draws from an "episode" that no environment ever reaches.
 constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
 
+// How many actions are drawn for one step where not even the default action is legal.
+constexpr std::uint32_t most_samples = 16;
+
 std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
     return std::uint64_t{high} << 32 | low;
 }
@@ -59,15 +62,16 @@ void store(std::byte* action, std::size_t offset, T value) {
 
 }  // namespace
 
-// The random numbers of one environment at one timestep.
+// The random numbers of one action of an environment at one timestep.
 struct RandomPolicy::Draws {
     rddl::StreamKey key;
     std::uint32_t step;
+    std::uint32_t sample;
 
-    enum Purpose : std::uint32_t { Value = 0, Choice = 1 };
+    enum Purpose : std::uint32_t { Value = 0, Choice = 1, Reset = 2 };
 
     rddl::philox::Block block(Purpose purpose, std::size_t number) const {
-        return rddl::philox::generate({step, static_cast<std::uint32_t>(number), purpose, 0},
+        return rddl::philox::generate({step, static_cast<std::uint32_t>(number), purpose, sample},
                                       {key.low, key.high});
     }
     std::uint64_t bits(Purpose purpose, std::size_t number) const {
@@ -90,6 +94,7 @@ RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
             std::min(drawn_per_step_, static_cast<std::size_t>(problem.max_nondef_actions));
     order_.resize(entries_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
+    partners_.resize(drawn_per_step_);
 }
 
 RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, const rddl_fluent& fluent,
@@ -119,25 +124,57 @@ RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, const rd
     return entry;
 }
 
+RandomPolicy::Draws RandomPolicy::draws_of(std::int64_t environment, std::int64_t step,
+                                           std::uint32_t sample) const {
+    return {rddl::stream_key(seed_, static_cast<std::uint64_t>(environment), policy_episode),
+            static_cast<std::uint32_t>(step), sample};
+}
+
 void RandomPolicy::act(std::int64_t environment, std::int64_t step, std::byte* action) {
-    std::copy_n(static_cast<const std::byte*>(problem_->default_action), problem_->action_size,
-                action);
-    const Draws draws{
-        rddl::stream_key(seed_, static_cast<std::uint64_t>(environment), policy_episode),
-        static_cast<std::uint32_t>(step)};
+    std::copy_n(default_action(), problem_->action_size, action);
+    draw_action(draws_of(environment, step, 0), action);
+}
+
+// Into the default action.
+void RandomPolicy::draw_action(const Draws& draws, std::byte* action) {
     if (drawn_per_step_ == entries_.size()) {
         for (std::size_t i = 0; i < entries_.size(); ++i) draw(entries_[i], draws, i, action);
         return;
     }
     // The first steps of a Fisher-Yates shuffle choose a subset; swapping back restores the order.
-    std::vector<std::size_t> partners;
     for (std::size_t i = 0; i < drawn_per_step_; ++i) {
         const std::uint64_t offset = below(order_.size() - i, draws.bits(Draws::Choice, i));
-        partners.push_back(i + static_cast<std::size_t>(offset));
-        std::swap(order_[i], order_[partners[i]]);
+        partners_[i] = i + static_cast<std::size_t>(offset);
+        std::swap(order_[i], order_[partners_[i]]);
         draw(entries_[order_[i]], draws, order_[i], action);
     }
-    for (std::size_t i = drawn_per_step_; i-- > 0;) std::swap(order_[i], order_[partners[i]]);
+    for (std::size_t i = drawn_per_step_; i-- > 0;) std::swap(order_[i], order_[partners_[i]]);
+}
+
+bool RandomPolicy::try_another(std::int64_t environment, std::int64_t step, Search& search,
+                               std::byte* action) {
+    const auto changed = [&](const Entry& entry) {
+        return is_changed(entry, action);
+    };
+    const auto count =
+        static_cast<std::uint64_t>(std::count_if(entries_.begin(), entries_.end(), changed));
+    if (count > 0) {
+        const Draws draws = draws_of(environment, step, search.sample);
+        std::uint64_t left = below(count, draws.bits(Draws::Reset, search.resets++));
+        const auto chosen = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+            return changed(entry) && left-- == 0;
+        });
+        std::copy_n(default_action() + chosen->offset, chosen->size(), action + chosen->offset);
+        return true;
+    }
+    if (drawn_per_step_ == 0 || search.sample + 1 >= most_samples) return false;
+    search = {search.sample + 1, 0};
+    draw_action(draws_of(environment, step, search.sample), action);
+    return true;
+}
+
+bool RandomPolicy::is_changed(const Entry& entry, const std::byte* action) const {
+    return std::memcmp(action + entry.offset, default_action() + entry.offset, entry.size()) != 0;
 }
 
 void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t number,

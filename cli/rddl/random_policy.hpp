@@ -4,7 +4,10 @@
 // reals bounded on one side at an exponential distance (mean 1) from the bound; unbounded reals
 // standard normal; ints that are not bounded on both sides as the reals, rounded toward the
 // inside. With a limit of k non-default values, k values chosen at random are drawn and the
-// others keep their default. Preconditions that are not bounds are not looked at.
+// others keep their default.
+//
+// The policy does not know which actions are legal: whoever knows asks it for another one until one
+// is (`try_another`). The caller may do so for many environments side by side.
 #pragma once
 
 #include <rddl/simulator.h>
@@ -24,6 +27,17 @@ class RandomPolicy {
     // Depends on seed, environment and step only.
     void act(std::int64_t environment, std::int64_t step, std::byte* action);
 
+    // How far the search for a legal action of one environment at one timestep has come.
+    struct Search {
+        std::uint32_t sample = 0;  // actions drawn and given up before this one
+        std::uint32_t resets = 0;  // values of this one that are back at their default
+    };
+    // Changes an action that is not legal: one value chosen at random falls back to its default,
+    // or, if that is the default action already, a new action is drawn. False, with the default
+    // action, if enough of these were tried.
+    bool try_another(std::int64_t environment, std::int64_t step, Search& search,
+                     std::byte* action);
+
   private:
     // One value of the action record and what to draw it from.
     struct Entry {
@@ -32,18 +46,27 @@ class RandomPolicy {
         double lower, upper;  // reals, and ints with an infinite bound
         std::int64_t first;   // ints with two bounds: first .. first + count - 1;
         std::uint64_t count;  // 0: not bounded on both sides, or no int fits
+
+        std::size_t size() const { return kind == Kind::Bool ? 1 : 8; }
     };
     struct Draws;
 
     static Entry entry_of(const rddl_problem& problem, const rddl_fluent& fluent,
                           std::int64_t grounding);
+    Draws draws_of(std::int64_t environment, std::int64_t step, std::uint32_t sample) const;
+    void draw_action(const Draws& draws, std::byte* action);
     void draw(const Entry& entry, const Draws& draws, std::size_t number, std::byte* action) const;
+    bool is_changed(const Entry& entry, const std::byte* action) const;
+    const std::byte* default_action() const {
+        return static_cast<const std::byte*>(problem_->default_action);
+    }
 
     const rddl_problem* problem_;
     std::uint64_t seed_;
     std::vector<Entry> entries_;
-    std::size_t drawn_per_step_;      // at most this many values are not at their default
-    std::vector<std::size_t> order_;  // identity between calls; shuffled in part during one
+    std::size_t drawn_per_step_;         // at most this many values are not at their default
+    std::vector<std::size_t> order_;     // identity between calls; shuffled in part during one
+    std::vector<std::size_t> partners_;  // what was swapped there
 };
 
 }  // namespace rddlc::cli

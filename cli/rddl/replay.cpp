@@ -4,6 +4,11 @@
 #include "line_stream.hpp"
 #include "options.hpp"
 #include "replay_session.hpp"
+#include "violations.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
 
 namespace rddlc::cli {
 
@@ -17,13 +22,45 @@ struct ReplayCommandOptions {
     std::string output = "-";
 };
 
+// Tells of violated preconditions on stderr: the first with all circumstances, all as a number.
+class ViolationLog {
+  public:
+    ViolationLog(const ProblemFiles& files, Preconditions preconditions)
+        : explainer_(files), preconditions_(preconditions) {}
+
+    // The message in one line.
+    std::string add(const Violation& violation) {
+        const ViolationText text = explainer_.precondition(violation);
+        const char* const severity = preconditions_ == Preconditions::Error ? "error" : "warning";
+        if (count_++ == 0) fmt::print(stderr, "{}", text.diagnostic(severity, ""));
+        return text.line();
+    }
+
+    void print_total() const {
+        if (count_ == 0) return;
+        fmt::print(stderr, "rddl: {} action{} violated a precondition: {}\n", count_,
+                   count_ == 1 ? "" : "s", fate_of_illegal_actions(preconditions_));
+    }
+
+  private:
+    ViolationExplainer explainer_;
+    Preconditions preconditions_;
+    std::size_t count_ = 0;
+};
+
 ExitStatus replay(const ReplayCommandOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     LineReader input(options.input);
     LineWriter output(options.output);
-    ReplaySession session(*problem.simulator, options.session);
+    ViolationLog log(problem.files, options.session.preconditions);
+    ReplayOptions session_options = options.session;
+    session_options.explain = [&](const Violation& violation) {
+        return log.add(violation);
+    };
+    ReplaySession session(*problem.simulator, session_options);
     while (const auto line = input.next()) output.write(session.answer(*line));
     output.flush();
+    log.print_total();
     return is_interrupted() ? interrupted : success;
 }
 
@@ -57,8 +94,7 @@ Command add_replay_command(CLI::App& program) {
                     "Steps an episode; 0: no horizon (the trace's or the instance's)")
         ->check(CLI::NonNegativeNumber.description(""))
         ->type_name("H");
-    app->add_flag("--enforce-preconditions", options->session.enforce_preconditions,
-                  "Refuse actions that violate an action-precondition");
+    add_preconditions_option(*app, options->session.preconditions);
     add_engine_options(*app, options->load);
     return {app, [options] {
                 return replay(*options);

@@ -3,6 +3,8 @@
 #include "faults.hpp"
 #include "support/diagnostic.hpp"
 
+#include <rddl/random.hpp>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -109,12 +111,18 @@ std::string ReplaySession::answer_object(const json& line) {
         read_header(line);
         return {};
     }
-    const Request request = read_request(line);
+    Request request = read_request(line);
     prepare(request);
     if (!request.steps) return describe_start();
     require_running();
-    if (options_.enforce_preconditions) require_preconditions(request.action);
-    return request.samples ? sample(request.action, *request.samples) : step(request.action);
+    const std::string warning = check_preconditions(request.action);
+    std::string out =
+        request.samples ? sample(request.action, *request.samples) : step(request.action);
+    if (warning.empty()) return out;
+    out.resize(out.size() - 2);  // the brace and the line break
+    out += R"(,"warning":)";
+    write_string(out, warning);
+    return out + "}\n";
 }
 
 // ---------------------------------------------------------------------------- reading a line
@@ -187,13 +195,32 @@ void ReplaySession::require_running() const {
     throw Refusal{fmt::format("the episode is over: {}", reason)};
 }
 
-void ReplaySession::require_preconditions(const Record& action) const {
+std::string ReplaySession::check_preconditions(Record& action) const {
+    if (options_.preconditions == Preconditions::Ignore) return {};
     std::int32_t violated = -1;
     simulator_.violated_preconditions(batch_.get(), action.data(), &violated);
-    if (violated < 0) return;
-    const rddl_condition& condition = problem_.preconditions[violated];
-    throw Refusal{fmt::format("the action violates a precondition: {} ({})", condition.text,
-                              source_text(condition.source))};
+    if (violated < 0) return {};
+    const std::string message = explain(violated, action);
+    if (options_.preconditions == Preconditions::Error) throw Refusal{message};
+    if (options_.preconditions == Preconditions::Noop)
+        std::copy_n(static_cast<const std::byte*>(problem_.default_action), action.size(),
+                    action.begin());
+    return message;
+}
+
+std::string ReplaySession::explain(std::int32_t precondition, const Record& action) const {
+    if (!options_.explain) {
+        const rddl_condition& condition = problem_.preconditions[precondition];
+        return fmt::format("{}: precondition violated: {}", source_text(condition.source),
+                           condition.text);
+    }
+    std::int64_t steps = 0, episodes = 0;
+    simulator_.get_progress(batch_.get(), 0, 1, &steps, &episodes);
+    Violation violation{state(), action};
+    violation.context.key = rddl::stream_key(seed_, static_cast<std::uint64_t>(environment_),
+                                             static_cast<std::uint64_t>(episodes));
+    violation.context.step = static_cast<std::uint32_t>(steps + 1);
+    return options_.explain(violation);
 }
 
 std::string ReplaySession::describe_start() const {

@@ -3,6 +3,7 @@
 
 #include "batch.hpp"
 #include "records_json.hpp"
+#include "violations.hpp"
 
 #include <rddl/simulator.h>
 
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +23,9 @@ struct ReplayOptions {
     std::optional<std::uint64_t> seed = {};  // else that of the trace, else 0
     std::optional<std::int64_t> horizon =
         {};  // else that of the trace, else the instance's; 0: none
-    bool enforce_preconditions = false;
+    Preconditions preconditions = Preconditions::Ignore;
+    // Tells what is wrong, in one line; called for each violated precondition.
+    std::function<std::string(const Violation&)> explain = {};
 };
 
 class ReplaySession {
@@ -54,7 +58,9 @@ class ReplaySession {
     Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
     void prepare(const Request& request);
     void require_running() const;
-    void require_preconditions(const Record& action) const;
+    // Empty if the action is legal, else what is wrong; may replace it.
+    std::string check_preconditions(Record& action) const;
+    std::string explain(std::int32_t precondition, const Record& action) const;
 
     std::string describe_start() const;
     std::string step(const Record& action);

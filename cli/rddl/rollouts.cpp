@@ -7,6 +7,8 @@
 #include "random_policy.hpp"
 #include "trace.hpp"
 
+#include <rddl/random.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -16,6 +18,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace rddlc::cli {
 
@@ -56,6 +59,7 @@ class EpisodeBatch {
                  std::int64_t count)
         : simulator_(simulator),
           problem_(*simulator.problem),
+          options_(options),
           first_(first),
           batch_(create_batch(simulator, {count, first, options.seed, 1, RDDL_AUTORESET_DISABLED,
                                           options.horizon})),
@@ -63,9 +67,11 @@ class EpisodeBatch {
           discounts_(episodes_.size(), 1.0),
           rewards_(episodes_.size()),
           causes_(episodes_.size()),
+          violated_(episodes_.size(), -1),
+          searches_(episodes_.size()),
           action_size_(static_cast<std::size_t>(problem_.action_size)),
           actions_(episodes_.size() * action_size_) {
-        set_default_actions();
+        for (std::size_t i = 0; i < episodes_.size(); ++i) set_default_action(i);
         simulator_.get_causes(batch_.get(), 0, count, causes_.data());
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (causes_[i] != RDDL_RUNNING) end_episode(i);
@@ -76,10 +82,17 @@ class EpisodeBatch {
                            [](const Episode& episode) { return !episode.finished; });
     }
 
+    // Of the next step; those that violate a precondition are treated as the options say.
     void choose_actions(RandomPolicy& policy) {
+        const bool random = options_.policy == Policy::Random;
+        if (random) draw_actions(policy);
+        if (problem_.precondition_count == 0) return;
+        if (random)
+            make_legal(policy);
+        else if (options_.preconditions != Preconditions::Ignore)
+            ask_preconditions();
         for (std::size_t i = 0; i < episodes_.size(); ++i)
-            if (!episodes_[i].finished)
-                policy.act(first_ + static_cast<std::int64_t>(i), episodes_[i].length, action(i));
+            if (is_illegal(i)) treat_illegal_action(i);
     }
 
     void step() {
@@ -98,35 +111,92 @@ class EpisodeBatch {
         lines.after_step(*batch_);
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (!before[i].finished)
-                lines.add(i, first_ + static_cast<std::int64_t>(i), before[i].length, action(i),
-                          rewards_[i], causes_[i]);
+                lines.add(i, number_of(i), before[i].length, action(i), rewards_[i], causes_[i]);
     }
 
     const std::vector<Episode>& episodes() const { return episodes_; }
 
-    // Of the lowest number.
+    // Of the lowest number, as are the next two.
     std::optional<EpisodeFault> first_fault() const {
         for (std::size_t i = 0; i < episodes_.size(); ++i) {
             if (!(episodes_[i].causes & RDDL_FAULTED)) continue;
-            const auto place = static_cast<std::int64_t>(i);
-            return EpisodeFault{first_ + place, episodes_[i].length,
-                                fault_text(simulator_, *batch_, place)};
+            return EpisodeFault{number_of(i), episodes_[i].length,
+                                fault_text(simulator_, *batch_, static_cast<std::int64_t>(i))};
         }
         return std::nullopt;
     }
+    const std::optional<EpisodeViolation>& first_illegal_action() const {
+        return first_illegal_action_;
+    }
+    const std::optional<EpisodeViolation>& first_broken_invariant() const {
+        return first_broken_invariant_;
+    }
 
   private:
+    std::int64_t number_of(std::size_t i) const { return first_ + static_cast<std::int64_t>(i); }
     std::byte* action(std::size_t i) { return actions_.data() + i * action_size_; }
 
-    void set_default_actions() {
-        const auto* const defaults = static_cast<const std::byte*>(problem_.default_action);
+    void set_default_action(std::size_t i) {
+        std::copy_n(static_cast<const std::byte*>(problem_.default_action), action_size_,
+                    action(i));
+    }
+
+    void draw_actions(RandomPolicy& policy) {
         for (std::size_t i = 0; i < episodes_.size(); ++i)
-            std::copy_n(defaults, action_size_, action(i));
+            if (!episodes_[i].finished) policy.act(number_of(i), episodes_[i].length, action(i));
+    }
+
+    // Where that is possible. All environments make their tries side by side, since the simulator
+    // is asked about all of them at once.
+    void make_legal(RandomPolicy& policy) {
+        std::fill(searches_.begin(), searches_.end(), RandomPolicy::Search{});
+        for (bool searching = true; searching;) {
+            ask_preconditions();
+            searching = false;
+            for (std::size_t i = 0; i < episodes_.size(); ++i)
+                if (is_illegal(i))
+                    searching |= policy.try_another(number_of(i), episodes_[i].length, searches_[i],
+                                                    action(i));
+        }
+    }
+
+    void ask_preconditions() {
+        simulator_.violated_preconditions(batch_.get(), actions_.data(), violated_.data());
+    }
+
+    // As far as it was asked.
+    bool is_illegal(std::size_t i) const { return !episodes_[i].finished && violated_[i] >= 0; }
+
+    void treat_illegal_action(std::size_t i) {
+        Episode& episode = episodes_[i];
+        ++episode.illegal_actions;
+        if (options_.preconditions != Preconditions::Ignore) note(first_illegal_action_, i);
+        if (options_.preconditions == Preconditions::Error) {
+            episode.finished = true;
+            episode.refused = true;
+        } else if (options_.preconditions == Preconditions::Noop) {
+            set_default_action(i);
+        }
+    }
+
+    // Keeps what is going on in environment i, unless an episode of a lower number is there.
+    void note(std::optional<EpisodeViolation>& first, std::size_t i) {
+        const std::int64_t episode = number_of(i), step = episodes_[i].length;
+        if (first && first->episode <= episode) return;
+        Violation violation;
+        violation.state.resize(static_cast<std::size_t>(problem_.state_size));
+        simulator_.get_state(batch_.get(), static_cast<std::int64_t>(i), 1, violation.state.data());
+        violation.action.assign(action(i), action(i) + action_size_);
+        violation.context.key =
+            rddl::stream_key(options_.seed, static_cast<std::uint64_t>(episode), 0);
+        violation.context.step = static_cast<std::uint32_t>(step + 1);
+        first = EpisodeViolation{episode, step, std::move(violation)};
     }
 
     void record(std::size_t i) {
         Episode& episode = episodes_[i];
         if (causes_[i] != RDDL_RUNNING) end_episode(i);
+        if (causes_[i] & RDDL_TRUNCATED_INVARIANT) note(first_broken_invariant_, i);
         if (causes_[i] & RDDL_FAULTED) return;  // a step that faults is not made
         episode.length += 1;
         episode.undiscounted_return += rewards_[i];
@@ -141,14 +211,18 @@ class EpisodeBatch {
 
     const rddl_simulator& simulator_;
     const rddl_problem& problem_;
+    const RolloutOptions& options_;
     std::int64_t first_;
     Batch batch_;
     std::vector<Episode> episodes_;
     std::vector<double> discounts_;
     std::vector<double> rewards_;
     std::vector<std::uint8_t> causes_;
+    std::vector<std::int32_t> violated_;  // the precondition, by the action chosen last; or -1
+    std::vector<RandomPolicy::Search> searches_;
     std::size_t action_size_;
     std::vector<std::byte> actions_;
+    std::optional<EpisodeViolation> first_illegal_action_, first_broken_invariant_;
 };
 
 // For the progress bar: how many steps an episode has at most; 0: nobody knows, or too many.
@@ -192,6 +266,8 @@ class Rollout {
         if (failure_) std::rethrow_exception(failure_);
         rollouts.episodes = std::move(episodes_);
         rollouts.first_fault = std::move(first_fault_);
+        rollouts.first_illegal_action = std::move(first_illegal_action_);
+        rollouts.first_broken_invariant = std::move(first_broken_invariant_);
     }
 
   private:
@@ -208,22 +284,25 @@ class Rollout {
         if (trace_format_) lines.emplace(simulator_, *trace_format_, count);
         std::int64_t steps = 0;
         for (; batch.running() && !is_interrupted(); ++steps) {
-            if (options_.policy == Policy::Random) batch.choose_actions(policy);
+            batch.choose_actions(policy);
             lines ? batch.step(*lines) : batch.step();
             if (steps_per_episode_ > 0) progress_.advance(count);
         }
         if (lines) write_trace(number, *lines);
         std::copy(batch.episodes().begin(), batch.episodes().end(), episodes_.begin() + first);
-        note_fault(batch.first_fault());
+        note_firsts(batch);
         // What episodes that ended early have saved; all of it if there is no horizon.
         progress_.advance(steps_per_episode_ > 0 ? count * (steps_per_episode_ - steps) : count);
     }
 
-    void note_fault(std::optional<EpisodeFault> fault) {
-        if (!fault) return;
+    void note_firsts(const EpisodeBatch& batch) {
         const std::scoped_lock lock(result_mutex_);
-        if (!first_fault_ || fault->episode < first_fault_->episode)
-            first_fault_ = std::move(fault);
+        const auto keep_lower = [](auto& first, const auto& other) {
+            if (other && (!first || other->episode < first->episode)) first = other;
+        };
+        keep_lower(first_fault_, batch.first_fault());
+        keep_lower(first_illegal_action_, batch.first_illegal_action());
+        keep_lower(first_broken_invariant_, batch.first_broken_invariant());
     }
 
     void write_trace(std::int64_t number, const TraceLines& lines) {
@@ -241,8 +320,9 @@ class Rollout {
     std::vector<Episode> episodes_;
     std::atomic<std::int64_t> next_batch_ = 0;
     Turns turns_;
-    std::mutex result_mutex_;  // of the next two
+    std::mutex result_mutex_;  // of all that follow
     std::optional<EpisodeFault> first_fault_;
+    std::optional<EpisodeViolation> first_illegal_action_, first_broken_invariant_;
     std::exception_ptr failure_;
 };
 

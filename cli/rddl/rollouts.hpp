@@ -4,6 +4,8 @@
 // not on how many others run, in which batch, or on which thread.
 #pragma once
 
+#include "violations.hpp"
+
 #include <rddl/simulator.h>
 
 #include <cstdint>
@@ -18,6 +20,7 @@ enum class Policy { Random, Noop };
 
 struct RolloutOptions {
     Policy policy = Policy::Random;
+    Preconditions preconditions = Preconditions::Ignore;
     std::int64_t episodes = 1;
     std::uint64_t seed = 0;
     std::int64_t horizon = -1;  // as in rddl_batch_options
@@ -31,6 +34,8 @@ struct Episode {
     double discounted_return = 0;
     std::int64_t length = 0;  // steps
     std::uint8_t causes = RDDL_RUNNING;
+    std::int64_t illegal_actions = 0;  // those that violate a precondition; 0 if nobody looks
+    bool refused = false;              // ended by such an action, which was not taken
 };
 
 struct EpisodeFault {
@@ -39,9 +44,17 @@ struct EpisodeFault {
     std::string message;  // "file:line:column: ..."
 };
 
+struct EpisodeViolation {
+    std::int64_t episode = 0;
+    std::int64_t step = 0;  // the one that would be, or was, made
+    Violation violation;
+};
+
 struct Rollouts {
-    std::vector<Episode> episodes;            // by number
-    std::optional<EpisodeFault> first_fault;  // of the first episode that faulted
+    std::vector<Episode> episodes;  // by number
+    // Each of the first episode that has one.
+    std::optional<EpisodeFault> first_fault;
+    std::optional<EpisodeViolation> first_illegal_action, first_broken_invariant;
     std::int64_t steps = 0;
     double seconds = 0;
     int threads = 0;

@@ -36,7 +36,8 @@ std::string_view name_of(Policy policy) {
 struct Summary {
     Statistics undiscounted_return, discounted_return, length;
     std::int64_t episodes = 0;  // finished ones
-    std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0;
+    std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0, refused = 0;
+    std::int64_t illegal_actions = 0;
     double steps_per_second = 0;
 };
 
@@ -52,6 +53,8 @@ Summary summarise(const Rollouts& rollouts) {
         summary.horizon += (episode.causes & RDDL_TRUNCATED_HORIZON) != 0;
         summary.invariant += (episode.causes & RDDL_TRUNCATED_INVARIANT) != 0;
         summary.faulted += (episode.causes & RDDL_FAULTED) != 0;
+        summary.refused += episode.refused;
+        summary.illegal_actions += episode.illegal_actions;
     }
     summary.episodes = static_cast<std::int64_t>(returns.size());
     summary.undiscounted_return = statistics_of(returns);
@@ -62,12 +65,33 @@ Summary summarise(const Rollouts& rollouts) {
     return summary;
 }
 
+// "episode 3, step 7", of a fault or a violation.
+std::string when(const auto& event) {
+    return fmt::format("episode {}, step {}", event.episode, event.step);
+}
+
+// In the form of the compiler's messages; `count` illegal actions there were in all.
+void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
+                           Preconditions preconditions, ViolationExplainer& explainer) {
+    const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
+    const std::string place =
+        count == 1 ? fmt::format(" in {}", when(first))
+                   : fmt::format(" in {} (first of {} violations)", when(first), grouped(count));
+    fmt::print(stderr, "{}", explainer.precondition(first.violation).diagnostic(severity, place));
+}
+
 std::string fault_line(const EpisodeFault& fault) {
-    return fmt::format("episode {}, step {}: {}", fault.episode, fault.step, fault.message);
+    return fmt::format("{}: {}", when(fault), fault.message);
+}
+
+std::string illegal_actions_line(std::int64_t count, Preconditions preconditions) {
+    const std::string text =
+        fmt::format("{} action{} violated a precondition", grouped(count), count == 1 ? "" : "s");
+    return count == 0 ? text : text + ": " + fate_of_illegal_actions(preconditions);
 }
 
 void print_summary(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
-                   const LoadedProblem& problem) {
+                   const LoadedProblem& problem, ViolationExplainer& explainer) {
     const rddl_problem& description = *problem.simulator->problem;
     fmt::print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
                name_of(options.rollouts.policy), options.rollouts.seed,
@@ -90,6 +114,12 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
         grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
         grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
     if (rollouts.first_fault) fmt::print("first fault: {}\n", fault_line(*rollouts.first_fault));
+    if (const auto& first = rollouts.first_broken_invariant)
+        fmt::print("first broken invariant: {}: {}\n", when(*first),
+                   explainer.invariant(first->violation).line());
+    const Preconditions preconditions = options.rollouts.preconditions;
+    if (preconditions != Preconditions::Ignore || summary.illegal_actions > 0)
+        fmt::print("{}\n", illegal_actions_line(summary.illegal_actions, preconditions));
     fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
                seconds_text(rollouts.seconds), rate_text(summary.steps_per_second),
                rollouts.threads, rollouts.threads == 1 ? "" : "s");
@@ -103,7 +133,7 @@ nlohmann::ordered_json to_json(const Statistics& s) {
 }
 
 void print_json(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
-                const LoadedProblem& problem) {
+                const LoadedProblem& problem, ViolationExplainer& explainer) {
     nlohmann::ordered_json out{{"problem", problem.files.name},
                                {"policy", name_of(options.rollouts.policy)},
                                {"engine", name_of(options.load.engine)},
@@ -117,11 +147,21 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
                                {"truncated_invariant", summary.invariant},
                                {"faulted", summary.faulted},
                                {"first_fault", nullptr},
+                               {"refused", summary.refused},
+                               {"illegal_actions", summary.illegal_actions},
+                               {"first_illegal_action", nullptr},
+                               {"first_broken_invariant", nullptr},
                                {"steps", rollouts.steps},
                                {"seconds", rollouts.seconds},
                                {"steps_per_second", summary.steps_per_second},
                                {"threads", rollouts.threads}};
     if (rollouts.first_fault) out["first_fault"] = fault_line(*rollouts.first_fault);
+    if (const auto& first = rollouts.first_illegal_action)
+        out["first_illegal_action"] =
+            when(*first) + ": " + explainer.precondition(first->violation).line();
+    if (const auto& first = rollouts.first_broken_invariant)
+        out["first_broken_invariant"] =
+            when(*first) + ": " + explainer.invariant(first->violation).line();
     fmt::print("{}\n", out.dump(2));
 }
 
@@ -168,11 +208,15 @@ ExitStatus run(const RunOptions& options) {
     if (trace) trace->flush();
 
     const Summary summary = summarise(rollouts);
+    ViolationExplainer explainer(problem.files);
+    if (const auto& first = rollouts.first_illegal_action)
+        report_illegal_action(*first, summary.illegal_actions, options.rollouts.preconditions,
+                              explainer);
     if (options.json)
-        print_json(options, summary, rollouts, problem);
+        print_json(options, summary, rollouts, problem, explainer);
     else if (!options.quiet && options.trace != "-")
-        print_summary(options, summary, rollouts, problem);
-    if (!is_interrupted()) return success;
+        print_summary(options, summary, rollouts, problem, explainer);
+    if (!is_interrupted()) return summary.refused > 0 ? diagnosed : success;
     fmt::print(stderr, "rddl: interrupted after {} of {} episodes\n", summary.episodes,
                options.rollouts.episodes);
     return interrupted;
@@ -186,6 +230,10 @@ Command add_run_command(CLI::App& program) {
     app->footer(
         "Episode number e is environment e of the seed: its course does not depend on how many\n"
         "episodes run, in which batches or on how many threads.\n\n"
+        "A random action that violates a precondition is repaired: values chosen at random fall "
+        "back\n"
+        "to their default until it is legal. If not even the default action is, some more actions\n"
+        "are tried, then the default action is taken and counted as illegal.\n\n"
         "Examples:\n"
         "  rddl run domain.rddl instance.rddl --episodes 1000\n"
         "  rddl run MountainCar_ippc2023 1 --policy noop --json\n"
@@ -216,6 +264,7 @@ Command add_run_command(CLI::App& program) {
     app->add_option("--batch", options->rollouts.batch, "Episodes that a thread steps together")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24).description(""))
         ->type_name("B");
+    add_preconditions_option(*app, options->rollouts.preconditions);
     add_engine_options(*app, options->load);
     app->add_option("--trace", options->trace, "Write every step as a line of JSON; - is stdout")
         ->type_name("FILE");

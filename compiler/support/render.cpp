@@ -130,6 +130,18 @@ std::optional<std::string> beside_caret(const Note& note, const Sources& sources
                        sources.location(*note.span));
 }
 
+// The line of source and the caret line, with a remark beside the caret.
+std::string source_lines(const Sources& sources, Span span, const std::string& remark,
+                         const Palette& palette) {
+    const Excerpt excerpt = excerpt_of(part_of(sources[span.file], span));
+    const std::string source = joined(excerpt.columns);
+    const std::string tildes(excerpt.end - excerpt.begin - 1, '~');
+    return fmt::format("{:5} |{}{}\n", sources.position(span).line, source.empty() ? "" : " ",
+                       source) +
+           fmt::format("{:5} | {:{}}{}^{}{}{}{}\n", "", "", excerpt.begin, palette.caret, tildes,
+                       palette.off, remark.empty() ? "" : "   ", remark);
+}
+
 class TextRenderer {
   public:
     TextRenderer(const Diagnostics& diagnostics, const Sources& sources, bool color)
@@ -145,7 +157,7 @@ class TextRenderer {
                     beside = &diagnostic.notes.front();
                     remark = std::move(*found);
                 }
-            text += source_lines(*diagnostic.span, remark);
+            text += source_lines(sources_, *diagnostic.span, remark, palette_);
         }
         for (const Note& note : diagnostic.notes)
             if (&note != beside) text += note_line(note);
@@ -170,17 +182,6 @@ class TextRenderer {
 
     std::string place(const std::optional<Span>& span) const {
         return span ? sources_.location(*span) + ": " : "";
-    }
-
-    // The line of source and the caret line, with a remark beside the caret.
-    std::string source_lines(Span span, const std::string& remark) const {
-        const Excerpt excerpt = excerpt_of(part_of(sources_[span.file], span));
-        const std::string source = joined(excerpt.columns);
-        const std::string tildes(excerpt.end - excerpt.begin - 1, '~');
-        return fmt::format("{:5} |{}{}\n", sources_.position(span).line, source.empty() ? "" : " ",
-                           source) +
-               fmt::format("{:5} | {:{}}{}^{}{}{}{}\n", "", "", excerpt.begin, palette_.caret,
-                           tildes, palette_.off, remark.empty() ? "" : "   ", remark);
     }
 
     const Diagnostics& diagnostics_;
@@ -246,6 +247,10 @@ std::string render_json(const Diagnostics& diagnostics, const Sources& sources) 
 }
 
 }  // namespace
+
+std::string source_excerpt(const Sources& sources, Span span) {
+    return source_lines(sources, span, {}, plain);
+}
 
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderOptions& options) {

@@ -1,9 +1,9 @@
 // The one place where diagnostics become text.
 #pragma once
 
-#include <string>
-
 #include "support/diagnostic.hpp"
+
+#include <string>
 
 namespace rddlc {
 
@@ -11,7 +11,7 @@ enum class DiagnosticsFormat { Text, Json };
 
 struct RenderOptions {
     DiagnosticsFormat format = DiagnosticsFormat::Text;
-    bool color = false;  // ANSI colours, for terminals
+    bool color = false;            // ANSI colours, for terminals
     std::size_t error_limit = 50;  // 0: no limit
 };
 
@@ -19,5 +19,8 @@ struct RenderOptions {
 // "declared here" note beside it, then notes and hint. Json: an array of objects.
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderOptions& options);
+
+// The first line of a span and a caret line below it, as in the text form of a diagnostic.
+std::string source_excerpt(const Sources& sources, Span span);
 
 }  // namespace rddlc

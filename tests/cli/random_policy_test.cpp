@@ -170,5 +170,66 @@ TEST(RandomPolicy, DoesNothingWhenNothingMayDiffer) {
         EXPECT_EQ(act(policy, problem, 0, step), (Record{0, 0}));
 }
 
+// ------------------------------------------------------------------------- legal actions
+
+// All that the policy proposes at one timestep to someone who never finds an action legal.
+std::vector<Record> proposals(RandomPolicy& policy, const ActionProblem& problem,
+                              std::int64_t environment) {
+    std::vector<Record> all{act(policy, problem, environment, 3)};
+    RandomPolicy::Search search;
+    Record record = all.back();
+    while (policy.try_another(environment, 3, search, reinterpret_cast<std::byte*>(record.data())))
+        all.push_back(record);
+    EXPECT_EQ(record, problem.defaults);
+    return all;
+}
+
+int changes(const Record& from, const Record& to) {
+    int count = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) count += from[i] != to[i];
+    return count;
+}
+
+TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
+    ActionProblem problem(std::vector<ActionProblem::Fluent>(6, {RDDL_REAL, 1, 2}));
+    RandomPolicy policy(problem.problem, 1);
+    const std::vector<Record> all = proposals(policy, problem, 0);
+    ASSERT_EQ(all.size(), 16u * 7) << "16 actions, each with 6 resets";
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        EXPECT_EQ(changes(all[k], problem.defaults), 6 - static_cast<int>(k % 7));
+        if (k % 7 > 0) {
+            EXPECT_EQ(changes(all[k], all[k - 1]), 1);
+        }
+    }
+    EXPECT_EQ(changes(all[0], all[7]), 6);
+}
+
+TEST(RandomPolicy, ResetsEachValueAlike) {
+    const ActionProblem problem(std::vector<ActionProblem::Fluent>(4, {RDDL_REAL, 1, 2}));
+    RandomPolicy policy(problem.problem, 1);
+    std::vector<int> first(4);
+    for (std::int64_t environment = 0; environment < 2000; ++environment) {
+        Record record = act(policy, problem, environment, 0);
+        RandomPolicy::Search search;
+        policy.try_another(environment, 0, search, reinterpret_cast<std::byte*>(record.data()));
+        for (std::size_t i = 0; i < 4; ++i) first[i] += record[i] == 0;
+    }
+    // Each with probability 1/4: 500 expected, standard deviation 19.
+    for (const int count : first) EXPECT_NEAR(count, 500, 110);
+}
+
+TEST(RandomPolicy, SearchesWithinTheLimitAndReproducibly) {
+    const ActionProblem problem(std::vector<ActionProblem::Fluent>(10, {RDDL_REAL, 1, 2}), 3);
+    RandomPolicy policy(problem.problem, 1), other(problem.problem, 1);
+    const std::vector<Record> all = proposals(policy, problem, 7);
+    for (const Record& record : all) EXPECT_LE(changes(record, problem.defaults), 3);
+    proposals(other, problem, 8);
+    EXPECT_EQ(proposals(other, problem, 7), all);
+
+    const ActionProblem bound({{RDDL_BOOL}, {RDDL_BOOL}}, 0);
+    RandomPolicy idle(bound.problem, 1);
+    EXPECT_EQ(proposals(idle, bound, 0).size(), 1u);
+}
+
 }  // namespace
 }  // namespace rddlc::cli

@@ -168,10 +168,16 @@ TEST_F(Replay, EnforcesPreconditionsOnRequest) {
     const std::string line = R"({"action": {"repair___mill": true, "repair___press": true}})";
     ReplaySession free(*table.get(), {});
     EXPECT_FALSE(json::parse(free.answer(line)).contains("error"));
-    ReplaySession strict(*table.get(), {.enforce_preconditions = true});
+    ReplaySession strict(*table.get(), {.preconditions = Preconditions::Error});
     EXPECT_EQ(json::parse(strict.answer(line))["error"],
-              "the action violates a precondition: sum_{?m : machine} repair(?m) <= 1 "
-              "(tiny.rddl:30:9)");
+              "tiny.rddl:30:9: precondition violated: sum_{?m : machine} repair(?m) <= 1");
+    ReplaySession lenient(*table.get(), {.preconditions = Preconditions::Warn});
+    const json warned = json::parse(lenient.answer(line));
+    EXPECT_EQ(warned["state"]["repairs"], 2);
+    EXPECT_TRUE(warned["warning"].get<std::string>().starts_with("tiny.rddl:30:9: "));
+    EXPECT_FALSE(json::parse(lenient.answer("{}")).contains("warning"));
+    ReplaySession careful(*table.get(), {.preconditions = Preconditions::Noop});
+    EXPECT_EQ(json::parse(careful.answer(line))["state"]["repairs"], 0);
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ def random_values(fluent, random) -> np.ndarray:
 def replay(rddl: Path, case: Case, description, states, actions, engine: str) -> list[dict]:
     lines = [request_line(description, s, a) for s, a in zip(states, actions)]
     command = [rddl, "replay", case.domain_path, case.instance_path, "--seed", "1", "--horizon", "0"]
-    command += ["--enforce-preconditions", f"--engine={engine}"]
+    command += ["--preconditions=error", f"--engine={engine}"]
     result = execute(command, "".join(lines))
     if result.returncode != 0:
         raise ReplayFailure(f"exit status {result.returncode}: {result.stderr}")
