@@ -24,6 +24,9 @@ cmake -S . -B build/sanitize -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON
 cmake --build build/sanitize --target sanitized_tests
 
 step "4/4 tests"
+# Some tests read all of rddlrepository, where they find it.
+RDDL_REPOSITORY=$(.venv/bin/python -c 'import rddlrepository; print(rddlrepository.__path__[0])')
+export RDDL_REPOSITORY
 jobs=$(nproc)
 ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
 ctest --test-dir build --parallel "$jobs" --output-on-failure "$@"

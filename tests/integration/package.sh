@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 "$cmake" --install "$build" --component rddlc --prefix "$work/installed" > "$work/log" || { cat "$work/log"; exit 1; }
-"$cmake" -S "$source/package" -B "$work/project" -DCMAKE_PREFIX_PATH="$work/installed" \
+"$cmake" -G Ninja -S "$source/package" -B "$work/project" -DCMAKE_PREFIX_PATH="$work/installed" \
     > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$cmake" --build "$work/project" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 "$work/project/linked" | diff "$expected" -
