@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
 
 // How many actions are drawn for one step where not even the default action is legal.
-constexpr std::uint32_t most_samples = 16;
+constexpr std::uint32_t most_samples = 128;
 
 std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
     return std::uint64_t{high} << 32 | low;
@@ -68,7 +68,7 @@ struct RandomPolicy::Draws {
     std::uint32_t step;
     std::uint32_t sample;
 
-    enum Purpose : std::uint32_t { Value = 0, Choice = 1, Reset = 2 };
+    enum Purpose : std::uint32_t { Value = 0, Choice = 1, Reset = 2, Bools = 3 };
 
     rddl::philox::Block block(Purpose purpose, std::size_t number) const {
         return rddl::philox::generate({step, static_cast<std::uint32_t>(number), purpose, sample},
@@ -85,8 +85,7 @@ RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
         if (fluent.role != RDDL_ACTION) continue;
-        for (std::int64_t g = 0; g < fluent.count; ++g)
-            entries_.push_back(entry_of(problem, fluent, g));
+        for (std::int64_t g = 0; g < fluent.count; ++g) entries_.push_back(entry_of(problem, f, g));
     }
     drawn_per_step_ = entries_.size();
     if (problem.max_nondef_actions >= 0)
@@ -97,10 +96,12 @@ RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
     partners_.resize(drawn_per_step_);
 }
 
-RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, const rddl_fluent& fluent,
+RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, std::int32_t number,
                                            std::int64_t grounding) {
+    const rddl_fluent& fluent = problem.fluents[number];
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Entry entry{Entry::Kind::Bool,
+                static_cast<std::uint32_t>(number),
                 0,
                 fluent.lower ? fluent.lower[grounding] : -infinity,
                 fluent.upper ? fluent.upper[grounding] : infinity,
@@ -159,12 +160,7 @@ bool RandomPolicy::try_another(std::int64_t environment, std::int64_t step, Sear
     const auto count =
         static_cast<std::uint64_t>(std::count_if(entries_.begin(), entries_.end(), changed));
     if (count > 0) {
-        const Draws draws = draws_of(environment, step, search.sample);
-        std::uint64_t left = below(count, draws.bits(Draws::Reset, search.resets++));
-        const auto chosen = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-            return changed(entry) && left-- == 0;
-        });
-        std::copy_n(default_action() + chosen->offset, chosen->size(), action + chosen->offset);
+        reset_some(count, draws_of(environment, step, search.sample), search, action);
         return true;
     }
     if (drawn_per_step_ == 0 || search.sample + 1 >= most_samples) return false;
@@ -173,16 +169,43 @@ bool RandomPolicy::try_another(std::int64_t environment, std::int64_t step, Sear
     return true;
 }
 
+// Goes through all `changed` values once and chooses each with the probability that makes every
+// subset of the wanted size equally likely.
+void RandomPolicy::reset_some(std::uint64_t changed, const Draws& draws, Search& search,
+                              std::byte* action) const {
+    std::uint64_t wanted = std::max<std::uint64_t>(changed / 8, 1);
+    for (const Entry& entry : entries_) {
+        if (wanted == 0) return;
+        if (!is_changed(entry, action)) continue;
+        if (below(changed--, draws.bits(Draws::Reset, search.draws++)) >= wanted) continue;
+        std::copy_n(default_action() + entry.offset, entry.size(), action + entry.offset);
+        --wanted;
+    }
+}
+
 bool RandomPolicy::is_changed(const Entry& entry, const std::byte* action) const {
     return std::memcmp(action + entry.offset, default_action() + entry.offset, entry.size()) != 0;
+}
+
+// Preconditions that forbid the default action often want a fluent to be all true, or one value of
+// it.
+void RandomPolicy::draw_bool(const Entry& entry, const Draws& draws, std::uint64_t bits,
+                             std::byte* action) const {
+    enum : std::uint64_t { AtRandom = 0, AllDefault = 1, AllChanged = 2 };
+    std::uint64_t how = AtRandom;
+    if (draws.sample > 0) how = below(3, draws.bits(Draws::Bools, entry.fluent));
+    const auto by_default = static_cast<std::uint8_t>(default_action()[entry.offset]);
+    store(action, entry.offset,
+          how == AllDefault   ? by_default
+          : how == AllChanged ? static_cast<std::uint8_t>(1 - by_default)
+                              : static_cast<std::uint8_t>(bits >> 63));
 }
 
 void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t number,
                         std::byte* action) const {
     const rddl::philox::Block words = draws.block(Draws::Value, number);
     const std::uint64_t bits = joined(words[0], words[1]);
-    if (entry.kind == Entry::Kind::Bool)
-        return store(action, entry.offset, static_cast<std::uint8_t>(bits >> 63));
+    if (entry.kind == Entry::Kind::Bool) return draw_bool(entry, draws, bits, action);
     if (entry.kind == Entry::Kind::Int && entry.count > 0)
         return store(action, entry.offset,
                      entry.first + static_cast<std::int64_t>(below(entry.count, bits)));

@@ -30,7 +30,7 @@ class RandomPolicy {
     // How far the search for a legal action of one environment at one timestep has come.
     struct Search {
         std::uint32_t sample = 0;  // actions drawn and given up before this one
-        std::uint32_t resets = 0;  // values of this one that are back at their default
+        std::uint32_t draws = 0;   // made to repair this one
     };
     // Changes an action that is not legal: one value chosen at random falls back to its default,
     // or, if that is the default action already, a new action is drawn. False, with the default
@@ -42,6 +42,7 @@ class RandomPolicy {
     // One value of the action record and what to draw it from.
     struct Entry {
         enum class Kind : std::uint8_t { Bool, Int, Real } kind;
+        std::uint32_t fluent;
         std::size_t offset;
         double lower, upper;  // reals, and ints with an infinite bound
         std::int64_t first;   // ints with two bounds: first .. first + count - 1;
@@ -51,12 +52,15 @@ class RandomPolicy {
     };
     struct Draws;
 
-    static Entry entry_of(const rddl_problem& problem, const rddl_fluent& fluent,
-                          std::int64_t grounding);
+    static Entry entry_of(const rddl_problem& problem, std::int32_t fluent, std::int64_t grounding);
     Draws draws_of(std::int64_t environment, std::int64_t step, std::uint32_t sample) const;
     void draw_action(const Draws& draws, std::byte* action);
     void draw(const Entry& entry, const Draws& draws, std::size_t number, std::byte* action) const;
+    void draw_bool(const Entry& entry, const Draws& draws, std::uint64_t bits,
+                   std::byte* action) const;
     bool is_changed(const Entry& entry, const std::byte* action) const;
+    void reset_some(std::uint64_t changed, const Draws& draws, Search& search,
+                    std::byte* action) const;
     const std::byte* default_action() const {
         return static_cast<const std::byte*>(problem_->default_action);
     }

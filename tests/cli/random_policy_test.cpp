@@ -194,7 +194,7 @@ TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(6, {RDDL_REAL, 1, 2}));
     RandomPolicy policy(problem.problem, 1);
     const std::vector<Record> all = proposals(policy, problem, 0);
-    ASSERT_EQ(all.size(), 16u * 7) << "16 actions, each with 6 resets";
+    ASSERT_EQ(all.size(), 128u * 7) << "128 actions, each with 6 resets";
     for (std::size_t k = 0; k < all.size(); ++k) {
         EXPECT_EQ(changes(all[k], problem.defaults), 6 - static_cast<int>(k % 7));
         if (k % 7 > 0) {
@@ -202,6 +202,24 @@ TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
         }
     }
     EXPECT_EQ(changes(all[0], all[7]), 6);
+}
+
+TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
+    ActionProblem problem(std::vector<ActionProblem::Fluent>(800, {RDDL_REAL, 1, 2}));
+    RandomPolicy policy(problem.problem, 1);
+    const std::vector<Record> all = proposals(policy, problem, 0);
+    EXPECT_EQ(changes(all[1], all[0]), 100);
+    EXPECT_EQ(changes(all[1], problem.defaults), 700);
+    EXPECT_LT(all.size(), 128u * 50);
+}
+
+// Where the default is forbidden, what is wanted may be too unlikely for independent values.
+TEST(RandomPolicy, TriesAllAndNoBoolsOfAFluent) {
+    const ActionProblem problem(std::vector<ActionProblem::Fluent>(2, {RDDL_BOOL}));
+    RandomPolicy policy(problem.problem, 1);
+    std::map<Record, int> found;
+    for (const Record& record : proposals(policy, problem, 0)) ++found[record];
+    for (const Record& record : {Record{0, 0}, {0, 1}, {1, 0}, {1, 1}}) EXPECT_GT(found[record], 4);
 }
 
 TEST(RandomPolicy, ResetsEachValueAlike) {
