@@ -19,8 +19,10 @@ namespace {
 // The policy draws from an "episode" that no environment ever reaches.
 constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
 
-// How many actions are drawn for one step where not even the default action is legal.
+// Where not even the default action is legal: how many actions are drawn for one step, and then how
+// many that differ from the default in one value only.
 constexpr std::uint32_t most_samples = 128;
+constexpr std::uint32_t most_single_changes = 256;
 
 std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
     return std::uint64_t{high} << 32 | low;
@@ -163,10 +165,24 @@ bool RandomPolicy::try_another(std::int64_t environment, std::int64_t step, Sear
         reset_some(count, draws_of(environment, step, search.sample), search, action);
         return true;
     }
-    if (drawn_per_step_ == 0 || search.sample + 1 >= most_samples) return false;
+    const std::size_t last =
+        most_samples + std::min<std::size_t>(entries_.size(), most_single_changes) - 1;
+    if (drawn_per_step_ == 0 || search.sample == last) return false;
     search = {search.sample + 1, 0};
-    draw_action(draws_of(environment, step, search.sample), action);
+    if (search.sample < most_samples)
+        draw_action(draws_of(environment, step, search.sample), action);
+    else
+        draw_single_change(environment, step, search.sample, action);
     return true;
+}
+
+// One value after the other, beginning anywhere.
+void RandomPolicy::draw_single_change(std::int64_t environment, std::int64_t step,
+                                      std::uint32_t sample, std::byte* action) const {
+    const std::uint64_t begin =
+        below(entries_.size(), draws_of(environment, step, most_samples).bits(Draws::Choice, 0));
+    const std::size_t chosen = (begin + sample - most_samples) % entries_.size();
+    draw(entries_[chosen], draws_of(environment, step, sample), chosen, action);
 }
 
 // Goes through all `changed` values once and chooses each with the probability that makes every
@@ -193,7 +209,10 @@ void RandomPolicy::draw_bool(const Entry& entry, const Draws& draws, std::uint64
                              std::byte* action) const {
     enum : std::uint64_t { AtRandom = 0, AllDefault = 1, AllChanged = 2 };
     std::uint64_t how = AtRandom;
-    if (draws.sample > 0) how = below(3, draws.bits(Draws::Bools, entry.fluent));
+    if (draws.sample >= most_samples)
+        how = AllChanged;
+    else if (draws.sample > 0)
+        how = below(3, draws.bits(Draws::Bools, entry.fluent));
     const auto by_default = static_cast<std::uint8_t>(default_action()[entry.offset]);
     store(action, entry.offset,
           how == AllDefault   ? by_default

@@ -32,9 +32,11 @@ class RandomPolicy {
         std::uint32_t sample = 0;  // actions drawn and given up before this one
         std::uint32_t draws = 0;   // made to repair this one
     };
-    // Changes an action that is not legal: one value chosen at random falls back to its default,
-    // or, if that is the default action already, a new action is drawn. False, with the default
-    // action, if enough of these were tried.
+    // Changes an action that is not legal: of the values that differ from their default, one
+    // chosen at random falls back to it (or an eighth of them, while they are many). If that
+    // is the default action already, a new action is drawn, whose bools are, fluent by fluent, all
+    // default, all changed or at random; or, after many of these, one that changes a single
+    // value. False, with the default action, if enough were tried.
     bool try_another(std::int64_t environment, std::int64_t step, Search& search,
                      std::byte* action);
 
@@ -55,6 +57,8 @@ class RandomPolicy {
     static Entry entry_of(const rddl_problem& problem, std::int32_t fluent, std::int64_t grounding);
     Draws draws_of(std::int64_t environment, std::int64_t step, std::uint32_t sample) const;
     void draw_action(const Draws& draws, std::byte* action);
+    void draw_single_change(std::int64_t environment, std::int64_t step, std::uint32_t sample,
+                            std::byte* action) const;
     void draw(const Entry& entry, const Draws& draws, std::size_t number, std::byte* action) const;
     void draw_bool(const Entry& entry, const Draws& draws, std::uint64_t bits,
                    std::byte* action) const;

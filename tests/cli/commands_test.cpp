@@ -219,6 +219,48 @@ TEST_F(Program, CountsFaults) {
         << message;
 }
 
+// Lamp b heats up so fast that it faults in most episodes; those of the others go on to the
+// horizon.
+constexpr const char* risky_problem = R"(domain risky {
+    types { lamp : object; };
+    pvariables {
+        MEAN(lamp) : { non-fluent, real, default = 0.1 };
+        heat(lamp) : { state-fluent, real, default = 0.0 };
+        on(lamp) : { state-fluent, bool, default = true };
+        push(lamp) : { action-fluent, bool, default = false };
+    };
+    cpfs {
+        heat'(?l) = heat(?l) + (if (push(?l)) then Exponential(MEAN(?l)) else 0.0);
+        on'(?l) = Bernoulli(1.0 - heat(?l) / 100.0);
+    };
+    reward = sum_{?l : lamp} on(?l);
+}
+non-fluents more { domain = risky; objects { lamp : { a, b, c }; }; non-fluents { MEAN(b) = 30.0; }; }
+instance risky_1 { domain = risky; non-fluents = more; horizon = 8; discount = 1.0; }
+)";
+
+TEST_F(Program, KeepsGoingAfterFaults) {
+    write_file(folder_ / "risky.rddl", risky_problem);
+    const std::string run_it = "run risky.rddl --episodes 300 --json";
+    const json summary = without_speed(run_json(run_it + interpreted));
+    EXPECT_EQ(summary["episodes"], 300);
+    EXPECT_GT(summary["faulted"], 50);
+    EXPECT_GT(summary["truncated_horizon"], 50);
+    EXPECT_EQ(summary["faulted"].get<int>() + summary["truncated_horizon"].get<int>(), 300);
+    const auto message = summary["first_fault"].get<std::string>();
+    for (const char* part : {"episode ", ", step ",
+                             ": risky.rddl:11:19: Bernoulli's probability must be in [0, 1], found "
+                             "-0.",
+                             " (at ?l = b)"})
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+    for (const char* other : {" --threads 1 --batch 1", " --threads 3 --batch 300"})
+        EXPECT_EQ(without_speed(run_json(run_it + other)), summary) << other;
+
+    const Outcome text = run("run risky.rddl --episodes 300" + std::string(interpreted));
+    EXPECT_EQ(text.status, 0);
+    EXPECT_NE(text.out.find("first fault: " + message), std::string::npos) << text.out;
+}
+
 TEST_F(Program, RefusesEndlessEpisodes) {
     write_file(folder_ / "endless.rddl",
                "domain d { pvariables { x : { state-fluent, int, default = 0 }; };\n"

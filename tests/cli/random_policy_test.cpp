@@ -194,14 +194,25 @@ TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(6, {RDDL_REAL, 1, 2}));
     RandomPolicy policy(problem.problem, 1);
     const std::vector<Record> all = proposals(policy, problem, 0);
-    ASSERT_EQ(all.size(), 128u * 7) << "128 actions, each with 6 resets";
-    for (std::size_t k = 0; k < all.size(); ++k) {
+    ASSERT_EQ(all.size(), 128u * 7 + 6 * 2) << "128 actions, each with 6 resets; 6 single changes";
+    for (std::size_t k = 0; k < 128 * 7; ++k) {
         EXPECT_EQ(changes(all[k], problem.defaults), 6 - static_cast<int>(k % 7));
         if (k % 7 > 0) {
             EXPECT_EQ(changes(all[k], all[k - 1]), 1);
         }
     }
     EXPECT_EQ(changes(all[0], all[7]), 6);
+    for (std::size_t k = 128 * 7; k < all.size(); k += 2)
+        EXPECT_EQ(changes(all[k], problem.defaults), 1);
+}
+
+TEST(RandomPolicy, TriesEverySingleChange) {
+    const ActionProblem problem(std::vector<ActionProblem::Fluent>(40, {RDDL_BOOL}));
+    RandomPolicy policy(problem.problem, 1);
+    const std::vector<Record> all = proposals(policy, problem, 0);
+    std::map<Record, int> last;
+    for (std::size_t k = all.size() - 80; k < all.size(); ++k) ++last[all[k]];
+    EXPECT_EQ(last.size(), 41u) << "each of 40, and the default after it";
 }
 
 TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
@@ -210,7 +221,7 @@ TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
     const std::vector<Record> all = proposals(policy, problem, 0);
     EXPECT_EQ(changes(all[1], all[0]), 100);
     EXPECT_EQ(changes(all[1], problem.defaults), 700);
-    EXPECT_LT(all.size(), 128u * 50);
+    EXPECT_LT(all.size(), 128u * 50 + 256 * 2);
 }
 
 // Where the default is forbidden, what is wanted may be too unlikely for independent values.
