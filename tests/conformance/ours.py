@@ -3,6 +3,7 @@
 import json
 import subprocess
 import tempfile
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +22,7 @@ class Replayed:
     transitions: Columns
     draws: list[Columns]  # one for each draw point
     text: bytes  # the whole output, to compare engines
+    seconds_a_step: float
 
 
 def replay(
@@ -34,11 +36,14 @@ def replay(
     """All transitions and draws of one instance."""
     lines = [request_line(problem, state, action) for state, action in walk.starts(len(walk))]
     lines += [request_line(problem, p.state, p.action, repeat=p.count()) for p in points]
+    begin = time.perf_counter()
     answers, text = ask(rddl, case, lines, engine)
+    steps = len(walk) + sum(point.count() for point in points)
     return Replayed(
         transitions=outcome_columns(problem, answers[: len(walk)]),
         draws=[outcome_columns(problem, answer["samples"]) for answer in answers[len(walk) :]],
         text=text,
+        seconds_a_step=(time.perf_counter() - begin) / steps,
     )
 
 
@@ -71,10 +76,14 @@ def ask(rddl: Path, case: Case, lines: list[str], engine: str) -> tuple[list[dic
     return answers, text
 
 
-def trace(rddl: Path, case: Case, engine: str, episodes: int = 3) -> list[str]:
+def trace(
+    rddl: Path, case: Case, engine: str, episodes: int, horizon: int | None = None
+) -> list[str]:
     """The steps of some episodes of random actions, as lines of a trace without its header."""
     command = [rddl, "run", case.domain_path, case.instance_path, f"--engine={engine}", "--quiet"]
     command += ["--episodes", episodes, "--seed", 1, "--threads", 1, "--trace", "-"]
+    if horizon is not None:
+        command += ["--horizon", horizon]
     result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
     if result.returncode != 0:
         raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")

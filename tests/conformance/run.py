@@ -27,6 +27,7 @@ from report import failure_text, row_text, table_head, write_document
 
 FALSE_ALARM_RATE = 1e-6  # of the whole run
 ENGINES = ("interpreter", "compiled")
+TRACED_EPISODES = 3
 
 
 @dataclass
@@ -82,7 +83,7 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
         report.failures += [f"{engine}: {text}" for text in findings.disagreements]
         replayed[engine] = found
     if len(replayed) == len(ENGINES):
-        compare_bit_for_bit(report, replayed, options)
+        compare_bit_for_bit(report, replayed, problem.horizon, options)
 
 
 def replay_heedless(report: Report, options, refusals: Refusals, engine: str) -> Replayed | None:
@@ -98,10 +99,16 @@ def replay_heedless(report: Report, options, refusals: Refusals, engine: str) ->
     return replay(options.rddl, report.case, refusals.problem, refusals.walk, [], engine)
 
 
-def compare_bit_for_bit(report: Report, replayed: dict[str, Replayed], options) -> None:
-    """Both engines, the same seed and actions: the same text, here and over whole episodes."""
+def compare_bit_for_bit(
+    report: Report, replayed: dict[str, Replayed], horizon: int, options
+) -> None:
+    """Both engines, the same seed and actions: the same text, here and over whole episodes; over the
+    beginning of one where a step takes long."""
     outputs = [replayed[engine].text.decode().splitlines() for engine in ENGINES]
-    traces = [trace(options.rddl, report.case, engine) for engine in ENGINES]
+    affordable = options.seconds / max(found.seconds_a_step for found in replayed.values())
+    episodes = TRACED_EPISODES if affordable > TRACED_EPISODES * horizon else 1
+    horizon = max(1, min(horizon, int(affordable)))
+    traces = [trace(options.rddl, report.case, engine, episodes, horizon) for engine in ENGINES]
     for what, (first, second) in {"replay": outputs, "run": traces}.items():
         different = [number for number, pair in enumerate(zip(first, second)) if len(set(pair)) > 1]
         if different or len(first) != len(second):
