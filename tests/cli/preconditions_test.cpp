@@ -99,6 +99,75 @@ TEST_F(Strict, TakesTheDefaultActionInstead) {
     EXPECT_EQ(taken["state"]["water___t2"], 8.0);
 }
 
+// What is said of a condition that fails after {"a(o2)": true, "r": 2.5}.
+struct Failing {
+    const char* condition;
+    const char* note;
+};
+class Explained : public Program, public testing::WithParamInterface<Failing> {};
+
+constexpr const char* varied_domain = R"(domain d {{
+    types {{ obj : object; color : {{ @red, @green, @blue }}; }};
+    pvariables {{
+        W(color) : {{ non-fluent, real, default = 0.5 }};
+        n : {{ state-fluent, int, default = 3 }};
+        x(obj) : {{ state-fluent, real, default = 0.5 }};
+        near(obj) : {{ state-fluent, obj }};
+        hue : {{ state-fluent, color, default = @blue }};
+        a(obj) : {{ action-fluent, bool, default = false }};
+        r : {{ action-fluent, real, default = 0.0 }};
+    }};
+    cpfs {{ n' = n; x'(?o) = x(?o); near'(?o) = near(?o); hue' = hue; }};
+    reward = 0;
+    action-preconditions {{ {}; }};
+}}
+non-fluents m {{
+    domain = d;
+    objects {{ obj : {{ o1, o2, o3 }}; }};
+    non-fluents {{ W(@blue) = 0.0; }};
+}}
+instance i {{
+    domain = d;
+    non-fluents = m;
+    init-state {{ x(o2) = 2.0; near(o1) = o2; near(o2) = o3; near(o3) = o1; }};
+    horizon = 5;
+    discount = 1.0;
+}}
+)";
+
+TEST_P(Explained, ByTheValuesOfItsFailingPart) {
+    write_file(folder_ / "varied.rddl",
+               fmt::format(fmt::runtime(varied_domain), GetParam().condition));
+    write_file(folder_ / "line.jsonl", R"({"action": {"a___o2": true, "r": 2.5}})");
+    const Outcome outcome = run("replay varied.rddl --input line.jsonl --preconditions warn" +
+                                std::string(interpreted));
+    expect_part(outcome.err, GetParam().note);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Preconditions, Explained,
+    testing::Values(
+        Failing{"hue == @red", "note: where hue = blue\n"},
+        Failing{"exists_{?o : obj} [a(?o) ^ x(?o) < 1.0]",
+                "note: where a(o1) = false, x(o1) = 0.5, a(o2) = true, x(o2) = 2, a(o3) = false, "
+                "x(o3) = 0.5\n"},
+        Failing{"~(exists_{?o : obj} [x(?o) > 1.0])", "note: at ?o = o2: x(o2) = 2\n"},
+        Failing{"forall_{?o : obj, ?p : obj} [a(?o) | ~a(?p)]",
+                "note: at ?o = o1, ?p = o2: a(o1) = false, a(o2) = true\n"},
+        Failing{"forall_{?o : obj} [x(?o) >= 0.5 ^ (x(?o) < 1.0 | ~a(?o))]",
+                "note: at ?o = o2: x(o2) = 2, a(o2) = true\n"},
+        Failing{"forall_{?o : obj} [a(near(?o)) => near(?o) == ?o]",
+                "note: at ?o = o1: near(o1) = o2, a(o2) = true\n"},
+        Failing{"if (hue == @red) then true else r < 1.0", "note: where hue = blue, r = 2.5\n"},
+        Failing{"switch (hue) { case @red : true, default : a(near(argmax_{?o : obj} x(?o))) }",
+                "note: where hue = blue, x(o1) = 0.5, x(o2) = 2, x(o3) = 0.5, near(o2) = o3, "
+                "a(o3) = false\n"},
+        Failing{"(Discrete_{?c : color} W(?c)) == @blue",
+                "note: where W(red) = 0.5, W(green) = 0.5, W(blue) = 0\n"},
+        Failing{"Bernoulli(n)", "note: where n = 3; Bernoulli's probability must be in [0, 1]\n"},
+        Failing{"forall_{?o : obj} [(sum_{?p : obj} inverse[row=?o, col=?p][W(@red)]) > 5.0]",
+                "note: at ?o = o1; the matrix of 'inverse' is singular"}));
+
 // ------------------------------------------------------------------------------------------- run
 
 constexpr const char* idle_run = "run strict.rddl --engine interpreter --policy noop --episodes 20";
