@@ -10,9 +10,11 @@
 
 namespace rddlc::cli {
 
-Compilation compile_problem(const ProblemFiles& files, Stage last) {
+Compilation compile_problem(const ProblemFiles& files, Stage last,
+                            const std::vector<std::filesystem::path>& extern_headers) {
     CompileOptions options;
     options.inputs = files.all();
+    options.extern_headers = extern_headers;
     options.stop_after = last;
     return compile(options);
 }
@@ -23,9 +25,15 @@ void print_diagnostics(const Compilation& compilation) {
     fmt::print(stderr, "{}", render(compilation.diagnostics, compilation.sources, options));
 }
 
-Compilation compile_or_give_up(const ProblemFiles& files, Stage last) {
-    Compilation compilation = compile_problem(files, last);
-    if (!compilation.diagnostics.has_errors()) return compilation;
+Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
+                               const std::vector<std::filesystem::path>& extern_headers) {
+    Compilation compilation = compile_problem(files, last, extern_headers);
+    give_up_on_errors(compilation);
+    return compilation;
+}
+
+void give_up_on_errors(const Compilation& compilation) {
+    if (!compilation.diagnostics.has_errors()) return;
     print_diagnostics(compilation);
     throw Diagnosed{};
 }

@@ -179,14 +179,16 @@ class Description {
 // A simulator and all that it refers to. The interpreter's program stays in its place on the heap
 // when the interpreter moves.
 struct Interpreted {
-    Interpreted(ir::Interpreter interpreter, Sources sources)
-        : default_action(interpreter.action_size()),
+    Interpreted(ir::Interpreter interpreter, Sources sources, ExternalLibrary the_library)
+        : library(std::move(the_library)),
+          default_action(interpreter.action_size()),
           description(interpreter.program(), std::move(sources)),
           problem(description.problem(default_action.data())) {
         interpreter.default_action(default_action.data());
         table.emplace(problem, description.sites(), std::move(interpreter));
     }
 
+    ExternalLibrary library;
     std::vector<std::byte> default_action;
     Description description;
     rddl_problem problem;
@@ -195,9 +197,11 @@ struct Interpreted {
 
 }  // namespace
 
-std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources) {
-    const auto owner =
-        std::make_shared<Interpreted>(ir::Interpreter(std::move(program)), std::move(sources));
+std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources,
+                                                            ExternalLibrary library) {
+    ir::Interpreter interpreter(std::move(program), library.functions);
+    const auto owner = std::make_shared<Interpreted>(std::move(interpreter), std::move(sources),
+                                                     std::move(library));
     return {owner, owner->table->get()};
 }
 

@@ -1,6 +1,7 @@
 // The C interface of a program that the interpreter runs.
 #pragma once
 
+#include "external_library.hpp"
 #include "ir/ir.hpp"
 #include "support/source.hpp"
 
@@ -10,7 +11,9 @@
 
 namespace rddlc::cli {
 
-// The pointer owns everything that the simulator refers to.
-std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources);
+// The pointer owns everything that the simulator refers to. Without the library, a program that
+// calls external functions only describes itself.
+std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources,
+                                                            ExternalLibrary library = {});
 
 }  // namespace rddlc::cli

@@ -5,8 +5,10 @@
 
 #include <rddl/simulator.h>
 
+#include <filesystem>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace rddlc::cli {
 
@@ -17,6 +19,8 @@ struct LoadOptions {
     Engine engine = Engine::Compiled;
     bool ignore_cache = false;
     bool quiet = false;  // say nothing about compiling
+    // Of external functions: C++ headers; for the interpreter shared objects, too.
+    std::vector<std::filesystem::path> externs;
 };
 
 // Owns all that the simulator refers to: the loaded library, or program and sources.

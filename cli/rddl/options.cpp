@@ -20,6 +20,11 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
             "compiled (default), or interpreter, which needs no C++ compiler")
         ->check(CLI::IsMember({"compiled", "interpreter"}).description(""))
         ->type_name("ENGINE");
+    command
+        .add_option("--extern", options.externs,
+                    "C++ header of the external functions; the interpreter takes a .so, too")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");
 }

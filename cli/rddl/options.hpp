@@ -20,7 +20,7 @@ struct ProblemArguments {
 };
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required = true);
 
-// --engine, --no-cache
+// --engine, --extern, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
 
 // --preconditions

@@ -25,8 +25,8 @@ struct ReplayCommandOptions {
 // Tells of violated preconditions on stderr: the first with all circumstances, all as a number.
 class ViolationLog {
   public:
-    ViolationLog(const ProblemFiles& files, Preconditions preconditions)
-        : explainer_(files), preconditions_(preconditions) {}
+    ViolationLog(const ProblemFiles& files, const LoadOptions& load, Preconditions preconditions)
+        : explainer_(files, load), preconditions_(preconditions) {}
 
     // The message in one line.
     std::string add(const Violation& violation) {
@@ -52,7 +52,7 @@ ExitStatus replay(const ReplayCommandOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     LineReader input(options.input);
     LineWriter output(options.output);
-    ViolationLog log(problem.files, options.session.preconditions);
+    ViolationLog log(problem.files, options.load, options.session.preconditions);
     ReplayOptions session_options = options.session;
     session_options.explain = [&](const Violation& violation) {
         return log.add(violation);

@@ -208,7 +208,7 @@ ExitStatus run(const RunOptions& options) {
     if (trace) trace->flush();
 
     const Summary summary = summarise(rollouts);
-    ViolationExplainer explainer(problem.files);
+    ViolationExplainer explainer(problem.files, options.load);
     if (const auto& first = rollouts.first_illegal_action)
         report_illegal_action(*first, summary.illegal_actions, options.rollouts.preconditions,
                               explainer);

@@ -1,6 +1,7 @@
 #include "violations.hpp"
 
 #include "explain_condition.hpp"
+#include "external_library.hpp"
 #include "failure.hpp"
 #include "front_end.hpp"
 #include "ir/layout.hpp"
@@ -54,10 +55,11 @@ std::string ViolationText::diagnostic(const std::string& severity, const std::st
 
 // As the stage `ground` leaves it.
 struct ViolationExplainer::Problem {
-    explicit Problem(Compilation compilation)
+    Problem(Compilation compilation, const ProblemFiles& files, const LoadOptions& options)
         : sources(std::move(compilation.sources)),
           program(*std::move(compilation.program)),
-          evaluator(program) {}
+          library(external_library(program, files, options)),
+          evaluator(program, library.functions) {}
     Problem(const Problem&) = delete;
     Problem& operator=(const Problem&) = delete;
 
@@ -70,6 +72,7 @@ struct ViolationExplainer::Problem {
 
     Sources sources;
     ir::Program program;
+    ExternalLibrary library;
     ir::Evaluator evaluator;
 };
 
@@ -89,12 +92,14 @@ ViolationText ViolationExplainer::Problem::explain(const std::vector<ir::Computa
     throw Failure("the files of the problem have changed since it was loaded");
 }
 
-ViolationExplainer::ViolationExplainer(ProblemFiles files) : files_(std::move(files)) {}
+ViolationExplainer::ViolationExplainer(ProblemFiles files, LoadOptions options)
+    : files_(std::move(files)), options_(std::move(options)) {}
 ViolationExplainer::~ViolationExplainer() = default;
 
 const ViolationExplainer::Problem& ViolationExplainer::problem() {
     if (!problem_)
-        problem_ = std::make_unique<const Problem>(compile_or_give_up(files_, Stage::Verify));
+        problem_ = std::make_unique<const Problem>(compile_or_give_up(files_, Stage::Verify),
+                                                   files_, options_);
     return *problem_;
 }
 

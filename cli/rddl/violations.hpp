@@ -1,6 +1,7 @@
 // Violated preconditions and invariants: what to do about them, and how to tell of them.
 #pragma once
 
+#include "load_simulator.hpp"
 #include "problem_lookup.hpp"
 
 #include <rddl/context.hpp>
@@ -46,8 +47,9 @@ struct ViolationText {
 // Evaluates violated conditions once more, slowly, and tells what is wrong.
 class ViolationExplainer {
   public:
-    // The problem, which is known to have no errors, is compiled when the first violation comes.
-    explicit ViolationExplainer(ProblemFiles files);
+    // The problem, which is known to load without errors by these options, is compiled when the
+    // first violation comes.
+    ViolationExplainer(ProblemFiles files, LoadOptions options);
     ~ViolationExplainer();
 
     // Of the first condition that is violated. Throws Failure if none is, since the files are not
@@ -60,6 +62,7 @@ class ViolationExplainer {
     const Problem& problem();
 
     ProblemFiles files_;
+    LoadOptions options_;
     std::unique_ptr<const Problem> problem_;
 };
 

@@ -29,6 +29,7 @@ constexpr const char* examples =
 struct Arguments {
     std::vector<std::string> inputs;
     std::string output;
+    std::vector<std::string> extern_headers;
     std::vector<std::string> print;
     std::string stop_after;
     bool check_only = false;
@@ -60,6 +61,12 @@ void declare(CLI::App& program, Arguments& arguments) {
         .add_option("-o", arguments.output,
                     "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ "
                     "text goes to standard output")
+        ->type_name("FILE");
+    program
+        .add_option(
+            "--extern", arguments.extern_headers,
+            "include FILE, a C++ header that defines the external functions; may be repeated")
+        ->allow_extra_args(false)
         ->type_name("FILE");
     program
         .add_option("--print", arguments.print,
@@ -202,11 +209,26 @@ std::optional<std::filesystem::path> dependency_file(const Arguments& arguments)
     return arguments.output + ".d";
 }
 
+std::vector<std::filesystem::path> extern_headers(const Arguments& arguments) {
+    std::vector<std::filesystem::path> headers;
+    for (const std::string& file : arguments.extern_headers) {
+        if (file.ends_with(".so")) {
+            throw usage(
+                fmt::format("--extern {}: a simulator needs the C++ header; shared objects "
+                            "are for 'rddl run --engine=interpreter'",
+                            file));
+        }
+        headers.emplace_back(file);
+    }
+    return headers;
+}
+
 CompileOptions compile_options(const Arguments& arguments) {
     if (arguments.inputs.empty()) throw usage("which problem? Name DOMAIN and INSTANCE");
     CompileOptions options;
     options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
     if (!arguments.output.empty()) options.output = arguments.output;
+    options.extern_headers = extern_headers(arguments);
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
     options.line_directives = arguments.line_directives;

@@ -11,5 +11,7 @@ inline constexpr Code unknown_output_kind{'E', 903};
 inline constexpr Code option_not_supported_yet{'E', 904};
 inline constexpr Code no_cpp_compiler{'E', 905};
 inline constexpr Code output_is_input{'E', 906};
+inline constexpr Code undefined_external{'E', 907};
+inline constexpr Code refused_external{'E', 908};
 
 }  // namespace rddlc

@@ -2,6 +2,7 @@
 
 #include "ast/print.hpp"
 #include "check/check.hpp"
+#include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
 #include "driver/version.hpp"
 #include "driver/write.hpp"
@@ -73,7 +74,8 @@ EmitOptions emit_options(const CompileOptions& options) {
     return {.header = output_kind(name) == OutputKind::Header,
             .line_directives = options.line_directives,
             .output_name = name,
-            .compiler_version = version};
+            .compiler_version = version,
+            .extern_headers = include_paths(options)};
 }
 
 void run_stages(Run& run) {
@@ -116,6 +118,8 @@ void run_stages(Run& run) {
     if (run.ends_after(Stage::Optimise)) return;
 
     // IR -> C++.
+    report_undefined_externals(*result.program, run.options, diagnostics);
+    if (diagnostics.has_errors()) return;
     result.text = run.measure(Stage::Emit, [&] {
         return emit(*result.program, result.sources, emit_options(run.options));
     });

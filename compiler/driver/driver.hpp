@@ -31,6 +31,8 @@ struct CompileOptions {
     std::vector<std::filesystem::path> inputs;  // domain and instance, or one file with both
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
+    // C++ headers that define the external functions.
+    std::vector<std::filesystem::path> extern_headers;
     std::set<Form> print;
     Stage stop_after = Stage::Write;
     bool line_directives = false;

@@ -1,6 +1,7 @@
 #include "driver/files.hpp"
 
 #include "driver/codes.hpp"
+#include "driver/extern_headers.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_output(const fs::path& output, const CompileOptions& options, Diagnostics& diagnostics) {
-    for (const fs::path& input : options.inputs) {
+    std::vector<fs::path> inputs = options.inputs;
+    inputs.insert(inputs.end(), options.extern_headers.begin(), options.extern_headers.end());
+    for (const fs::path& input : inputs) {
         std::error_code ignored;
         if (!fs::equivalent(input, output, ignored)) continue;
         const std::string message =
@@ -70,6 +73,7 @@ std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
             diagnostics.report({.code = unreadable_file, .span = {}, .message = message});
         }
     }
+    check_extern_headers(options, diagnostics);
     if (options.output) check_kind(*options.output, diagnostics);
     if (options.output) check_output(*options.output, options, diagnostics);
     if (options.dependency_file) check_output(*options.dependency_file, options, diagnostics);

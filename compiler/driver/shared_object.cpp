@@ -29,6 +29,23 @@ std::vector<std::string> words(const std::string& text) {
     return result;
 }
 
+// With the beginning of what the compiler says.
+Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::string& output) {
+    constexpr int most_lines = 30;
+    std::vector<std::string> names;
+    for (const fs::path& header : extern_headers) names.push_back("'" + header.string() + "'");
+    Diagnostic diagnostic{
+        .code = refused_external,
+        .span = {},
+        .message = fmt::format("the C++ compiler refuses {}", fmt::join(names, ", "))};
+    std::istringstream lines(output);
+    std::string line;
+    for (int i = 0; i < most_lines && std::getline(lines, line); ++i) {
+        diagnostic.notes.push_back({{}, line});
+    }
+    return diagnostic;
+}
+
 }  // namespace
 
 std::optional<fs::path> runtime_include_folder() {
@@ -57,7 +74,8 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
     return command;
 }
 
-bool build_shared_object(const fs::path& source, const fs::path& output, Diagnostics& diagnostics) {
+bool build_shared_object(const fs::path& source, const fs::path& output,
+                         const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics) {
     if (!runtime_include_folder()) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},
@@ -74,6 +92,10 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Diagnos
                                       .message = fmt::format("cannot run the C++ compiler '{}': {}",
                                                              command.front(), std::strerror(errno))}
                                .with_hint("a shared object needs one: install it, or set CXX"));
+        return false;
+    }
+    if (result->status != 0 && !extern_headers.empty()) {
+        diagnostics.report(refused(extern_headers, result->output));
         return false;
     }
     if (result->status != 0) {

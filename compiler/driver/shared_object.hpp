@@ -18,9 +18,11 @@ std::optional<std::filesystem::path> runtime_include_folder();
 std::vector<std::string> shared_object_command(const std::filesystem::path& source,
                                                const std::filesystem::path& output);
 
-// False, with the reason reported, if there is no compiler or no runtime. Throws std::logic_error
-// with the compiler's messages if it refuses the text: that is never the user's mistake.
+// False, with the reason reported, if there is no compiler or no runtime, or if the compiler
+// refuses a text that includes the user's headers. Without headers that is never the user's
+// mistake: it throws std::logic_error with the compiler's messages.
 bool build_shared_object(const std::filesystem::path& source, const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& extern_headers,
                          Diagnostics& diagnostics);
 
 }  // namespace rddlc

@@ -1,5 +1,6 @@
 #include "driver/write.hpp"
 
+#include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
 #include "driver/shared_object.hpp"
 
@@ -22,15 +23,20 @@ std::string escaped(const std::string& path) {
 std::string dependency_rule(const CompileOptions& options) {
     std::string rule = escaped(options.output->string()) + ":";
     for (const auto& input : options.inputs) rule += " \\\n  " + escaped(input.string());
+    for (const auto& header : with_included_files(options.extern_headers)) {
+        rule += " \\\n  " + escaped(header.string());
+    }
     return rule + "\n";
 }
 
 void write_shared_object(const std::filesystem::path& output, const std::string& text,
-                         Diagnostics& diagnostics) {
+                         const CompileOptions& options, Diagnostics& diagnostics) {
     TemporaryFile source(output, ".cpp");
     TemporaryFile object(output, ".so");
     if (!source.write(text)) return diagnostics.report(cannot_write(output, errno));
-    if (!build_shared_object(source.path(), object.path(), diagnostics)) return;
+    if (!build_shared_object(source.path(), object.path(), options.extern_headers, diagnostics)) {
+        return;
+    }
     if (!object.rename_to_final()) diagnostics.report(cannot_write(output, errno));
 }
 
@@ -40,7 +46,7 @@ void write_outputs(const CompileOptions& options, const std::string& text,
                    Diagnostics& diagnostics) {
     if (!options.output) return;
     if (output_kind(*options.output) == OutputKind::SharedObject) {
-        write_shared_object(*options.output, text, diagnostics);
+        write_shared_object(*options.output, text, options, diagnostics);
     } else {
         write_file(*options.output, text, diagnostics);
     }

@@ -1,6 +1,7 @@
 #include "emit/emit.hpp"
 
 #include "emit/about.hpp"
+#include "emit/externals.hpp"
 #include "emit/functions.hpp"
 #include "emit/line_directives.hpp"
 #include "emit/literals.hpp"
@@ -41,6 +42,7 @@ std::string simulator(const Unit& unit) {
     const cpp::StepFunctions step = cpp::step_functions(unit);
     return fill_slots(cpp::templates::simulator,
                       {{"objects", cpp::objects(unit)},
+                       {"externals", cpp::external_asserts(unit)},
                        {"tables", cpp::tables(unit)},
                        {"records", cpp::records(unit)},
                        {"aliases", cpp::record_aliases(unit)},
@@ -56,9 +58,11 @@ std::string simulator(const Unit& unit) {
 }
 
 std::string file(const Unit& unit) {
-    SlotValues values = {{"about_file", about_file(unit)},
-                         {"space", unit.names.space},
-                         {"simulator", simulator(unit)}};
+    SlotValues values = {
+        {"about_file", about_file(unit)},
+        {"externals", cpp::external_includes(unit.program, unit.options.extern_headers)},
+        {"space", unit.names.space},
+        {"simulator", simulator(unit)}};
     if (unit.options.header) return fill_slots(cpp::templates::header, values);
     values.emplace("entry", unit.names.entry);
     return fill_slots(cpp::templates::source, values);

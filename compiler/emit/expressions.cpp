@@ -236,15 +236,33 @@ std::string Expressions::view(const ir::TableView& view, bool is_written) {
 }
 
 std::string Expressions::call_text(const ir::Call& call) {
+    if (ir::is_external(call.callee)) return external_call_text(call);
     const ir::Extent extent = ir::extent_of(unit_.program, call);
-    const bool overwrites = ir::signature_of(call.callee).overwrites_inputs;
+    const bool overwrites = ir::overwrites_inputs(call.callee);
     std::vector<std::string> arguments;
     if (call.place) arguments.push_back(place(*call.place));
     arguments.push_back(unit_.count_of(extent.type, extent.size));
     for (ir::NodeId scalar : call.scalars) arguments.push_back(text(scalar));
     for (const ir::TableView& input : call.inputs) arguments.push_back(view(input, overwrites));
     arguments.push_back(view(call.output, true));
-    return "rddl::" + function_of(call.callee) + "(" + comma_separated(arguments) + ")";
+    return function_of(unit_.program, call.callee) + "(" + comma_separated(arguments) + ")";
+}
+
+// Gives one value, or fills a table. Tables are passed as spans.
+std::string Expressions::external_call_text(const ir::Call& call) {
+    const auto is_value = [&](const ir::TableView& view) {
+        return ir::axes_of(unit_.program, view).empty();
+    };
+    std::vector<std::string> arguments;
+    for (const ir::TableView& input : call.inputs) {
+        const std::string table = view(input, false);
+        arguments.push_back(is_value(input) ? table : "rddl::external::input(" + table + ")");
+    }
+    const std::string output = view(call.output, true);
+    const bool gives_value = is_value(call.output);
+    if (!gives_value) arguments.push_back("rddl::external::output(" + output + ")");
+    return (gives_value ? output + " = " : "") + function_of(unit_.program, call.callee) + "(" +
+           comma_separated(arguments) + ")";
 }
 
 // Uniform indices first in brackets; from the first other one on, the lanes differ.

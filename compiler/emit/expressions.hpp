@@ -102,6 +102,7 @@ class Expressions {
     std::string place(const ir::Place& place);
     std::string record(ir::BufferId buffer);
     std::string view(const ir::TableView& view, bool is_written);
+    std::string external_call_text(const ir::Call& call);
     Spelled index(ir::NodeId id);
     bool is_plain_index(ir::NodeId id) const;
 

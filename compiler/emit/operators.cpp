@@ -1,5 +1,6 @@
 #include "emit/operators.hpp"
 
+#include "emit/identifiers.hpp"
 #include "support/match.hpp"
 
 #include <stdexcept>
@@ -124,12 +125,14 @@ std::string function_of(Distribution distribution) {
     return snake_case(name_of(distribution));
 }
 
-std::string function_of(const ir::Callee& callee) {
+std::string function_of(const ir::Program& program, const ir::Callee& callee) {
     return match(
-        callee, [](MatrixOperator op) { return std::string(function_name(op)); },
+        callee,
+        [](MatrixOperator op) { return std::string("rddl::") + std::string(function_name(op)); },
         [](VectorDistribution distribution) {
-            return "sample::" + snake_case(name_of(distribution));
-        });
+            return "rddl::sample::" + snake_case(name_of(distribution));
+        },
+        [&](ir::ExternalId id) { return "rddl_extern::" + identifier(program[id].name); });
 }
 
 }  // namespace rddlc::cpp

@@ -19,6 +19,7 @@ OperatorSpelling spelling_of(Operator op, bool on_ints);
 
 std::string function_of(Reduction reduction);
 std::string function_of(Distribution distribution);  // in rddl::sample
-std::string function_of(const ir::Callee& callee);   // in rddl
+// Qualified: "rddl::cholesky", "rddl_extern::inflow".
+std::string function_of(const ir::Program& program, const ir::Callee& callee);
 
 }  // namespace rddlc::cpp

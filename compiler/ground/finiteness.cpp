@@ -73,6 +73,7 @@ bool Finiteness::is_finite(const model::Expr& expr) const {
         [&](const model::Reference& form) -> bool { return fluent_is_finite_[form.fluent]; },
         [&](const model::Apply& form) { return is_finite(form); },
         [&](const model::Aggregate& form) { return is_finite(form); },
+        [](const model::External&) { return false; },
         [&](const model::RandomVector& form) {
             return std::ranges::all_of(form.arguments, [&](const model::VectorReference& argument) {
                 return fluent_is_finite_[argument.fluent];

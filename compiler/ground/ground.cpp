@@ -5,7 +5,6 @@
 #include "ground/declare.hpp"
 #include "ground/finiteness.hpp"
 #include "ground/lowering.hpp"
-#include "ground/unsupported.hpp"
 #include "ir/analysis.hpp"
 #include "ir/builder.hpp"
 #include "ir/layout.hpp"
@@ -33,8 +32,8 @@ void report_large_conditions(const ir::Program& program, Diagnostics& diagnostic
         for (const ir::Computation& condition : *conditions) {
             if (!ir::fills_tables(condition.body)) continue;
             diagnostics.report({grounding::not_supported_yet, condition.span,
-                                "valid RDDL, not supported yet: matrix functions in conditions "
-                                "where all tables of a step take more than 1 MB"});
+                                "valid RDDL, not supported yet: matrix and external functions in "
+                                "conditions where all tables of a step take more than 1 MB"});
         }
     }
 }
@@ -43,9 +42,6 @@ void report_large_conditions(const ir::Program& program, Diagnostics& diagnostic
 
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics) {
     const std::size_t errors_before = diagnostics.error_count();
-    grounding::report_unsupported(model, diagnostics);
-    if (diagnostics.error_count() > errors_before) return std::nullopt;
-
     grounding::Declarations declarations = grounding::declare(model);
     ir::Program& program = declarations.program;
     const grounding::Finiteness finiteness(model);

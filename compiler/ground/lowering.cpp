@@ -354,9 +354,4 @@ ir::NodeId Lowering::lower(const model::DiscreteOver& form, const model::Expr& e
     return builder_.discrete_over(form.normalise, place, variable_of(form.variable), weight);
 }
 
-// report_unsupported() has refused these.
-ir::NodeId Lowering::lower(const model::External&, const model::Expr& expr) {
-    return builder_.fault(scalar_of(expr.type), new_place(expr, "not supported yet"));
-}
-
 }  // namespace rddlc::grounding

@@ -90,11 +90,16 @@ class Lowering {
     void call_matrix_operator(MatrixOperator op, const Matrix& matrix, ir::BufferId result,
                               const model::Expr& expr);
     ir::BufferId buffer_of(const model::VectorReference& reference) const;
+    std::vector<ir::NodeId> indices_of(const model::VectorReference& reference,
+                                       const std::vector<ir::VariableId>& axes);
     ir::NodeId element_of(const model::VectorReference& reference,
                           const std::vector<ir::VariableId>& axes);
     ir::TableView view_of(const model::VectorReference& reference,
-                          const std::vector<ir::VariableId>& axes, std::string_view name,
-                          const model::Expr& expr);
+                          const std::vector<ir::VariableId>& axes, ir::Scalar scalar,
+                          std::string_view name, const model::Expr& expr);
+    ir::TableView argument_of(const model::VectorReference& reference, const model::Expr& expr);
+    ir::VariableId axis_variable(model::TypeId type, std::size_t position);
+    ir::ExternalId external_named(const std::string& name, Span span);
     ir::TableView vector_of(const model::VectorReference& reference, ir::VariableId axis,
                             const model::Expr& expr);
     ir::TableView factor_of(const model::VectorReference& reference, ir::VariableId axis,

@@ -1,4 +1,5 @@
-// Matrix functions and random vectors: tables that are filled before the value is used.
+// Matrix functions, random vectors and external functions: tables that are filled before the value
+// is used.
 //
 //     for r                                              for k
 //         for c                                              fill draw[k] = sample dirichlet(A[k])
@@ -202,7 +203,8 @@ ir::BufferId Lowering::buffer_of(const model::VectorReference& reference) const 
 }
 
 // With the variables in place of the axes, in their order.
-ir::NodeId Lowering::element_of(const model::VectorReference& reference, const Variables& axes) {
+std::vector<ir::NodeId> Lowering::indices_of(const model::VectorReference& reference,
+                                             const Variables& axes) {
     auto axis = axes.begin();
     std::vector<ir::NodeId> indices;
     for (const model::Slot& slot : reference.slots) {
@@ -211,32 +213,37 @@ ir::NodeId Lowering::element_of(const model::VectorReference& reference, const V
             [&](model::VariableId variable) { return builder_.index(variable_of(variable)); },
             [&](std::int64_t object) { return integer(object); }));
     }
-    return builder_.load(buffer_of(reference), std::move(indices));
+    return indices;
 }
 
-// The fluent itself where it is a table of reals whose last dimensions are the axes; else a copy.
+ir::NodeId Lowering::element_of(const model::VectorReference& reference, const Variables& axes) {
+    return builder_.load(buffer_of(reference), indices_of(reference, axes));
+}
+
+// The fluent itself where it is a table of that type whose last dimensions are the axes; else a
+// copy.
 ir::TableView Lowering::view_of(const model::VectorReference& reference, const Variables& axes,
-                                std::string_view name, const model::Expr& expr) {
+                                ir::Scalar scalar, std::string_view name, const model::Expr& expr) {
     const auto leading = static_cast<std::ptrdiff_t>(reference.slots.size() - axes.size());
     const bool axes_are_last = std::all_of(
         reference.slots.begin() + leading, reference.slots.end(),
         [](const model::Slot& slot) { return std::holds_alternative<model::Axis>(slot); });
-    const ir::NodeId element = element_of(reference, axes);
-    if (axes_are_last && program_[buffer_of(reference)].scalar == ir::Scalar::Real) {
-        std::vector<ir::NodeId> indices = std::get<ir::Load>(program_[element].form).indices;
+    if (axes_are_last && program_[buffer_of(reference)].scalar == scalar) {
+        std::vector<ir::NodeId> indices = indices_of(reference, axes);
         indices.resize(static_cast<std::size_t>(leading));
         return {buffer_of(reference), std::move(indices)};
     }
+    const ir::NodeId element = element_of(reference, axes);
     const Variables outer = variables_in({element}, without(scope_, {axes.front()}));
     Variables dimensions = outer;
     dimensions.insert(dimensions.end(), axes.begin(), axes.end());
-    const ir::NodeId value = builder_.convert(element, ir::Scalar::Real);
+    const ir::NodeId value = builder_.convert(element, scalar);
     return {filled_table(name, value, dimensions, expr), indices_of(outer)};
 }
 
 ir::TableView Lowering::vector_of(const model::VectorReference& reference, ir::VariableId axis,
                                   const model::Expr& expr) {
-    return view_of(reference, {axis}, "vector", expr);
+    return view_of(reference, {axis}, ir::Scalar::Real, "vector", expr);
 }
 
 // The Cholesky factor of a covariance, computed once for all draws that share it.
@@ -246,7 +253,8 @@ ir::TableView Lowering::factor_of(const model::VectorReference& reference, ir::V
     ir::Variable other = program_[axis];
     other.name += "2";
     program_.variables.push_back(std::move(other));
-    ir::TableView covariance = view_of(reference, {axis, column}, "covariance", expr);
+    ir::TableView covariance =
+        view_of(reference, {axis, column}, ir::Scalar::Real, "covariance", expr);
     const Variables outer = variables_in(covariance.indices, without(scope_, {axis}));
     const ir::TableView factor{
         new_table("factor", ir::Scalar::Real, joined(outer, {axis, axis}), expr),
@@ -258,6 +266,59 @@ ir::TableView Lowering::factor_of(const model::VectorReference& reference, ir::V
                   .place = {}};
     run_before({std::move(call)}, outer);
     return factor;
+}
+
+// -------------------------------------------------------------------------- external functions
+
+// One call for each combination of the variables that the arguments depend on: the result is the
+// same for all values of the others.
+ir::NodeId Lowering::lower(const model::External& form, const model::Expr& expr) {
+    ir::Call call{.callee = external_named(form.function, expr.span),
+                  .inputs = {},
+                  .scalars = {},
+                  .output = {},
+                  .place = {}};
+    std::vector<ir::NodeId> indices;
+    for (const model::VectorReference& argument : form.arguments) {
+        call.inputs.push_back(argument_of(argument, expr));
+        const std::vector<ir::NodeId>& more = call.inputs.back().indices;
+        indices.insert(indices.end(), more.begin(), more.end());
+    }
+    const Variables outer = variables_in(indices, scope_);
+    Variables dimensions = outer;
+    for (model::VariableId captured : form.captured) dimensions.push_back(variable_of(captured));
+    const ir::BufferId result = new_table(form.function, scalar_of(expr.type), dimensions, expr);
+    call.output = {result, indices_of(outer)};
+    run_before({std::move(call)}, outer);
+    return builder_.load(result, indices_of(dimensions));
+}
+
+// Of the fluent's own type.
+ir::TableView Lowering::argument_of(const model::VectorReference& reference,
+                                    const model::Expr& expr) {
+    Variables axes;
+    for (std::size_t i = 0; i < reference.slots.size(); ++i) {
+        if (!std::holds_alternative<model::Axis>(reference.slots[i])) continue;
+        const model::TypeId type = model_.fluents[reference.fluent].parameters[i];
+        axes.push_back(axis_variable(type, axes.size()));
+    }
+    return view_of(reference, axes, program_[buffer_of(reference)].scalar, "argument", expr);
+}
+
+// A variable for an underscore; no name of RDDL is a number.
+ir::VariableId Lowering::axis_variable(model::TypeId type, std::size_t position) {
+    const ir::VariableId next{static_cast<std::uint32_t>(program_.variables.size())};
+    const auto [entry, is_new] = variables_.try_emplace({std::to_string(position), type}, next);
+    const auto size = static_cast<std::int64_t>(model_.types[type].objects.size());
+    if (is_new) program_.variables.push_back({fmt::format("axis{}", position + 1), type, size});
+    return entry->second;
+}
+
+ir::ExternalId Lowering::external_named(const std::string& name, Span span) {
+    const auto found = std::ranges::find(program_.externals, name, &ir::External::name);
+    const auto index = static_cast<std::uint32_t>(found - program_.externals.begin());
+    if (found == program_.externals.end()) program_.externals.push_back({name, span});
+    return {index};
 }
 
 }  // namespace rddlc::grounding

@@ -246,6 +246,7 @@ std::vector<const Block*> blocks_of(const Program& program) {
 bool fills_tables(const Block& block) {
     bool fills = false;
     for_each_statement<Store>(block, [&](const Store&) { fills = true; });
+    for_each_statement<Call>(block, [&](const Call&) { fills = true; });
     return fills;
 }
 

@@ -58,7 +58,7 @@ void for_each_statement(const Block& block, const Visit& visit) {
     }
 }
 
-// Does it store to buffers?
+// Does it write to buffers?
 bool fills_tables(const Block& block);
 
 // What a call evaluates before it looks at its tables.

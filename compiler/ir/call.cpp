@@ -5,9 +5,8 @@
 #include <cstdlib>
 
 namespace rddlc::ir {
-namespace {
 
-CallSignature signature(MatrixOperator op) {
+CallSignature signature_of(MatrixOperator op) {
     switch (op) {
         case MatrixOperator::Determinant:
             return {{2}, true, 0, {}, 0, Scalar::Real};
@@ -21,7 +20,7 @@ CallSignature signature(MatrixOperator op) {
     std::abort();
 }
 
-CallSignature signature(VectorDistribution distribution) {
+CallSignature signature_of(VectorDistribution distribution) {
     switch (distribution) {
         case VectorDistribution::MultivariateNormal:  // mean, Cholesky factor of the covariance
             return {{1, 2}, false, 0, {}, 1, Scalar::Real};
@@ -35,14 +34,14 @@ CallSignature signature(VectorDistribution distribution) {
     std::abort();
 }
 
-}  // namespace
-
-CallSignature signature_of(const Callee& callee) {
-    return match(callee, [](auto which) { return signature(which); });
+bool is_external(const Callee& callee) {
+    return std::holds_alternative<ExternalId>(callee);
 }
 
-std::string name_of(const Callee& callee) {
-    return match(callee, [](auto which) { return std::string(rddlc::name_of(which)); });
+std::string name_of(const Program& program, const Callee& callee) {
+    return match(
+        callee, [&](ExternalId id) { return "$" + program[id].name; },
+        [](auto which) { return std::string(rddlc::name_of(which)); });
 }
 
 bool is_draw(const Callee& callee) {
@@ -54,11 +53,21 @@ Extent extent_of(const Program& program, const Call& call) {
     return {buffer.shape.back(), buffer.types.back()};
 }
 
+bool overwrites_inputs(const Callee& callee) {
+    return match(
+        callee, [](ExternalId) { return false; },
+        [](auto which) { return signature_of(which).overwrites_inputs; });
+}
+
 std::vector<BufferId> written_buffers(const Call& call) {
     std::vector<BufferId> written = {call.output.buffer};
-    if (!signature_of(call.callee).overwrites_inputs) return written;
+    if (!overwrites_inputs(call.callee)) return written;
     for (const TableView& input : call.inputs) written.push_back(input.buffer);
     return written;
+}
+
+std::span<const std::int64_t> axes_of(const Program& program, const TableView& view) {
+    return std::span(program[view.buffer].shape).subspan(view.indices.size());
 }
 
 }  // namespace rddlc::ir

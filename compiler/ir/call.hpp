@@ -1,10 +1,11 @@
-// What the functions behind Call expect, in one table.
+// What the functions behind Call expect, in one table. External functions expect what they get.
 #pragma once
 
 #include "ir/ir.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,13 @@ struct CallSignature {
     Scalar output;
 };
 
-CallSignature signature_of(const Callee& callee);
+CallSignature signature_of(MatrixOperator op);
+CallSignature signature_of(VectorDistribution distribution);
 
-// As in RDDL: "cholesky", "Dirichlet".
-std::string name_of(const Callee& callee);
+bool is_external(const Callee& callee);
+
+// As in RDDL: "cholesky", "Dirichlet", "$inflow".
+std::string name_of(const Program& program, const Callee& callee);
 
 // It draws at random, so it has a place.
 bool is_draw(const Callee& callee);
@@ -36,5 +40,9 @@ Extent extent_of(const Program& program, const Call& call);
 
 // What the call changes: the output, and inputs that it works in.
 std::vector<BufferId> written_buffers(const Call& call);
+bool overwrites_inputs(const Callee& callee);
+
+// The dimensions of a view that have no index: what the function gets. Empty for one element.
+std::span<const std::int64_t> axes_of(const Program& program, const TableView& view);
 
 }  // namespace rddlc::ir

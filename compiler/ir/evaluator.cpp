@@ -13,6 +13,7 @@
 #include <cstring>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 
 namespace rddlc::ir {
 namespace {
@@ -54,7 +55,8 @@ void write_values(const Buffer& buffer, std::byte* to) {
 
 // ---------------------------------------------------------------------------- preparation
 
-Evaluator::Evaluator(const Program& program) : program_(&program) {
+Evaluator::Evaluator(const Program& program, ExternalFunctions functions)
+    : program_(&program), functions_(std::move(functions)) {
     origins_.resize(program.buffers.size());
     for (std::size_t record = 0; record < Records{}.begin.size(); ++record) {
         const RecordLayout layout = record_layout(program, static_cast<Storage>(record));
@@ -161,6 +163,11 @@ void Evaluator::store(const Store& form, Frame& frame) const {
 }
 
 void Evaluator::call(const Call& form, Frame& frame) const {
+    match(form.callee, [&](auto callee) { call(callee, form, frame); });
+}
+
+template <class Callee>
+void Evaluator::call(Callee callee, const Call& form, Frame& frame) const {
     TableArguments arguments{.size = extent_of(*program_, form).size,
                              .inputs = {},
                              .real_scalar = 0,
@@ -176,9 +183,19 @@ void Evaluator::call(const Call& form, Frame& frame) const {
             arguments.int_scalar = value<std::int64_t>(scalar, frame);
         }
     }
-    const rddl::Place here = place(form.place, frame);
-    match(form.callee,
-          [&](auto callee) { call_on_tables(callee, arguments, here, frame.context_); });
+    call_on_tables(callee, arguments, place(form.place, frame), frame.context_);
+}
+
+void Evaluator::call(ExternalId callee, const Call& form, Frame& frame) const {
+    const auto array = [&](const TableView& view) {
+        return array_of(*program_, view, element(view.buffer, view.indices, frame));
+    };
+    std::array<rddl_array, 8> room;
+    std::vector<rddl_array> more_room(form.inputs.size() > room.size() ? form.inputs.size() : 0);
+    rddl_array* arguments = more_room.empty() ? room.data() : more_room.data();
+    std::ranges::transform(form.inputs, arguments, array);
+    const rddl_array result = array(form.output);
+    functions_[callee.index](arguments, static_cast<std::int32_t>(form.inputs.size()), &result);
 }
 
 std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const {

@@ -3,6 +3,7 @@
 // needs more loop indices and locals than a Workspace holds.
 #pragma once
 
+#include "ir/external_functions.hpp"
 #include "ir/ir.hpp"
 #include "ir/kernels.hpp"
 
@@ -30,8 +31,9 @@ struct Records {
 
 class Evaluator {
   public:
-    // The program must outlive the evaluator, and not change.
-    explicit Evaluator(const Program& program);
+    // The program must outlive the evaluator, and not change. The functions are by ExternalId;
+    // whoever runs no calls needs none.
+    explicit Evaluator(const Program& program, ExternalFunctions functions = {});
 
     // One evaluation: the records, and room for loop indices and locals.
     class Frame {
@@ -82,6 +84,9 @@ class Evaluator {
     void store(const Store& store, Frame& frame) const;
     void let(const Let& let, Frame& frame) const;
     void call(const Call& call, Frame& frame) const;
+    template <class Callee>
+    void call(Callee callee, const Call& call, Frame& frame) const;
+    void call(ExternalId callee, const Call& call, Frame& frame) const;
 
     template <class T>
     T apply(const Apply& form, Frame& frame) const;
@@ -96,6 +101,7 @@ class Evaluator {
     std::int64_t draw(const DiscreteOver& form, Frame& frame) const;
 
     const Program* program_;
+    ExternalFunctions functions_;
     std::vector<Origin> origins_;            // by BufferId::index
     std::vector<std::byte> constants_;       // the record of all Constant buffers
     std::vector<std::size_t> local_slots_;   // by LocalId::index

@@ -21,9 +21,9 @@ bool do_conditions_fill_tables(const Program& program) {
 
 }  // namespace
 
-Interpreter::Interpreter(Program program)
+Interpreter::Interpreter(Program program, ExternalFunctions functions)
     : program_(std::make_unique<const Program>(std::move(program))),
-      evaluator_(*program_),
+      evaluator_(*program_, std::move(functions)),
       state_size_(record_layout(*program_, Storage::State).size),
       action_size_(record_layout(*program_, Storage::Action).size),
       observation_size_(program_->partially_observed()

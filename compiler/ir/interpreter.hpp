@@ -13,7 +13,8 @@ namespace rddlc::ir {
 // Records are laid out by layout.hpp. All functions may run at the same time in several threads.
 class Interpreter {
   public:
-    explicit Interpreter(Program program);
+    // The functions are by ExternalId, and accept the calls of the program.
+    explicit Interpreter(Program program, ExternalFunctions functions = {});
 
     const Program& program() const { return *program_; }
 

@@ -33,6 +33,7 @@ using VariableId = Id<struct VariableTag>;
 using BufferId = Id<struct BufferTag>;
 using LocalId = Id<struct LocalTag>;
 using SiteId = Id<struct SiteTag>;
+using ExternalId = Id<struct ExternalTag>;
 
 enum class Scalar : std::uint8_t { Bool, Int, Real };
 using Value = std::variant<bool, std::int64_t, double>;
@@ -183,9 +184,11 @@ struct TableView {
     BufferId buffer;
     std::vector<NodeId> indices;
 };
-using Callee = std::variant<MatrixOperator, VectorDistribution>;
+using Callee = std::variant<MatrixOperator, VectorDistribution, ExternalId>;
 // A function of whole tables. call.hpp says what each one expects, and which ones use their inputs
-// as room to work in. A matrix without a result gives nan, which Operator::Defined finds.
+// as room to work in. A matrix without a result gives nan, which Operator::Defined finds. An
+// external function takes any tables, also single elements, and is pure: it neither draws nor
+// faults, and equal arguments give equal results.
 struct Call {
     Callee callee;
     std::vector<TableView> inputs;
@@ -195,6 +198,12 @@ struct Call {
 };
 struct Statement {
     std::variant<Let, Store, Loop, Call> form;
+};
+
+// A function that the user gives in C++ (--extern).
+struct External {
+    std::string name;  // as in RDDL, without "$"
+    Span span;         // of its first use
 };
 
 // One CPF, or a table made by a pass: the statements that fill one buffer.
@@ -242,6 +251,7 @@ struct Program {
     std::vector<Variable> variables;
     std::vector<Buffer> buffers;
     std::vector<Site> sites;
+    std::vector<External> externals;
     std::uint32_t local_count = 0;
 
     // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
@@ -260,6 +270,7 @@ struct Program {
     const Variable& operator[](VariableId id) const { return variables[id.index]; }
     const Buffer& operator[](BufferId id) const { return buffers[id.index]; }
     const Site& operator[](SiteId id) const { return sites[id.index]; }
+    const External& operator[](ExternalId id) const { return externals[id.index]; }
     bool partially_observed() const;
 };
 

@@ -252,7 +252,8 @@ class Printer {
         for (const TableView& input : call.inputs) {
             arguments.push_back(element(input.buffer, input.indices));
         }
-        const std::string name = lower_case(ir::name_of(call.callee));
+        const std::string rddl_name = ir::name_of(program_, call.callee);
+        const std::string name = is_external(call.callee) ? rddl_name : lower_case(rddl_name);
         writer_.line(fmt::format(
             "fill {} = {}({})", element(call.output.buffer, call.output.indices),
             call.place ? "sample " + name + at(*call.place) : name, fmt::join(arguments, ", ")));

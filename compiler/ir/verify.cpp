@@ -144,6 +144,9 @@ class Verifier {
         id_is_known(call.output.buffer);
         require(!call.place || call.place->site.index < program_.sites.size(),
                 "there is no site {}", call.place ? call.place->site.index : 0);
+        const auto* external = std::get_if<ExternalId>(&call.callee);
+        require(!external || external->index < program_.externals.size(),
+                "there is no external function {}", external ? external->index : 0);
     }
 
     void id_is_known(BufferId buffer) {
@@ -439,10 +442,16 @@ class Verifier {
     }
 
     void call(const Call& form, const Scope& scope, const StorageSet& readable) {
-        const std::string name = name_of(form.callee);
-        const CallSignature signature = signature_of(form.callee);
-        require(tables_fit(form, signature), "the tables of '{}' do not fit", name);
-        require(scalars_fit(form, signature), "the scalars of '{}' do not fit", name);
+        const std::string name = name_of(program_, form.callee);
+        require(are_views(form), "the indices of the tables of '{}' do not fit", name);
+        const std::size_t room = match(
+            form.callee, [](ExternalId) -> std::size_t { return 0; },
+            [&](auto callee) {
+                const CallSignature signature = signature_of(callee);
+                require(tables_fit(form, signature), "the tables of '{}' do not fit", name);
+                require(scalars_fit(form, signature), "the scalars of '{}' do not fit", name);
+                return signature.room;
+            });
         require(form.place.has_value() == is_draw(form.callee), "'{}' has a place, or needs one",
                 name);
         for (BufferId written : written_buffers(form)) {
@@ -450,23 +459,29 @@ class Verifier {
                     program_[written].name);
         }
         for (NodeId operand : operands_of(form)) use(operand, scope, readable);
-        for (std::size_t i = 0; i + signature.room < form.inputs.size(); ++i) {
+        for (std::size_t i = 0; i + room < form.inputs.size(); ++i) {
             readable_now(form.inputs[i].buffer, readable);
         }
+    }
+
+    // Every table has indices for some of its dimensions.
+    bool are_views(const Call& form) const {
+        const auto is_view = [&](const TableView& view) {
+            return view.indices.size() <= program_[view.buffer].shape.size() &&
+                   std::ranges::all_of(view.indices,
+                                       [&](NodeId id) { return type(id) == Scalar::Int; });
+        };
+        return std::ranges::all_of(form.inputs, is_view) && is_view(form.output);
     }
 
     bool tables_fit(const Call& form, const CallSignature& signature) const {
         if (form.inputs.size() != signature.input_axes.size()) return false;
         const auto fits = [&](const TableView& view, std::size_t axes, Scalar scalar) {
             const Buffer& buffer = program_[view.buffer];
-            const auto is_int = [&](NodeId id) {
-                return type(id) == Scalar::Int;
-            };
             const auto ranges_over_extent = [&](std::int64_t size) {
                 return size == extent_of(program_, form).size;
             };
             return view.indices.size() + axes == buffer.shape.size() && buffer.scalar == scalar &&
-                   std::ranges::all_of(view.indices, is_int) &&
                    std::all_of(buffer.shape.end() - static_cast<std::ptrdiff_t>(axes),
                                buffer.shape.end(), ranges_over_extent);
         };

@@ -23,10 +23,11 @@ void add_marks(const std::string& file, int number, const std::string& line,
 }  // namespace
 
 Case read_case(const fs::path& folder) {
-    Case result{folder, {}, {}};
+    Case result{folder, {}, {}, {}};
     for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().extension() != ".rddl") continue;
-        result.files.push_back(entry.path().filename().string());
+        const fs::path name = entry.path().filename();
+        if (name.extension() == ".rddl") result.files.push_back(name.string());
+        if (name.extension() == ".hpp") result.headers.push_back(name);
     }
     std::ranges::sort(result.files);
     for (const std::string& file : result.files) {

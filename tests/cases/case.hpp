@@ -18,7 +18,8 @@ struct Mark {
 
 struct Case {
     std::filesystem::path folder;
-    std::vector<std::string> files;  // *.rddl, by name: domain.rddl, then instance.rddl
+    std::vector<std::string> files;              // *.rddl, by name: domain.rddl, then instance.rddl
+    std::vector<std::filesystem::path> headers;  // *.hpp: the external functions
     std::vector<Mark> marks;
 
     bool expects(const std::string& file) const { return std::filesystem::exists(folder / file); }

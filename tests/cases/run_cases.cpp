@@ -3,6 +3,7 @@
 #include "driver/driver.hpp"
 #include "driver/process.hpp"
 #include "driver/shared_object.hpp"
+#include "external_library.hpp"
 #include "golden.hpp"
 #include "interpreted_simulator.hpp"
 #include "trace.hpp"
@@ -75,11 +76,17 @@ void expect_marked_diagnostics(const Case& expected, const Compilation& compilat
     }
 }
 
+CompileOptions options_of(const Case& expected) {
+    CompileOptions options;
+    options.inputs.assign(expected.files.begin(), expected.files.end());
+    options.extern_headers = expected.headers;
+    return options;
+}
+
 // The form of one file with an expectation.
 void expect_form(const Case& expected, const std::string& file, Form form) {
     if (!expected.expects(file)) return;
-    CompileOptions options;
-    options.inputs.assign(expected.files.begin(), expected.files.end());
+    CompileOptions options = options_of(expected);
     options.print = {form};
     options.stop_after = stage_of(form);
     expect_golden(expected.folder / file, compile(options).printed, "cases");
@@ -98,10 +105,11 @@ void expect_part(const Case& expected, const std::string& file, const std::strin
 // Compiled without any warning, and loaded.
 class LoadedSimulator {
   public:
-    explicit LoadedSimulator(const std::string& name) {
+    LoadedSimulator(const std::string& name, const fs::path& include_folder) {
         const fs::path object = fs::absolute(name + ".so");
         auto command = shared_object_command(name + ".cpp", object);
-        command.insert(command.end() - 1, {"-O1", "-Wall", "-Wextra", "-Wshadow", "-Werror"});
+        command.insert(command.end() - 1, {"-O1", "-Wall", "-Wextra", "-Wshadow", "-Werror",
+                                           "-I" + include_folder.string()});
         const auto result = run_process(command);
         if (!result || result->status != 0) {
             ADD_FAILURE() << "the emitted text does not compile:\n"
@@ -133,7 +141,11 @@ class LoadedSimulator {
 
 // The interpreter's trace is the expected one, and the compiled simulator makes the same.
 void expect_trace(const Case& expected, const Compilation& compilation) {
-    const auto interpreted = cli::interpreted_simulator(*compilation.program, compilation.sources);
+    cli::LoadOptions load;
+    load.externs = expected.headers;
+    const auto interpreted =
+        cli::interpreted_simulator(*compilation.program, compilation.sources,
+                                   cli::external_library(*compilation.program, {}, load));
     const std::string trace = trace_of(*interpreted);
     if (expected.expects("trace.exp")) expect_golden(expected.folder / "trace.exp", trace, "cases");
     if constexpr (RDDLC_SANITIZE) return;
@@ -147,7 +159,7 @@ void expect_trace(const Case& expected, const Compilation& compilation) {
     ASSERT_TRUE(written);
     fmt::print(written.get(), "{}", compilation.text);
     std::fflush(written.get());
-    const LoadedSimulator compiled(name);
+    const LoadedSimulator compiled(name, expected.folder);
     if (compiled.get()) {
         EXPECT_EQ(unified_diff(trace, trace_of(*compiled.get())), "") << "compiled differs";
     }
@@ -161,9 +173,7 @@ TEST_P(Cases, AreAsExpected) {
     // Paths in texts and messages are relative to the case.
     fs::current_path(GetParam());
     const Case expected = read_case(GetParam());
-    CompileOptions options;
-    options.inputs.assign(expected.files.begin(), expected.files.end());
-    const Compilation compilation = compile(options);
+    const Compilation compilation = compile(options_of(expected));
     expect_marked_diagnostics(expected, compilation);
 
     expect_form(expected, "model.exp", Form::Model);

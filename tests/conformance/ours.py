@@ -60,7 +60,7 @@ def ask(rddl: Path, case: Case, lines: list[str], engine: str) -> tuple[list[dic
     with tempfile.TemporaryDirectory(prefix="conformance-") as folder:
         asked, answered = Path(folder, "input.jsonl"), Path(folder, "output.jsonl")
         asked.write_text("".join(lines))
-        command = [rddl, "replay", case.domain_path, case.instance_path]
+        command = [rddl, "replay", *problem_words(case)]
         command += ["--input", asked, "--output", answered]
         command += ["--seed", "1", "--horizon", "0", f"--engine={engine}"]
         result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
@@ -80,7 +80,7 @@ def trace(
     rddl: Path, case: Case, engine: str, episodes: int, horizon: int | None = None
 ) -> list[str]:
     """The steps of some episodes of random actions, as lines of a trace without its header."""
-    command = [rddl, "run", case.domain_path, case.instance_path, f"--engine={engine}", "--quiet"]
+    command = [rddl, "run", *problem_words(case), f"--engine={engine}", "--quiet"]
     command += ["--episodes", episodes, "--seed", 1, "--threads", 1, "--trace", "-"]
     if horizon is not None:
         command += ["--horizon", horizon]
@@ -88,6 +88,11 @@ def trace(
     if result.returncode != 0:
         raise ReplayFailure(f"exit status {result.returncode}: {last_lines(result.stderr)}")
     return result.stdout.splitlines()[1:]  # the header names the engine
+
+
+def problem_words(case: Case) -> list:
+    functions = ["--extern", case.header] if case.header else []
+    return [case.domain_path, case.instance_path, *functions]
 
 
 def request_line(problem: Problem, state: Values, action: Values, **more) -> str:

@@ -38,6 +38,21 @@ class Case:
     def label(self) -> str:
         return f"{self.problem} {self.instance}"
 
+    # The external functions, where there are any, lie beside the domain: once for us, once for
+    # pyRDDLGym.
+
+    @property
+    def header(self) -> Path | None:
+        return self._beside("functions.hpp")
+
+    @property
+    def python_functions(self) -> Path | None:
+        return self._beside("functions.py")
+
+    def _beside(self, name: str) -> Path | None:
+        path = self.domain_path.with_name(name)
+        return path if path.exists() else None
+
 
 def repository_cases(problem: str) -> list[Case]:
     """All instances of a problem of rddlrepository, in order of their numbers."""

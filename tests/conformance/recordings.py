@@ -41,8 +41,8 @@ def kept(case: Case, plan, folder: Path | None, suffix: str, sources: tuple[str,
 def fingerprint(case: Case, plan, sources: tuple[str, ...]) -> str:
     """Changes with anything that the recording depends on."""
     digest = hashlib.sha256(repr([plan, *(f"{name} {version(name)}" for name in PACKAGES)]).encode())
-    for path in (case.domain_path, case.instance_path):
-        digest.update(path.read_bytes())
+    for path in (case.domain_path, case.instance_path, case.python_functions):
+        digest.update(path.read_bytes() if path else b"")
     for name in sources:
         digest.update(Path(__file__).with_name(name).read_bytes())
     return digest.hexdigest()[:16]

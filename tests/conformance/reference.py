@@ -6,6 +6,7 @@ a shallow copy of the table is a full reset to the same state; `draw` checks tha
 """
 
 import logging
+import runpy
 import time
 import warnings
 import zlib
@@ -47,7 +48,10 @@ class Reference:
             str(case.domain_path),
             str(case.instance_path),
             vectorized=True,
-            backend_kwargs={"objects_as_strings": False},
+            backend_kwargs={
+                "objects_as_strings": False,
+                "python_functions": python_functions(case),
+            },
         )
         self.model = self.env.model
         self.simulator = self.env.sampler
@@ -349,6 +353,14 @@ def record(case: Case, plan: Plan) -> Recording:
 # ------------------------------------------------------------------------- what depends on draws
 
 
+def python_functions(case: Case) -> dict:
+    """The external functions by name; in RDDL a name may have a minus."""
+    if case.python_functions is None:
+        return {}
+    functions = runpy.run_path(str(case.python_functions))
+    return functions | {name.replace("_", "-"): value for name, value in functions.items()}
+
+
 def random_names(model) -> set[str]:
     """The CPFs whose value depends, within the step, on a random draw."""
     random: set[str] = set()
@@ -363,7 +375,7 @@ def is_random(expression, random: set[str]) -> bool:
     """Does the expression draw, or mention one of the given names?"""
     if isinstance(expression, Expression):
         kind, name = expression.etype
-        if kind in ("randomvector", "pyfunc"):
+        if kind == "randomvector":  # external functions of ours draw nothing
             return True
         if kind == "randomvar" and name not in DETERMINISTIC_DISTRIBUTIONS:
             return True

@@ -35,10 +35,13 @@ TEST_P(Generated, IsWhatRddlcMakes) {
     const fs::path folder = fs::path("examples") / GetParam();
     CompileOptions options;
     options.inputs = {folder / "domain.rddl", folder / "instance.rddl"};
+    const fs::path output = fs::path("generated") / (GetParam() + ".cpp");
+    options.output = output;
     options.stop_after = Stage::Emit;
+    if (fs::exists(folder / "functions.hpp")) options.extern_headers = {folder / "functions.hpp"};
     const Compilation compilation = compile(options);
     EXPECT_EQ(summary(compilation.diagnostics), "");
-    expect_golden(fs::path("generated") / (GetParam() + ".cpp"), compilation.text, "generated");
+    expect_golden(output, compilation.text, "generated");
 }
 
 INSTANTIATE_TEST_SUITE_P(, Generated, ::testing::ValuesIn(examples()),

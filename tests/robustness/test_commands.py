@@ -86,6 +86,71 @@ class Output(CommandTest):
         self.assertIn("no-c++", result.errors)
 
 
+class Externals(CommandTest):
+    """External functions that are not what the domain needs."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("tank.rddl", """
+            domain tank {
+                types { pipe : object; };
+                pvariables {
+                    open(pipe) : { action-fluent, bool, default = false };
+                    water : { state-fluent, real, default = 5.0 };
+                };
+                cpfs { water' = $in-flow[](water, open(_)); };
+                reward = water;
+            }
+            non-fluents two { domain = tank; objects { pipe : {a, b}; }; }
+            instance one { domain = tank; non-fluents = two; horizon = 10; discount = 1.0; }""")
+        self.cache = {"XDG_CACHE_HOME": str(self.folder / "cache")}
+
+    def run_with(self, *words):
+        return self.run_command(RDDL, "run", "tank.rddl", *words, environment=self.cache)
+
+    def test_refused_by_the_compiler(self):
+        for text, message in (
+            ("double in_flow(double, std::span<const bool>);", "in_flow"),
+            ("namespace rddl_extern { double in_flow(int x, std::span<const bool>) { return x; } }",
+             "must be callable as double rddl_extern::in_flow(double, std::span<const bool, 2>)"),
+            ("namespace rddl_extern { double in_flow(double x) { return x; } }", "$in-flow must be"),
+            ("namespace rddl_extern { double in_flow(double x, std::span<const bool, 3>) "
+             "{ return x; } }", "$in-flow must be"),
+            ("namespace rddl_extern { const char* in_flow(double, std::span<const bool>) "
+             "{ return 0; } }", "$in-flow must be"),
+            ("gibberish", "gibberish"),
+        ):
+            with self.subTest(text):
+                self.write("functions.hpp", "#include <span>\n" + text)
+                results = [self.run_with("--extern=functions.hpp", f"--engine={engine}")
+                           for engine in ("compiled", "interpreter")]
+                results.append(self.run_command(
+                    RDDLC, "tank.rddl", "--extern=functions.hpp", "-o", "sim.so"))
+                for result in results:
+                    self.assert_refused(result, "E0908")
+                    self.assertIn(message, result.errors)
+
+    def test_missing(self):
+        self.assert_refused(self.run_with(), "E0907")
+        self.assert_refused(self.run_with("--engine=interpreter"), "E0907")
+        self.assert_refused(self.run_command(RDDLC, "tank.rddl", "-o", "sim.cpp"), "E0907")
+        for words in ["--extern=no.hpp"], ["--extern=.", "--engine=interpreter"]:
+            self.assert_refused(self.run_with(*words), "E0901")
+        self.assert_refused(self.run_command(RDDLC, "tank.rddl", "--extern=no.hpp"), "E0901")
+        self.assertEqual(self.run_command(RDDLC, "tank.rddl", "--check").status, SUCCESS)
+        self.assertEqual(self.run_command(RDDL, "info", "tank.rddl").status, SUCCESS)
+
+    def test_shared_objects(self):
+        self.write("broken.so", "no shared object")
+        result = self.run_with("--extern=broken.so", "--engine=interpreter")
+        self.assertEqual(result.status, DIAGNOSED)
+        self.assertIn("cannot load 'broken.so'", result.errors)
+        for refused in (self.run_with("--extern=broken.so"),
+                        self.run_command(RDDLC, "tank.rddl", "--extern=broken.so")):
+            self.assertEqual(refused.status, USAGE)
+            self.assertIn("C++ header", refused.errors)
+
+
 class Explain(CommandTest):
     def test_every_page(self):
         for page in sorted((ROOT / "docs/diagnostics").glob("*.md")):

@@ -15,8 +15,10 @@ class Interpreter(CommandTest):
                         self.assert_runs(example / "domain.rddl", instance, policy)
 
     def assert_runs(self, domain, instance, policy) -> None:
+        functions = domain.with_name("functions.hpp")
         result = self.run_command(
             RDDL, "run", domain, instance, "--engine=interpreter", f"--policy={policy}",
+            *(["--extern", functions] if functions.exists() else []),
             "--episodes=3", "--seed=7", "--horizon=50", "--json", "--trace=trace.jsonl")
         self.assertEqual(result.status, SUCCESS, result)
         summary = json.loads(result.output)

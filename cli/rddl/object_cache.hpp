@@ -1,0 +1,24 @@
+// C++ text compiled to a shared object. Shared objects are kept by content under
+// $XDG_CACHE_HOME/rddlc (or ~/.cache/rddlc), so that a text is compiled once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rddlc::cli {
+
+struct CacheOptions {
+    std::string what;  // for messages
+    bool ignore_cache = false;
+    bool quiet = false;
+    // The user's headers that the text includes: a change to one is a change to the text.
+    std::vector<std::filesystem::path> extern_headers = {};
+};
+
+// Fails if there is no C++ compiler; throws Diagnosed if it refuses the user's headers.
+std::filesystem::path cached_object(const std::string& text, const CacheOptions& options);
+
+std::filesystem::path cache_folder();
+
+}  // namespace rddlc::cli

@@ -1,0 +1,95 @@
+#include "driver/extern_headers.hpp"
+
+#include "driver/codes.hpp"
+#include "ir/analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <set>
+
+namespace rddlc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> included_by(const fs::path& file) {
+    static const std::regex include("^\\s*#\\s*include\\s*\"([^\"]+)\"");
+    std::vector<fs::path> included;
+    std::ifstream stream(file);
+    std::error_code ignored;
+    for (std::string line; std::getline(stream, line);) {
+        std::smatch match;
+        if (!std::regex_search(line, match, include)) continue;
+        const fs::path name = (file.parent_path() / match[1].str()).lexically_normal();
+        if (fs::is_regular_file(name, ignored)) included.push_back(name);
+    }
+    return included;
+}
+
+}  // namespace
+
+void check_extern_headers(const CompileOptions& options, Diagnostics& diagnostics) {
+    for (const fs::path& header : options.extern_headers) {
+        std::error_code ignored;
+        const bool is_folder = fs::is_directory(header, ignored);
+        if (!is_folder && std::ifstream(header)) continue;
+        const int error = is_folder ? EISDIR : errno;
+        diagnostics.report({.code = unreadable_file,
+                            .span = {},
+                            .message = fmt::format("cannot read '{}': {}", header.string(),
+                                                   std::strerror(error))});
+    }
+}
+
+void report_undefined_externals(const ir::Program& program, const CompileOptions& options,
+                                Diagnostics& diagnostics) {
+    if (!options.extern_headers.empty()) return;
+    std::set<ir::ExternalId> reported;
+    for (const ir::Block* block : ir::blocks_of(program)) {
+        ir::for_each_statement<ir::Call>(*block, [&](const ir::Call& call) {
+            const auto* id = std::get_if<ir::ExternalId>(&call.callee);
+            if (!id || !reported.insert(*id).second) return;
+            const ir::External& external = program[*id];
+            diagnostics.report(Diagnostic{
+                .code = undefined_external,
+                .span = external.span,
+                .message =
+                    fmt::format("nothing defines the external function '${}'", external.name)}
+                                   .with_hint("name the C++ header that does: --extern FILE.hpp"));
+        });
+    }
+}
+
+std::vector<std::string> include_paths(const CompileOptions& options) {
+    std::vector<std::string> paths;
+    for (const fs::path& header : options.extern_headers) {
+        std::error_code ignored;
+        const fs::path relative =
+            options.output
+                ? fs::relative(header, fs::absolute(*options.output).parent_path(), ignored)
+                : header;
+        paths.push_back((relative.empty() ? fs::absolute(header) : relative).generic_string());
+    }
+    return paths;
+}
+
+std::vector<fs::path> with_included_files(const std::vector<fs::path>& headers) {
+    std::vector<fs::path> files;
+    std::vector<fs::path> waiting(headers.rbegin(), headers.rend());
+    while (!waiting.empty()) {
+        const fs::path file = waiting.back();
+        waiting.pop_back();
+        if (std::ranges::find(files, file) != files.end()) continue;
+        files.push_back(file);
+        const std::vector<fs::path> included = included_by(file);
+        waiting.insert(waiting.end(), included.rbegin(), included.rend());
+    }
+    return files;
+}
+
+}  // namespace rddlc

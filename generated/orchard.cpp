@@ -1,0 +1,309 @@
+// A simulator, made by rddlc 0.1.0. Do not edit it: change its sources and compile them again.
+//
+//     problem   orchard
+//     instance  orchard_1
+//     sources   examples/orchard/domain.rddl
+//               examples/orchard/instance.rddl
+//
+// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
+// the extern "C" function
+//
+//     rddl_simulator_orchard_orchard_1
+//
+// or make a shared object with -shared -fPIC -DRDDL_ENTRY=rddl_simulator_entry for dlopen.
+// <rddl/simulator.h> tells what to do with the rddl_simulator that it returns.
+
+#include "../examples/orchard/functions.hpp"
+
+#include <rddl/external.hpp>
+#include <rddl/simulator.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace orchard_orchard_1 {
+// Unnamed, so that two versions of a simulator can be loaded into one program.
+namespace {
+
+// --------------------------------------------------------------------------------- objects
+
+inline constexpr rddl::Index plot_count = 3;  // upper, middle, lower
+
+// ---------------------------------------------------------------------- external functions
+
+// $evaporation, domain.rddl:30
+// clang-format off
+static_assert(rddl::external::fits<double(double)>(
+                  RDDL_EXTERN_FUNCTION(evaporation)),
+              "the external function $evaporation must be callable as"
+              " double rddl_extern::evaporation(double)");
+// clang-format on
+
+// $settle, domain.rddl:32
+// clang-format off
+static_assert(rddl::external::fits<void(std::span<const double, 3>, std::span<const double, 3>,
+                                   std::span<const std::array<double, 3>, 3>, std::span<double, 3>)>(
+                  RDDL_EXTERN_FUNCTION(settle)),
+              "the external function $settle must be callable as"
+              " void rddl_extern::settle(std::span<const double, 3>, std::span<const double, 3>,"
+              " std::span<const std::array<double, 3>, 3>, std::span<double, 3>)");
+// clang-format on
+
+// ---------------------------------------------------------------------------------- tables
+
+// CAPACITY, domain.rddl:13
+inline constexpr std::array<double, plot_count> CAPACITY = {25, 40, 40};
+
+// RUNS-TO, domain.rddl:14
+// clang-format off
+inline constexpr std::array<std::array<double, plot_count>, plot_count> RUNS_TO = {{
+    {0, 0.75, 0},
+    {0, 0, 0.75},
+    {0, 0, 0},
+}};
+// clang-format on
+
+// water, domain.rddl:19
+inline constexpr std::array<double, plot_count> initial_water = {24, 20, 20};
+
+// --------------------------------------------------------------------------------- records
+
+template <class L>
+struct State {
+    std::array<typename L::Real, plot_count> water;  // domain.rddl:19
+    typename L::Real temperature;                    // domain.rddl:20
+};
+
+template <class L>
+struct Action {
+    std::array<typename L::Bool, plot_count> open;  // domain.rddl:26
+};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    typename L::Real evaporation;                       // domain.rddl:22
+    std::array<typename L::Real, plot_count> supplied;  // domain.rddl:23
+    std::array<typename L::Real, plot_count> settled;   // domain.rddl:24
+    typename L::Real evaporation_2;                     // domain.rddl:30
+    std::array<typename L::Real, plot_count> settle;    // domain.rddl:32
+};
+
+template <class L>
+struct Observation {};
+
+// ------------------------------------------------------------------------------ simulator
+
+struct Simulator {
+    template <class L>
+    using State = orchard_orchard_1::State<L>;
+    template <class L>
+    using Action = orchard_orchard_1::Action<L>;
+    template <class L>
+    using Scratch = orchard_orchard_1::Scratch<L>;
+    template <class L>
+    using Observation = orchard_orchard_1::Observation<L>;
+
+    static constexpr bool partially_observed = false;
+
+    // The initial state.
+    template <class L>
+    static void reset(State<L>& state) {
+        rddl::assign(state.water, initial_water);
+        state.temperature = 22.0;
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        evaporation(state, scratch);
+        supplied(state, action, scratch);
+        temperature(state, next, context);
+        settled(scratch);
+        water(scratch, next);
+    }
+
+    // evaporation  (domain.rddl:30)
+    template <class L>
+    static void evaporation(const State<L>& state, Scratch<L>& scratch) {
+        scratch.evaporation_2 = rddl_extern::evaporation(state.temperature);
+        scratch.evaporation = scratch.evaporation_2;
+    }
+
+    // supplied(?p)  (domain.rddl:31)
+    template <class L>
+    static void supplied(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        for (rddl::Index p = 0; p < plot_count; ++p) {
+            scratch.supplied[p] = state.water[p] + rddl::to_real(action.open[p]) * 6.0;
+        }
+    }
+
+    // temperature'  (domain.rddl:34)
+    template <class L>
+    static void temperature(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
+        next.temperature = 22.0 + 0.8 * (state.temperature - 22.0) +
+                           rddl::sample::normal(context, {0, 0}, 0.0, 4.0);
+    }
+
+    // settled(?p)  (domain.rddl:32)
+    template <class L>
+    static void settled(Scratch<L>& scratch) {
+        rddl_extern::settle(rddl::external::input(scratch.supplied),
+                            rddl::external::input(CAPACITY), rddl::external::input(RUNS_TO),
+                            rddl::external::output(scratch.settle));
+        for (rddl::Index p = 0; p < plot_count; ++p) {
+            scratch.settled[p] = scratch.settle[p];
+        }
+    }
+
+    // water'(?p)  (domain.rddl:33)
+    template <class L>
+    static void water(const Scratch<L>& scratch, State<L>& next) {
+        for (rddl::Index p = 0; p < plot_count; ++p) {
+            next.water[p] = rddl::maximum(0.0, scratch.settled[p] - scratch.evaporation);
+        }
+    }
+
+    // Of the step just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& action,
+                                   const Scratch<L>& /*scratch*/, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Real = typename L::Real;
+        return rddl::sum<Real>(plot_count, [&](rddl::Index p) {
+            return rddl::to_real(next.water[p] >= 12.0) -
+                   0.6000000000000001 * rddl::to_real(action.open[p]);
+        });
+    }
+
+    // An episode ends where one of these holds.
+    static constexpr rddl::Index termination_count = 0;
+    template <class L>
+    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
+                                        rddl::Context<L>& /*context*/) {
+        return false;
+    }
+
+    // Hold in every state that makes sense.
+    static constexpr rddl::Index invariant_count = 0;
+    template <class L>
+    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
+                                      rddl::Context<L>& /*context*/) {
+        return true;
+    }
+
+    // Hold for every action that is allowed.
+    static constexpr rddl::Index precondition_count = 0;
+    template <class L>
+    static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
+                                         const Action<L>& /*action*/,
+                                         rddl::Context<L>& /*context*/) {
+        return true;
+    }
+};
+
+static_assert(sizeof(State<rddl::Scalar>) == 32);
+static_assert(offsetof(State<rddl::Scalar>, temperature) == 24);
+static_assert(sizeof(Action<rddl::Scalar>) == 3);
+
+// --------------------------------------------------- what the simulator tells about itself
+
+namespace about {
+
+inline constexpr const char* source_file = "examples/orchard/domain.rddl";
+inline constexpr const char* plot_objects[] = {"upper", "middle", "lower"};
+
+// clang-format off
+inline constexpr rddl_type types[] = {
+    {"plot", plot_objects, plot_count, 0},
+};
+// clang-format on
+
+inline constexpr std::int32_t of_plot[] = {0};
+inline constexpr std::int32_t of_plot_plot[] = {0, 0};
+
+// clang-format off
+inline constexpr rddl_fluent fluents[] = {
+    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
+    {"CAPACITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_plot, 3, -1, nullptr, nullptr,
+     {source_file, 13, 9}},
+    {"RUNS-TO", RDDL_NON_FLUENT, RDDL_REAL, -1, 2, of_plot_plot, 9, -1, nullptr, nullptr,
+     {source_file, 14, 9}},
+    {"VALVE-RATE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 15, 9}},
+    {"PRICE", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 16, 9}},
+    {"THIRSTY-BELOW", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 17, 9}},
+    {"water", RDDL_STATE, RDDL_REAL, -1, 1, of_plot, 3, offsetof(State<rddl::Scalar>, water),
+     nullptr, nullptr, {source_file, 19, 9}},
+    {"temperature", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1,
+     offsetof(State<rddl::Scalar>, temperature), nullptr, nullptr, {source_file, 20, 9}},
+    {"evaporation", RDDL_INTERM, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
+     {source_file, 22, 9}},
+    {"supplied", RDDL_INTERM, RDDL_REAL, -1, 1, of_plot, 3, -1, nullptr, nullptr,
+     {source_file, 23, 9}},
+    {"settled", RDDL_INTERM, RDDL_REAL, -1, 1, of_plot, 3, -1, nullptr, nullptr,
+     {source_file, 24, 9}},
+    {"open", RDDL_ACTION, RDDL_BOOL, -1, 1, of_plot, 3, offsetof(Action<rddl::Scalar>, open),
+     nullptr, nullptr, {source_file, 26, 9}},
+};
+// clang-format on
+
+inline constexpr Action<rddl::Scalar> default_action = [] {
+    Action<rddl::Scalar> action{};
+    rddl::assign(action.open, false);
+    return action;
+}();
+
+inline constexpr rddl_problem problem = {
+    .domain = "orchard",
+    .instance = "orchard_1",
+    .types = types,
+    .type_count = 1,
+    .fluents = fluents,
+    .fluent_count = 11,
+    .state_size = sizeof(State<rddl::Scalar>),
+    .action_size = sizeof(Action<rddl::Scalar>),
+    .observation_size = sizeof(State<rddl::Scalar>),
+    .partially_observed = 0,
+    .stochastic = 1,
+    .default_action = &default_action,
+    .horizon = 60,
+    .discount = 1.0,
+    .max_nondef_actions = 2,
+    .preconditions = nullptr,
+    .precondition_count = 0,
+    .invariants = nullptr,
+    .invariant_count = 0,
+    .terminations = nullptr,
+    .termination_count = 0,
+};
+
+// clang-format off
+inline constexpr rddl::Site sites[] = {
+    {{source_file, 34, 60}, "Normal", {}},
+};
+// clang-format on
+
+}  // namespace about
+
+inline const rddl_simulator* simulator() {
+    using Engine = rddl::Compiled<Simulator>;
+    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    return table.get();
+}
+
+}  // namespace
+}  // namespace orchard_orchard_1
+
+#ifndef RDDL_ENTRY
+#define RDDL_ENTRY rddl_simulator_orchard_orchard_1
+#endif
+
+extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+    return orchard_orchard_1::simulator();
+}
