@@ -1,16 +1,18 @@
-# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [NAME <name>] [HEADER] [OPTIONS <option>...])
+# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [EXTERN <header>...] [NAME <name>] [HEADER]
+#                    [OPTIONS <option>...])
 #
 # Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
 #
 #   DOMAIN, INSTANCE   relative to the current source folder; one file that holds both may be named
 #                      as DOMAIN alone
+#   EXTERN             C++ headers that define external functions, relative to the current source folder
 #   NAME               of the emitted file (default: the target's name)
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
 #   OPTIONS            more options for rddlc, such as -Werror
 #
 # A static library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
 function(rddl_add_simulator target)
-  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;NAME" "OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;NAME" "EXTERN;OPTIONS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -26,6 +28,14 @@ function(rddl_add_simulator target)
     list(APPEND inputs ${file})
   endforeach()
 
+  set(headers "")
+  set(externs "")
+  foreach(file IN LISTS ARG_EXTERN)
+    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND headers ${file})
+    list(APPEND externs --extern ${file})
+  endforeach()
+
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.rddl)
   set(extension .cpp)
   if(ARG_HEADER)
@@ -35,8 +45,8 @@ function(rddl_add_simulator target)
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(
     OUTPUT ${output}
-    COMMAND rddlc::rddlc ${inputs} -o ${output} -MD -MF ${output}.d ${ARG_OPTIONS}
-    DEPENDS rddlc::rddlc ${inputs}
+    COMMAND rddlc::rddlc ${inputs} ${externs} -o ${output} -MD -MF ${output}.d ${ARG_OPTIONS}
+    DEPENDS rddlc::rddlc ${inputs} ${headers}
     DEPFILE ${output}.d
     COMMENT "Compiling ${ARG_DOMAIN} ${ARG_INSTANCE}" VERBATIM)
 

@@ -1,5 +1,6 @@
 // rddl check: diagnostics, of one problem or of the whole repository.
 #include "commands.hpp"
+#include "external_library.hpp"
 #include "front_end.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 struct CheckOptions {
     ProblemArguments problem;
+    LoadOptions load;
     bool all = false;
     bool verbose = false;
 };
@@ -29,10 +31,14 @@ std::size_t warning_count(const Diagnostics& diagnostics) {
     return diagnostics.all().size() - diagnostics.error_count();
 }
 
-ExitStatus check_one(const ProblemFiles& files) {
-    const Compilation compilation = compile_problem(files, Stage::Check);
+// External functions are only checked where somebody defines them.
+ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
+    const bool has_externs = !options.externs.empty();
+    const Compilation compilation = compile_problem(
+        files, has_externs ? Stage::Verify : Stage::Check, extern_files(options.externs).headers);
     print_diagnostics(compilation);
     if (compilation.diagnostics.has_errors()) return diagnosed;
+    if (has_externs) external_library(*compilation.program, files, options);
     const std::size_t warnings = warning_count(compilation.diagnostics);
     fmt::print("{}: no errors{}\n", files.name,
                warnings == 0 ? "" : fmt::format(", {}", counted(warnings, "warning")));
@@ -126,7 +132,7 @@ ExitStatus check(const CheckOptions& options) {
         const Repository repository = require_repository();
         return check_problems({find_problem(repository, problem.first)}, options.verbose);
     }
-    return check_one(problem.files());
+    return check_one(problem.files(), options.load);
 }
 
 }  // namespace
@@ -141,6 +147,8 @@ Command add_check_command(CLI::App& program) {
         "  rddl check --all                      the whole of rddlrepository");
     const auto options = std::make_shared<CheckOptions>();
     add_problem_arguments(*app, options->problem, false);
+    add_extern_option(*app, options->load,
+                      "Also check the external functions of FILE, a C++ header or .so");
     app->add_flag("--all", options->all, "Check every instance of rddlrepository");
     app->add_flag("-v,--verbose", options->verbose,
                   "Show warnings, too, where many instances are checked");

@@ -10,6 +10,12 @@ void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool 
     command.add_option("INSTANCE", arguments.second, "Instance file, or number of the instance");
 }
 
+void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation) {
+    command.add_option("--extern", options.externs, explanation)
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+}
+
 void add_engine_options(CLI::App& command, LoadOptions& options) {
     command
         .add_option_function<std::string>(
@@ -20,11 +26,8 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
             "compiled (default), or interpreter, which needs no C++ compiler")
         ->check(CLI::IsMember({"compiled", "interpreter"}).description(""))
         ->type_name("ENGINE");
-    command
-        .add_option("--extern", options.externs,
-                    "C++ header of the external functions; the interpreter takes a .so, too")
-        ->allow_extra_args(false)
-        ->type_name("FILE");
+    add_extern_option(command, options,
+                      "C++ header of the external functions; the interpreter takes a .so, too");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");
 }

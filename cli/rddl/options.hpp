@@ -20,6 +20,8 @@ struct ProblemArguments {
 };
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required = true);
 
+// --extern
+void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation);
 // --engine, --extern, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
 

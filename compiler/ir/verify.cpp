@@ -445,7 +445,11 @@ class Verifier {
         const std::string name = name_of(program_, form.callee);
         require(are_views(form), "the indices of the tables of '{}' do not fit", name);
         const std::size_t room = match(
-            form.callee, [](ExternalId) -> std::size_t { return 0; },
+            form.callee,
+            [&](ExternalId) -> std::size_t {
+                require(form.scalars.empty(), "the scalars of '{}' do not fit", name);
+                return 0;
+            },
             [&](auto callee) {
                 const CallSignature signature = signature_of(callee);
                 require(tables_fit(form, signature), "the tables of '{}' do not fit", name);
@@ -454,6 +458,9 @@ class Verifier {
             });
         require(form.place.has_value() == is_draw(form.callee), "'{}' has a place, or needs one",
                 name);
+        require(std::ranges::find(form.inputs, form.output.buffer, &TableView::buffer) ==
+                    form.inputs.end(),
+                "'{}' fills a table that it reads", name);
         for (BufferId written : written_buffers(form)) {
             require(program_[written].storage == Storage::Scratch, "'{}' works in '{}'", name,
                     program_[written].name);

@@ -15,9 +15,10 @@ trap 'rm -rf "$work"' EXIT
 
 # The installed program finds the installed headers.
 unset RDDLC_INCLUDE
-"$work/installed/bin/rddlc" "$source/problem.rddl" -o "$work/tank.so"
+"$work/installed/bin/rddlc" "$source/problem.rddl" --extern "$source/functions.hpp" -o "$work/tank.so"
 test -f "$work/tank.so"
 
 # Nothing is made again unless its files change.
 "$cmake" --build "$work/project" > "$work/log" 2>&1
 ! grep -q "Compiling" "$work/log"
+grep -q "functions.hpp" "$work/project/tank_simulator.rddl/tank_simulator.cpp.d"

@@ -176,5 +176,43 @@ TEST_F(InterpreterTest, FindsRoomForManyLocals) {
     EXPECT_EQ(step().level, 2.0 + count - 1);
 }
 
+// The level plus a number from a table that it gets whole.
+std::int32_t third_of(const rddl_array* arguments, std::int32_t count, const rddl_array* result) {
+    const bool fits = count == 2 && arguments[0].rank == 1 && arguments[0].shape[0] == 3 &&
+                      arguments[0].scalar == RDDL_BOOL && arguments[1].rank == 0 &&
+                      arguments[1].scalar == RDDL_REAL && result->scalar == RDDL_REAL;
+    if (!fits) return 0;
+    if (!result->data) return 1;
+    const auto* running = static_cast<const bool*>(arguments[0].data);
+    const double level = *static_cast<const double*>(arguments[1].data);
+    *static_cast<double*>(result->data) = level + (running[2] ? 100 : 200);
+    return 1;
+}
+
+TEST_F(InterpreterTest, CallsExternalFunctions) {
+    add_step(w);
+    w.program.externals = {{"third", {}}};
+    w.program.buffers.push_back({"third", Storage::Scratch, Scalar::Real, {}, {}, {}, {}, {}});
+    const BufferId result{static_cast<std::uint32_t>(w.program.buffers.size() - 1)};
+    const Call call{ExternalId{0}, {{w.running, {}}, {w.level, {}}}, {}, {result, {}}, {}};
+    w.program.reward = {{{call}}, w.load(result), {}};
+    ASSERT_TRUE(accepts(third_of, w.program, call));
+    Call other = call;
+    other.inputs.pop_back();
+    EXPECT_FALSE(accepts(third_of, w.program, other));
+
+    const Interpreter interpreter(w.program, {third_of});
+    State state, next;
+    interpreter.reset(bytes(state));
+    std::array<bool, 3> action{};
+    std::array<std::byte, 64> scratch;
+    for (const bool runs : {true, false}) {
+        state.running[2] = runs;
+        const double value = interpreter.step(bytes(state), bytes(action), scratch.data(),
+                                              bytes(next), scratch.data(), context);
+        EXPECT_EQ(value, state.level + (runs ? 100 : 200));
+    }
+}
+
 }  // namespace
 }  // namespace rddlc::ir

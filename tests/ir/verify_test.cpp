@@ -196,6 +196,27 @@ TEST_F(VerifyCallTest, FindsTablesReadAfterTheyWereOverwritten) {
     EXPECT_EQ(complaint(), "'matrix' is read before it is computed");
 }
 
+TEST_F(VerifyCallTest, AcceptsAnyTablesOfAnExternalFunction) {
+    w.program.externals = {{"f", {}}};
+    call() = {ExternalId{0}, {{matrix_, {w.integer(1)}}, {matrix_, {}}}, {}, call().output, {}};
+    EXPECT_EQ(complaint(), "");
+    call().callee = ExternalId{1};
+    EXPECT_NE(complaint().find("there is no external function 1"), std::string::npos);
+}
+
+TEST_F(VerifyCallTest, FindsViewsOfAnExternalFunctionThatDoNotFit) {
+    w.program.externals = {{"f", {}}};
+    const NodeId zero = w.integer(0);
+    call() = {ExternalId{0}, {{matrix_, {zero, zero, zero}}}, {}, call().output, {}};
+    EXPECT_NE(complaint().find("the indices of the tables of '$f' do not fit"), std::string::npos);
+    call() = {ExternalId{0}, {{matrix_, {w.real(0)}}}, {}, call().output, {}};
+    EXPECT_NE(complaint().find("the indices of the tables of '$f' do not fit"), std::string::npos);
+    call() = {ExternalId{0}, {}, {zero}, call().output, {}};
+    EXPECT_NE(complaint().find("the scalars of '$f' do not fit"), std::string::npos);
+    call() = {ExternalId{0}, {{matrix_, {}}}, {}, {matrix_, {}}, {}};
+    EXPECT_NE(complaint().find("'$f' fills a table that it reads"), std::string::npos);
+}
+
 TEST_F(VerifyCallTest, FindsUnknownIds) {
     call().output.buffer = BufferId{99};
     EXPECT_NE(complaint().find("there is no buffer 99"), std::string::npos);

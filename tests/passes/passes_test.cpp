@@ -122,5 +122,21 @@ TEST(Optimise, RunsAllPasses) {
     EXPECT_EQ(names(program, ir::Storage::Constant), "");
 }
 
+TEST(Externals, KeepTheTablesThatTheyGet) {
+    const ir::Program program =
+        valid(optimise(grounded(with_tables("$f[](SAME(_), NONE(_, _)) + 0 * $g[](W(_))"))));
+    EXPECT_EQ(names(program, ir::Storage::Constant), "SAME NONE W") << "although two are uniform";
+    EXPECT_NE(ir::print(program).find("fill scratch.f = $f(SAME, NONE)"), std::string::npos);
+}
+
+TEST(Externals, AreNotCalledForWhatNobodyReads) {
+    Problem problem = with_tables("1.0");
+    problem.pvariables += "unread : { interm-fluent, real };";
+    problem.cpfs += "unread = $f[](W(_));";
+    const ir::Program program = valid(optimise(grounded(problem)));
+    EXPECT_EQ(ir::print(program).find("$f"), std::string::npos) << ir::print(program);
+    EXPECT_EQ(names(program, ir::Storage::Constant), "");
+}
+
 }  // namespace
 }  // namespace rddlc

@@ -81,6 +81,39 @@ TEST_F(Output, ComesWithADependencyFile) {
     EXPECT_EQ(read("deps.d"), "sim.cpp: \\\n  a\\ $$b\\#.rddl \\\n  instance.rddl\n");
 }
 
+TEST_F(Output, DependsOnTheHeadersOfExternalFunctions) {
+    fs::create_directory("lib");
+    write("lib/functions.hpp", "#pragma once\n#include <cmath>\n  #  include \"tools.hpp\"\n");
+    write("lib/tools.hpp", "#include \"functions.hpp\"\n#include \"missing.hpp\"\n");
+    fs::create_directory("out");
+    EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--extern", "lib/functions.hpp", "-o",
+                     "out/sim.cpp", "-MD"})
+                  .status,
+              0);
+    EXPECT_EQ(read("out/sim.cpp.d"),
+              "out/sim.cpp: \\\n  domain.rddl \\\n  instance.rddl \\\n  lib/functions.hpp \\\n"
+              "  lib/tools.hpp\n");
+    EXPECT_EQ(read("out/sim.cpp").find("functions.hpp"), std::string::npos) << "nothing calls it";
+    const Result result = rddlc({"domain.rddl", "instance.rddl", "--extern", "lib/functions.hpp",
+                                 "-o", "lib/functions.hpp"});
+    EXPECT_TRUE(mentions(result, "[E0906]")) << result.output;
+}
+
+TEST_F(Output, FindsTheHeadersOfExternalFunctionsFromItsOwnFolder) {
+    std::string domain = read("domain.rddl");
+    domain.replace(domain.find("reward ="), 8, "reward = $worth[]() +");
+    write("domain.rddl", domain);
+    fs::create_directory("lib");
+    write("lib/functions.hpp", "namespace rddl_extern { inline double worth() { return 1; } }");
+    fs::create_directory("out");
+    for (const std::string name : {"out/sim.cpp", "out/sim.hpp", "out/sim.so"}) {
+        const Result result =
+            rddlc({"domain.rddl", "instance.rddl", "--extern", "lib/functions.hpp", "-o", name});
+        EXPECT_EQ(result.status, 0) << result.output;
+    }
+    EXPECT_NE(read("out/sim.hpp").find("#include \"../lib/functions.hpp\"\n"), std::string::npos);
+}
+
 TEST_F(Output, MayBeASharedObjectWhateverItIsCalled) {
     const std::string name = "; touch hacked; $(touch hacked) '\".so";
     const Result result = compile_to(name);
