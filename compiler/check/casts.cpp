@@ -59,7 +59,8 @@ class Narrowing {
             [&](model::Aggregate&& n) { return aggregate(std::move(n), span, to); },
             [&](model::Sample&& n) { return delta(std::move(n), span, to); },
             [&](model::External&& n) -> Typed {
-                // An external function gives what it gives.
+                // An external function gives what it gives, but nobody knows that it is an object.
+                if (is_object(to)) return std::nullopt;
                 return model::Expr{to, span, std::move(n)};
             },
             [](auto&&) -> Typed { return std::nullopt; });

@@ -9,24 +9,37 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace rddlc {
 namespace {
 
 namespace fs = std::filesystem;
 
+// Of a line `#include "name"`.
+std::optional<std::string_view> included_name(std::string_view line) {
+    for (const std::string_view part : {"#", "include", "\""}) {
+        const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+        line.remove_prefix(begin);
+        if (!line.starts_with(part)) return std::nullopt;
+        line.remove_prefix(part.size());
+    }
+    const std::size_t end = line.find('"');
+    if (end == line.npos) return std::nullopt;
+    return line.substr(0, end);
+}
+
 std::vector<fs::path> included_by(const fs::path& file) {
-    static const std::regex include("^\\s*#\\s*include\\s*\"([^\"]+)\"");
     std::vector<fs::path> included;
     std::ifstream stream(file);
     std::error_code ignored;
     for (std::string line; std::getline(stream, line);) {
-        std::smatch match;
-        if (!std::regex_search(line, match, include)) continue;
-        const fs::path name = (file.parent_path() / match[1].str()).lexically_normal();
-        if (fs::is_regular_file(name, ignored)) included.push_back(name);
+        const auto name = included_name(line);
+        if (!name) continue;
+        const fs::path path = (file.parent_path() / *name).lexically_normal();
+        if (fs::is_regular_file(path, ignored)) included.push_back(path);
     }
     return included;
 }
