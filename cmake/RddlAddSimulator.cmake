@@ -1,18 +1,30 @@
+<<<<<<< HEAD
 # rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [EXTERN <header>...] [NAME <name>] [HEADER]
+=======
+# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [POLICY <file>] [NAME <name>] [HEADER]
+>>>>>>> e62383b (Run policy blocks)
 #                    [OPTIONS <option>...])
 #
 # Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
 #
 #   DOMAIN, INSTANCE   relative to the current source folder; one file that holds both may be named
 #                      as DOMAIN alone
+<<<<<<< HEAD
 #   EXTERN             C++ headers that define external functions, relative to the current source folder
+=======
+#   POLICY             a file with a policy block
+>>>>>>> e62383b (Run policy blocks)
 #   NAME               of the emitted file (default: the target's name)
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
 #   OPTIONS            more options for rddlc, such as -Werror
 #
 # A static library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
 function(rddl_add_simulator target)
+<<<<<<< HEAD
   cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;NAME" "EXTERN;OPTIONS" ${ARGN})
+=======
+  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;POLICY;NAME" "OPTIONS" ${ARGN})
+>>>>>>> e62383b (Run policy blocks)
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
@@ -23,7 +35,7 @@ function(rddl_add_simulator target)
     set(ARG_NAME ${target})
   endif()
   set(inputs "")
-  foreach(file IN ITEMS ${ARG_DOMAIN} ${ARG_INSTANCE})
+  foreach(file IN ITEMS ${ARG_DOMAIN} ${ARG_INSTANCE} ${ARG_POLICY})
     get_filename_component(file ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
     list(APPEND inputs ${file})
   endforeach()

@@ -103,7 +103,7 @@ void collect(const Expr& expression, Occurrences& found) {
 void add_declared_features(const Model& model, std::set<std::string>& features) {
     for (const Type& type : model.types)
         if (type.enumerated) features.insert("enumerated types");
-    for (const Fluent& fluent : model.fluents) {
+    for (const Fluent& fluent : model.domain_fluents()) {
         if (fluent.role == Role::Interm) features.insert("interm-fluents");
         if (fluent.role == Role::Derived) features.insert("derived-fluents");
         if (fluent.range.kind == ValueType::Kind::Object)
@@ -163,7 +163,7 @@ Characteristics characteristics_of(const Model& model) {
         for (const Expr& condition : *conditions)
             c.random_conditions = is_random(condition) || c.random_conditions;
 
-    for (const Fluent& fluent : model.fluents) {
+    for (const Fluent& fluent : model.domain_fluents()) {
         if (fluent.role == Role::State) count_values(model, fluent, c.state);
         if (fluent.role == Role::Action) count_values(model, fluent, c.action);
         if (fluent.role == Role::Observ) count_values(model, fluent, c.observation);

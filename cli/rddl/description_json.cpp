@@ -41,25 +41,42 @@ Json bounds_json(const double* bounds, std::int64_t count) {
     return all;
 }
 
-Json fluent_json(const ProblemDescription& d, std::size_t index) {
-    const model::Fluent& fluent = d.model.fluents[index];
-    const rddl_fluent& described = d.simulator->problem->fluents[index];
+Json declaration_json(const model::Model& model, const model::Fluent& fluent) {
     Json parameters = Json::array(), shape = Json::array();
     for (const model::TypeId type : fluent.parameters) {
-        parameters.push_back(d.model.types[type].name);
-        shape.push_back(d.model.types[type].objects.size());
+        parameters.push_back(model.types[type].name);
+        shape.push_back(model.types[type].objects.size());
     }
     return {{"name", fluent.name},
             {"role", rddlc::name_of(fluent.role)},
-            {"range", model::text_of(d.model, fluent.range)},
+            {"range", model::text_of(model, fluent.range)},
             {"parameters", parameters},
             {"shape", shape},
-            {"count", described.count},
-            {"offset", described.offset < 0 ? Json(nullptr) : Json(described.offset)},
-            {"default", default_json(d.model, fluent)},
-            {"lower", bounds_json(described.lower, described.count)},
-            {"upper", bounds_json(described.upper, described.count)},
-            {"source", source_json(described.source)}};
+            {"default", default_json(model, fluent)}};
+}
+
+Json fluent_json(const ProblemDescription& d, std::size_t index) {
+    const rddl_fluent& described = d.simulator->problem->fluents[index];
+    Json fluent = declaration_json(d.model, d.model.fluents[index]);
+    fluent["count"] = described.count;
+    fluent["offset"] = described.offset < 0 ? Json(nullptr) : Json(described.offset);
+    fluent["lower"] = bounds_json(described.lower, described.count);
+    fluent["upper"] = bounds_json(described.upper, described.count);
+    fluent["source"] = source_json(described.source);
+    return fluent;
+}
+
+Json policy_json(const ProblemDescription& d) {
+    const rddl_policy* const policy = d.simulator->policy;
+    if (!policy) return nullptr;
+    Json fluents = Json::array();
+    for (const model::Fluent& fluent : d.model.policy_fluents())
+        fluents.push_back(declaration_json(d.model, fluent));
+    return {{"name", policy->name},
+            {"source", source_json(policy->source)},
+            {"stochastic", policy->stochastic != 0},
+            {"memory_size", policy->memory_size},
+            {"fluents", fluents}};
 }
 
 Json conditions_json(const rddl_condition* conditions, std::int32_t count) {
@@ -89,7 +106,8 @@ Json description_json(const ProblemDescription& d) {
     const rddl_problem& problem = *d.simulator->problem;
     const Characteristics& c = d.characteristics;
     Json fluents = Json::array();
-    for (std::size_t f = 0; f < d.model.fluents.size(); ++f) fluents.push_back(fluent_json(d, f));
+    for (std::size_t f = 0; f < d.model.domain_fluents().size(); ++f)
+        fluents.push_back(fluent_json(d, f));
     Json sizes{{"state", values_json(c.state, problem.state_size)},
                {"action", values_json(c.action, problem.action_size)},
                {"observation", values_json(c.partially_observed ? c.observation : c.state,
@@ -110,7 +128,8 @@ Json description_json(const ProblemDescription& d) {
             {"fluents", fluents},
             {"preconditions", conditions_json(problem.preconditions, problem.precondition_count)},
             {"invariants", conditions_json(problem.invariants, problem.invariant_count)},
-            {"terminations", conditions_json(problem.terminations, problem.termination_count)}};
+            {"terminations", conditions_json(problem.terminations, problem.termination_count)},
+            {"policy", policy_json(d)}};
 }
 
 }  // namespace rddlc::cli

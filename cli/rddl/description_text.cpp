@@ -35,8 +35,8 @@ std::string general_section(const ProblemDescription& d) {
     const rddl_problem& problem = *d.simulator->problem;
     Table table({{""}, {""}});
     table.add_row({"domain", fmt::format("{} ({})", problem.domain, d.files.domain.string())});
-    table.add_row(
-        {"instance", fmt::format("{} ({})", problem.instance, d.files.all().back().string())});
+    const std::filesystem::path& instance = d.files.instance.value_or(d.files.domain);
+    table.add_row({"instance", fmt::format("{} ({})", problem.instance, instance.string())});
     table.add_row({"horizon", problem.horizon == 0 ? "none" : counted(problem.horizon, "step")});
     table.add_row({"discount", number_text(problem.discount)});
     const auto& limit = d.characteristics.max_nondef_actions;
@@ -100,6 +100,11 @@ std::string bounds_text(const rddl_fluent& fluent) {
                        std::isinf(*most_upper) ? ')' : ']', differ ? "*" : "");
 }
 
+std::string role_text(Role role) {
+    const std::string name(rddlc::name_of(role));
+    return role == Role::NonFluent ? name : name.substr(0, name.find("-fluent"));
+}
+
 std::string fluents_section(const ProblemDescription& d) {
     Table table({{"fluent"},
                  {"role"},
@@ -111,20 +116,35 @@ std::string fluents_section(const ProblemDescription& d) {
                  {"bounds"},
                  {"line", Align::Right}});
     bool any_differ = false;
-    for (std::size_t f = 0; f < d.model.fluents.size(); ++f) {
+    for (std::size_t f = 0; f < d.model.domain_fluents().size(); ++f) {
         const model::Fluent& fluent = d.model.fluents[f];
         const rddl_fluent& described = d.simulator->problem->fluents[f];
         const std::string bounds = bounds_text(described);
         any_differ = any_differ || bounds.ends_with('*');
-        std::string role(rddlc::name_of(fluent.role));
-        role = role.substr(0, role.find("-fluent"));  // "state", but "non" is "non-fluent"
-        table.add_row({fluent.name, fluent.role == Role::NonFluent ? "non-fluent" : role,
-                       parameters_text(d.model, fluent), shape_text(d.model, fluent),
-                       grouped(described.count), model::text_of(d.model, fluent.range),
-                       default_text(d.model, fluent), bounds,
+        table.add_row({fluent.name, role_text(fluent.role), parameters_text(d.model, fluent),
+                       shape_text(d.model, fluent), grouped(described.count),
+                       model::text_of(d.model, fluent.range), default_text(d.model, fluent), bounds,
                        std::to_string(described.source.line)});
     }
     return '\n' + table.text() + (any_differ ? "* differ between groundings\n" : "");
+}
+
+// ------------------------------------------------------------------------------------- policy
+
+std::string policy_section(const ProblemDescription& d) {
+    const rddl_policy* const policy = d.simulator->policy;
+    if (!policy) return {};
+    std::string text =
+        fmt::format("\npolicy {} ({}:{}): {}, remembers {}\n", policy->name, policy->source.file,
+                    policy->source.line, policy->stochastic ? "stochastic" : "deterministic",
+                    counted(policy->memory_size, "byte"));
+    if (d.model.policy_fluents().empty()) return text;
+    Table table({{"fluent"}, {"role"}, {"parameters"}, {"shape"}, {"range"}, {"default"}});
+    for (const model::Fluent& fluent : d.model.policy_fluents())
+        table.add_row({fluent.name, role_text(fluent.role), parameters_text(d.model, fluent),
+                       shape_text(d.model, fluent), model::text_of(d.model, fluent.range),
+                       default_text(d.model, fluent)});
+    return text + table.text();
 }
 
 // -------------------------------------------------------------------------------------- sizes
@@ -191,7 +211,7 @@ std::string characteristics_section(const Characteristics& c) {
 
 std::string description_text(const ProblemDescription& d) {
     return general_section(d) + characteristics_section(d.characteristics) + sizes_section(d) +
-           objects_section(d.model) + fluents_section(d);
+           objects_section(d.model) + fluents_section(d) + policy_section(d);
 }
 
 }  // namespace rddlc::cli

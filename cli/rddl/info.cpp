@@ -13,12 +13,14 @@ namespace {
 
 struct InfoOptions {
     ProblemArguments problem;
+    std::string policy_file;
     bool json = false;
 };
 
 ExitStatus info(const InfoOptions& options) {
     ProblemDescription description;
     description.files = options.problem.files();
+    if (!options.policy_file.empty()) description.files.policy = options.policy_file;
     Compilation compilation = compile_or_give_up(description.files, Stage::Optimise);
     description.model = *std::move(compilation.model);
     description.characteristics = characteristics_of(description.model);
@@ -39,9 +41,12 @@ Command add_info_command(CLI::App& program) {
     app->footer(
         "Examples:\n"
         "  rddl info domain.rddl instance.rddl\n"
-        "  rddl info Reservoir_ippc2023 1 --json");
+        "  rddl info Reservoir_ippc2023 1 --json\n"
+        "  rddl info domain.rddl instance.rddl --policy policy.rddl");
     const auto options = std::make_shared<InfoOptions>();
     add_problem_arguments(*app, options->problem);
+    app->add_option("--policy", options->policy_file, "Take the policy block of this file, too")
+        ->type_name("FILE");
     app->add_flag("--json", options->json, "Print everything as JSON, layouts and bounds included");
     return {app, [options] {
                 return info(*options);

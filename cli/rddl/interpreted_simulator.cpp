@@ -57,6 +57,7 @@ class Description {
         add_conditions(program.invariants, invariants_);
         add_conditions(program.terminations, terminations_);
         add_sites();
+        add_policy();
     }
     Description(const Description&) = delete;
     Description& operator=(const Description&) = delete;
@@ -90,6 +91,8 @@ class Description {
                 .termination_count = terminations_.count()};
     }
     std::span<const rddl::Site> sites() const { return sites_of_program_; }
+    // Null if there is none.
+    const rddl_policy* policy() const { return policy_ ? &*policy_ : nullptr; }
 
   private:
     struct Conditions {
@@ -165,6 +168,15 @@ class Description {
         }
     }
 
+    void add_policy() {
+        if (!program_.policy) return;
+        const std::size_t memory_size = ir::record_layout(program_, ir::Storage::Memory).size;
+        policy_ = {.name = program_.policy->name.c_str(),
+                   .source = source_of(program_.policy->span),
+                   .memory_size = static_cast<std::int64_t>(memory_size),
+                   .stochastic = ir::is_policy_stochastic(program_)};
+    }
+
     const ir::Program& program_;
     Sources sources_;
     std::vector<std::vector<const char*>> object_names_;
@@ -173,6 +185,7 @@ class Description {
     std::vector<rddl_type> types_;
     std::vector<rddl_fluent> fluents_;
     std::vector<rddl::Site> sites_of_program_;
+    std::optional<rddl_policy> policy_;
     Conditions preconditions_, invariants_, terminations_;
 };
 
@@ -185,7 +198,7 @@ struct Interpreted {
           description(interpreter.program(), std::move(sources)),
           problem(description.problem(default_action.data())) {
         interpreter.default_action(default_action.data());
-        table.emplace(problem, description.sites(), std::move(interpreter));
+        table.emplace(problem, description.sites(), std::move(interpreter), description.policy());
     }
 
     ExternalLibrary library;

@@ -112,8 +112,10 @@ ProblemFiles find_paths(const std::string& domain, const std::string& instance) 
 }  // namespace
 
 std::vector<fs::path> ProblemFiles::all() const {
-    if (instance) return {domain, *instance};
-    return {domain};
+    std::vector<fs::path> files{domain};
+    if (instance) files.push_back(*instance);
+    if (policy) files.push_back(*policy);
+    return files;
 }
 
 fs::path RepositoryProblem::instance_file(std::string_view instance) const {

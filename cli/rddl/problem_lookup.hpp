@@ -12,7 +12,8 @@ namespace rddlc::cli {
 struct ProblemFiles {
     std::string name;  // for people: "MountainCar_ippc2023 1", or the paths
     std::filesystem::path domain;
-    std::optional<std::filesystem::path> instance;  // absent: `domain` holds both
+    std::optional<std::filesystem::path> instance;     // absent: `domain` holds both
+    std::optional<std::filesystem::path> policy = {};  // a file with a policy block for it
 
     std::vector<std::filesystem::path> all() const;
 };

@@ -86,6 +86,7 @@ class EpisodeBatch {
     void choose_actions(RandomPolicy& policy) {
         const bool random = options_.policy == Policy::Random;
         if (random) draw_actions(policy);
+        if (options_.policy == Policy::Rddl) ask_policy_block();
         if (problem_.precondition_count == 0) return;
         if (random)
             make_legal(policy);
@@ -146,6 +147,13 @@ class EpisodeBatch {
             if (!episodes_[i].finished) policy.act(number_of(i), episodes_[i].length, action(i));
     }
 
+    // Where it faults, the episode is over, and the action does not matter.
+    void ask_policy_block() {
+        simulator_.policy_act(batch_.get(), actions_.data());
+        simulator_.get_causes(batch_.get(), 0, static_cast<std::int64_t>(causes_.size()),
+                              causes_.data());
+    }
+
     // Where that is possible. All environments make their tries side by side, since the simulator
     // is asked about all of them at once.
     void make_legal(RandomPolicy& policy) {
@@ -165,7 +173,9 @@ class EpisodeBatch {
     }
 
     // As far as it was asked.
-    bool is_illegal(std::size_t i) const { return !episodes_[i].finished && violated_[i] >= 0; }
+    bool is_illegal(std::size_t i) const {
+        return !episodes_[i].finished && causes_[i] == RDDL_RUNNING && violated_[i] >= 0;
+    }
 
     void treat_illegal_action(std::size_t i) {
         Episode& episode = episodes_[i];

@@ -16,7 +16,8 @@
 
 namespace rddlc::cli {
 
-enum class Policy { Random, Noop };
+// Rddl: the policy block of the problem, which must have one.
+enum class Policy { Random, Noop, Rddl };
 
 struct RolloutOptions {
     Policy policy = Policy::Random;

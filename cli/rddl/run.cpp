@@ -1,4 +1,4 @@
-// rddl run: whole episodes under a simple policy, and what came of them.
+// rddl run: whole episodes under a policy, and what came of them.
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "line_stream.hpp"
@@ -22,6 +22,7 @@ namespace {
 
 struct RunOptions {
     ProblemArguments problem;
+    std::optional<std::filesystem::path> policy_file;
     LoadOptions load;
     RolloutOptions rollouts;
     std::string trace;
@@ -30,7 +31,28 @@ struct RunOptions {
 };
 
 std::string_view name_of(Policy policy) {
-    return policy == Policy::Random ? "random" : "noop";
+    switch (policy) {
+        case Policy::Random:
+            return "random";
+        case Policy::Noop:
+            return "noop";
+        case Policy::Rddl:
+            break;
+    }
+    return "rddl";
+}
+
+void choose_policy(RunOptions& options, const std::string& name) {
+    for (const Policy policy : {Policy::Random, Policy::Noop, Policy::Rddl}) {
+        if (name_of(policy) != name) continue;
+        options.rollouts.policy = policy;
+        return;
+    }
+    if (!is_path(name))
+        throw CLI::ValidationError(
+            "--policy", fmt::format("'{}' is neither random, noop, rddl nor a file", name));
+    options.rollouts.policy = Policy::Rddl;
+    options.policy_file = name;
 }
 
 struct Summary {
@@ -187,8 +209,23 @@ void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
             "give one with --horizon", usage_error);
 }
 
+void require_policy_block(const rddl_simulator& simulator, const RunOptions& options) {
+    const rddl_policy* const policy = simulator.policy;
+    constexpr const char* hint =
+        "docs/policies.md tells how to write one: policy NAME { cpfs { ... }; }";
+    if (options.policy_file && (!policy || *options.policy_file != policy->source.file))
+        throw Failure(
+            fmt::format("there is no policy block in '{}'", options.policy_file->string()), hint);
+    if (!policy)
+        throw Failure("there is no policy block in the files of the problem",
+                      "name the file that has it: --policy=FILE.rddl");
+}
+
 ExitStatus run(const RunOptions& options) {
-    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    ProblemFiles files = options.problem.files();
+    files.policy = options.policy_file;
+    const LoadedProblem problem = load_problem(files, options.load);
+    if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator, options);
     const rddl_problem& description = *problem.simulator->problem;
     const std::int64_t horizon =
         options.rollouts.horizon < 0 ? description.horizon : options.rollouts.horizon;
@@ -237,16 +274,14 @@ Command add_run_command(CLI::App& program) {
         "Examples:\n"
         "  rddl run domain.rddl instance.rddl --episodes 1000\n"
         "  rddl run MountainCar_ippc2023 1 --policy noop --json\n"
+        "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl");
     const auto options = std::make_shared<RunOptions>();
     add_problem_arguments(*app, options->problem);
     app->add_option_function<std::string>(
-           "--policy",
-           [options](const std::string& name) {
-               options->rollouts.policy = name == "random" ? Policy::Random : Policy::Noop;
-           },
-           "random (default): legal random actions; noop: default actions")
-        ->check(CLI::IsMember({"random", "noop"}).description(""))
+           "--policy", [options](const std::string& name) { choose_policy(*options, name); },
+           "random (default): legal random actions; noop: default actions; rddl: the policy block "
+           "of the problem; FILE: the policy block in it")
         ->type_name("POLICY");
     app->add_option("--episodes", options->rollouts.episodes, "How many (1)")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}).description(""))

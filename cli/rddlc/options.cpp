@@ -54,9 +54,11 @@ CLI::ValidationError usage(const std::string& message) {
 void declare(CLI::App& program, Arguments& arguments) {
     program.set_version_flag("--version", fmt::format("rddlc {}", version));
     program
-        .add_option("files", arguments.inputs, "DOMAIN and INSTANCE, or one file that holds both")
-        ->type_name("DOMAIN INSTANCE")
-        ->expected(1, 2);
+        .add_option("files", arguments.inputs,
+                    "DOMAIN and INSTANCE, or one file that holds both; POLICY, a file with a "
+                    "policy block")
+        ->type_name("DOMAIN INSTANCE [POLICY]")
+        ->expected(1, 3);
     program
         .add_option("-o", arguments.output,
                     "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ "
@@ -133,8 +135,8 @@ void replace(std::string& text, const std::string& part, const std::string& by) 
 // CLI11's help, with the spellings that it does not know.
 std::string help_text(const CLI::App& program) {
     std::string help = program.help();
-    replace(help, "[OPTIONS] [files(1x)]", "[OPTIONS] DOMAIN [INSTANCE]");
-    replace(help, "files DOMAIN INSTANCE  ", "DOMAIN INSTANCE        ");
+    replace(help, "[OPTIONS] [files(1x)]", "[OPTIONS] DOMAIN [INSTANCE] [POLICY]");
+    replace(help, "files DOMAIN INSTANCE [POLICY]", "DOMAIN INSTANCE [POLICY]");
     replace(help, "--MD ", "-MD  ");
     replace(help, "--MF FILE ", "-MF FILE  ");
     replace(help, "--MD", "-MD");

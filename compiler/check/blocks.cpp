@@ -172,6 +172,15 @@ void take_domain(const ast::Domain& domain, Blocks& blocks, Context& context) {
     blocks.state_invariants = sections.constraints[3].node;
 }
 
+void take_policy(const ast::Policy& policy, Blocks& blocks, Context& context) {
+    const DomainSections sections = choose_sections(policy.sections, context);
+    if (sections.types.node && !sections.types.node->declarations.empty())
+        context.report({bad_policy, sections.types.span, "a policy cannot declare types"});
+    blocks.policy = &policy;
+    blocks.policy_pvariables = sections.pvariables.node;
+    blocks.policy_cpfs = sections.cpfs.node;
+}
+
 // `sections` are the instance's own.
 void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blocks& blocks,
                       Context& context) {
@@ -288,8 +297,8 @@ std::optional<Blocks> choose_blocks(const ast::Program& program, Context& contex
     if (!domain || !instance) return std::nullopt;
 
     Blocks blocks;
-    blocks.policy = top.policy.node;
     take_domain(*top.domain.node, blocks, context);
+    if (top.policy.node) take_policy(*top.policy.node, blocks, context);
     take_instance(*top.instance.node, top, blocks, context);
     context.model.domain_name = blocks.domain->name.text;
     context.model.instance_name = blocks.instance->name.text;

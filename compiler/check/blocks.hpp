@@ -23,6 +23,10 @@ struct Blocks {
     const ast::Constraints* state_action_constraints = nullptr;
     const ast::Constraints* state_invariants = nullptr;
 
+    // Of the policy.
+    const ast::PVariables* policy_pvariables = nullptr;
+    const ast::Cpfs* policy_cpfs = nullptr;
+
     const ast::Objects* objects = nullptr;
     const ast::NonFluentValues* non_fluents = nullptr;
     const ast::InitState* init_state = nullptr;

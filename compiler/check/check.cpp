@@ -23,7 +23,7 @@ std::optional<model::Model> check(const ast::Program& program, const Sources& so
     check_settings(*blocks, context);
 
     const std::vector<CpfUses> uses = check_cpfs(*blocks, context);
-    order_cpfs(uses, context);
+    order_cpfs(context.model.cpfs, uses, context);
     check_reward(*blocks, context);
     check_conditions(*blocks, context);
     check_policy(*blocks, context);

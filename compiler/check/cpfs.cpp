@@ -14,10 +14,6 @@
 namespace rddlc::checking {
 namespace {
 
-bool needs_cpf(Role role) {
-    return role != Role::NonFluent && role != Role::Action;
-}
-
 Definition definition_of(Role role) {
     switch (role) {
         case Role::Derived:
@@ -31,13 +27,20 @@ Definition definition_of(Role role) {
     }
 }
 
+Definition policy_definition_of(Role role) {
+    if (role == Role::Action) return Definition::PolicyAction;
+    return role == Role::Derived ? Definition::PolicyDerived : Definition::PolicyState;
+}
+
 std::string written_name(const ast::Cpf& cpf) {
     return cpf.name.text + (cpf.primed ? "'" : "");
 }
 
+// Of the domain's cpfs, or of the policy's.
 class CpfChecker {
   public:
-    explicit CpfChecker(Context& context) : context_(context) {}
+    CpfChecker(Context& context, std::vector<model::Cpf>& cpfs, bool of_policy)
+        : context_(context), cpfs_(cpfs), of_policy_(of_policy) {}
 
     void check(const ast::Cpf& cpf) {
         const model::FluentId* id = find(context_.names.fluents, cpf.name.text);
@@ -45,7 +48,7 @@ class CpfChecker {
         const model::Fluent& fluent = context_.fluent(*id);
         const bool first = defined_.try_emplace(*id, cpf.name.span).second;
         if (context_.names.broken_fluents.contains(*id)) return;
-        bool sound = check_written(cpf, fluent);
+        bool sound = check_written(cpf, *id);
         if (sound && !first) {
             context_.report(diagnose(repeated_cpf, cpf.name.span,
                                      fmt::format("'{}' has a CPF already", written_name(cpf)))
@@ -59,12 +62,14 @@ class CpfChecker {
         for (model::FluentId id = 0; id < context_.model.fluents.size(); ++id) {
             const model::Fluent& fluent = context_.fluent(id);
             const bool broken = context_.names.broken_fluents.contains(id);
-            if (broken || !needs_cpf(fluent.role)) continue;
+            if (broken || !needs_cpf(id)) continue;
             if (defined_.contains(id) || meant_.contains(id)) continue;
             const std::string name = checking::written_name(fluent, fluent.role == Role::State);
+            const bool is_for_others = of_policy_ && !context_.model.is_of_policy(id);
             context_.report(
-                diagnose(missing_cpf, fluent.span,
-                         fmt::format("{} '{}' has no CPF", name_of(fluent.role), fluent.name))
+                diagnose(missing_cpf, is_for_others ? context_.model.policy->span : fluent.span,
+                         fmt::format("{} '{}' has no CPF{}", name_of(fluent.role), fluent.name,
+                                     of_policy_ ? " in the policy" : ""))
                     .with_hint(fmt::format("define it in 'cpfs {{ ... }};': {} = ...", name)));
         }
     }
@@ -72,6 +77,19 @@ class CpfChecker {
     std::vector<CpfUses> uses() && { return std::move(uses_); }
 
   private:
+    bool needs_cpf(model::FluentId id) const {
+        const Role role = context_.fluent(id).role;
+        if (!of_policy_) return role != Role::NonFluent && role != Role::Action;
+        return context_.model.is_of_policy(id) ? role != Role::NonFluent : role == Role::Action;
+    }
+
+    std::string_view why_no_cpf(model::FluentId id) const {
+        const Role role = context_.fluent(id).role;
+        if (context_.model.is_of_policy(id)) return "its default is its value";
+        if (role == Role::NonFluent) return "the instance gives its value";
+        return of_policy_ ? "the domain gives it one" : "the agent chooses its value";
+    }
+
     void report_undeclared(const ast::Cpf& cpf) {
         const auto meant = did_you_mean(cpf.name.text, keys(context_.names.fluents));
         if (meant) meant_.insert(context_.names.fluents.at(*meant));
@@ -81,15 +99,14 @@ class CpfChecker {
     }
 
     // Whether a CPF may be written like this for this fluent.
-    bool check_written(const ast::Cpf& cpf, const model::Fluent& fluent) {
-        if (!needs_cpf(fluent.role)) {
-            const std::string_view reason = fluent.role == Role::Action
-                                                ? "the agent chooses its value"
-                                                : "the instance gives its value";
-            context_.report(diagnose(cpf_not_allowed, cpf.name.span,
-                                     fmt::format("{} '{}' cannot have a CPF: {}",
-                                                 name_of(fluent.role), fluent.name, reason))
-                                .note(fluent.span, "declared here"));
+    bool check_written(const ast::Cpf& cpf, model::FluentId id) {
+        const model::Fluent& fluent = context_.fluent(id);
+        if (!needs_cpf(id)) {
+            context_.report(
+                diagnose(cpf_not_allowed, cpf.name.span,
+                         fmt::format("{} '{}' cannot have a CPF{}: {}", name_of(fluent.role),
+                                     fluent.name, of_policy_ ? " in a policy" : "", why_no_cpf(id)))
+                    .note(fluent.span, "declared here"));
             return false;
         }
         if (fluent.role == Role::State && !cpf.primed) {
@@ -141,12 +158,12 @@ class CpfChecker {
         Typed body = check_body(cpf, id, scope);
         if (!counts) return;
         const Role role = context_.fluent(id).role;
-        check_dependencies(definition_of(role), fmt::format("'{}'", written_name(cpf)),
-                           scope.fluent_uses, context_);
+        check_dependencies(of_policy_ ? policy_definition_of(role) : definition_of(role),
+                           fmt::format("'{}'", written_name(cpf)), scope.fluent_uses, context_);
         if (!body || parameters.size() < cpf.parameters.size())
             body = model::Expr{context_.fluent(id).range, cpf.span, model::Constant{false}};
-        uses_.push_back({context_.model.cpfs.size(), std::move(scope.fluent_uses)});
-        context_.model.cpfs.push_back({id, std::move(parameters), std::move(*body), cpf.span});
+        uses_.push_back({cpfs_.size(), std::move(scope.fluent_uses)});
+        cpfs_.push_back({id, std::move(parameters), std::move(*body), cpf.span});
     }
 
     Typed check_body(const ast::Cpf& cpf, model::FluentId id, Scope& scope) {
@@ -161,6 +178,8 @@ class CpfChecker {
     }
 
     Context& context_;
+    std::vector<model::Cpf>& cpfs_;
+    bool of_policy_;
     std::unordered_map<model::FluentId, Span> defined_;  // where
     std::unordered_set<model::FluentId> meant_;          // by misspelled names
     std::vector<CpfUses> uses_;
@@ -170,8 +189,16 @@ class CpfChecker {
 
 std::vector<CpfUses> check_cpfs(const Blocks& blocks, Context& context) {
     if (!blocks.cpfs) return {};
-    CpfChecker checker(context);
+    CpfChecker checker(context, context.model.cpfs, false);
     for (const ast::Cpf& cpf : blocks.cpfs->definitions) checker.check(cpf);
+    checker.report_missing();
+    return std::move(checker).uses();
+}
+
+std::vector<CpfUses> check_policy_cpfs(const Blocks& blocks, Context& context) {
+    CpfChecker checker(context, context.model.policy->cpfs, true);
+    if (blocks.policy_cpfs)
+        for (const ast::Cpf& cpf : blocks.policy_cpfs->definitions) checker.check(cpf);
     checker.report_missing();
     return std::move(checker).uses();
 }

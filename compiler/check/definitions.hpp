@@ -19,16 +19,22 @@ enum class Definition : std::uint8_t {
     ActionPrecondition,
     StateInvariant,
     Termination,
+    // In a policy.
+    PolicyAction,
+    PolicyDerived,
+    PolicyState,
 };
 
 // Which CPF mentions which fluents.
 struct CpfUses {
-    std::size_t cpf;  // index into Model::cpfs
+    std::size_t cpf;  // index into Model::cpfs or Policy::cpfs
     std::vector<FluentUse> uses;
 };
 
 // cpfs.cpp: fills Model::cpfs in the order written.
 std::vector<CpfUses> check_cpfs(const Blocks& blocks, Context& context);
+// The same of the policy, whose fluents have been declared.
+std::vector<CpfUses> check_policy_cpfs(const Blocks& blocks, Context& context);
 
 // conditions.cpp: reward, preconditions, invariants, terminations.
 void check_reward(const Blocks& blocks, Context& context);
@@ -38,7 +44,7 @@ void check_conditions(const Blocks& blocks, Context& context);
 // Reports what a definition mentions but may not; `what` names it in messages.
 void check_dependencies(Definition definition, const std::string& what,
                         const std::vector<FluentUse>& uses, Context& context);
-// Sorts Model::cpfs by level, then by name; reports cycles.
-void order_cpfs(const std::vector<CpfUses>& uses, Context& context);
+// Sorts the CPFs of a block by level, then by name; reports cycles.
+void order_cpfs(std::vector<model::Cpf>& cpfs, const std::vector<CpfUses>& uses, Context& context);
 
 }  // namespace rddlc::checking

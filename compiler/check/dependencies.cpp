@@ -14,7 +14,8 @@ namespace {
 
 // ------------------------------------------------------------------------------ the rules
 
-// What a definition may mention besides non-fluents.
+// What a definition may mention besides non-fluents; of a policy's, what it may mention of the
+// domain, where state stands for what it observes.
 struct Rule {
     Definition definition;
     std::string_view title;  // "a derived-fluent"
@@ -31,14 +32,40 @@ constexpr std::array rules = {
          false},
     Rule{Definition::StateInvariant, "a state-invariant", true, false, false, false, false},
     Rule{Definition::Termination, "a termination condition", true, false, false, false, false},
+    Rule{Definition::PolicyAction, "an action of the policy", true, true, false, false, false},
+    Rule{Definition::PolicyDerived, "a derived-fluent of the policy", true, false, false, false,
+         false},
+    Rule{Definition::PolicyState, "the policy's next state", true, true, false, false, false},
 };
 
 const Rule& rule_of(Definition definition) {
     return rules[static_cast<std::size_t>(definition)];
 }
 
-bool allows(const Rule& rule, Role role, bool next) {
-    switch (role) {
+bool is_of_policy(Definition definition) {
+    return definition >= Definition::PolicyAction;
+}
+
+bool is_partially_observed(const model::Model& model) {
+    return std::ranges::any_of(
+        model.fluents, [](const model::Fluent& fluent) { return fluent.role == Role::Observ; });
+}
+
+// A policy sees the observation if there is one, and nothing of the step that follows.
+bool policy_allows(const Rule& rule, const FluentUse& use, const model::Model& model) {
+    const Role role = model.fluents[use.fluent].role;
+    if (role == Role::NonFluent) return true;
+    if (model.is_of_policy(use.fluent))
+        return !use.next || rule.definition == Definition::PolicyState;
+    if (role == Role::Action) return rule.action;
+    const Role seen = is_partially_observed(model) ? Role::Observ : Role::State;
+    return role == seen && !use.next;
+}
+
+bool allows(const Rule& rule, const FluentUse& use, const model::Model& model) {
+    if (is_of_policy(rule.definition)) return policy_allows(rule, use, model);
+    const bool next = use.next;
+    switch (model.fluents[use.fluent].role) {
         case Role::NonFluent:
             return true;
         case Role::State:
@@ -55,7 +82,16 @@ bool allows(const Rule& rule, Role role, bool next) {
     return false;
 }
 
-std::string allowed_list(const Rule& rule) {
+std::string allowed_to_policy(const Rule& rule, const model::Model& model) {
+    std::vector<std::string> words{"non-fluents"};
+    words.emplace_back(is_partially_observed(model) ? "observ-fluents" : "state-fluents");
+    if (rule.action) words.emplace_back("action-fluents");
+    words.emplace_back("what the policy declares");
+    return joined(words);
+}
+
+std::string allowed_list(const Rule& rule, const model::Model& model) {
+    if (is_of_policy(rule.definition)) return allowed_to_policy(rule, model);
     std::vector<std::string> words{"non-fluents"};
     if (rule.state) words.emplace_back("state-fluents");
     if (rule.action) words.emplace_back("action-fluents");
@@ -69,11 +105,14 @@ std::string role_of(const model::Fluent& fluent, bool next) {
     return next ? "a next-state fluent" : with_article(fluent.role);
 }
 
-std::string hint_for(const Rule& rule, const model::Fluent& fluent, bool next) {
-    const std::string allowed = fmt::format("{} may depend on {}", rule.title, allowed_list(rule));
+std::string hint_for(const Rule& rule, const FluentUse& use, const model::Model& model) {
+    const model::Fluent& fluent = model.fluents[use.fluent];
+    const bool next = use.next;
+    const std::string allowed =
+        fmt::format("{} may depend on {}", rule.title, allowed_list(rule, model));
     if (rule.definition == Definition::Observ && fluent.role == Role::State && !next)
         return fmt::format("write '{}'': {}", fluent.name, allowed);
-    if (next && rule.state)
+    if (next && rule.state && !is_of_policy(rule.definition))
         return fmt::format("write '{}' without the prime: {}", fluent.name, allowed);
     return allowed;
 }
@@ -87,23 +126,18 @@ struct Edge {
 // For each CPF the CPFs it mentions, each once.
 using Graph = std::vector<std::vector<Edge>>;
 
-bool defined_by_cpf(const model::Fluent& fluent, bool next) {
-    return fluent.role == Role::State
-               ? next
-               : fluent.role != Role::NonFluent && fluent.role != Role::Action;
-}
-
-Graph build_graph(const std::vector<CpfUses>& all_uses, const Context& context) {
+Graph build_graph(const std::vector<model::Cpf>& cpfs, const std::vector<CpfUses>& all_uses,
+                  const Context& context) {
     std::unordered_map<model::FluentId, std::size_t> cpf_of;
-    for (std::size_t i = 0; i < context.model.cpfs.size(); ++i)
-        cpf_of[context.model.cpfs[i].fluent] = i;
-    Graph graph(context.model.cpfs.size());
+    for (std::size_t i = 0; i < cpfs.size(); ++i) cpf_of[cpfs[i].fluent] = i;
+    Graph graph(cpfs.size());
     for (const CpfUses& entry : all_uses) {
         std::set<std::size_t> seen;
         for (const FluentUse& use : entry.uses) {
             const auto target = cpf_of.find(use.fluent);
-            const bool edge =
-                target != cpf_of.end() && defined_by_cpf(context.fluent(use.fluent), use.next);
+            // The CPF of a state-fluent defines its next value only.
+            const bool computed = use.next || context.fluent(use.fluent).role != Role::State;
+            const bool edge = target != cpf_of.end() && computed;
             if (edge && seen.insert(target->second).second)
                 graph[entry.cpf].push_back({target->second, use.span});
         }
@@ -136,28 +170,27 @@ std::vector<int> levels_of(const Graph& graph) {
     return levels;
 }
 
-std::string cpf_name(std::size_t cpf, const Context& context) {
-    const model::Fluent& fluent = context.fluent(context.model.cpfs[cpf].fluent);
+std::string cpf_name(const model::Cpf& cpf, const Context& context) {
+    const model::Fluent& fluent = context.fluent(cpf.fluent);
     return written_name(fluent, fluent.role == Role::State);
 }
 
 // Steps of a cycle: each CPF mentions the next one's fluent, the last the first's.
-void report_cycle(const std::vector<std::size_t>& cpfs, const std::vector<Span>& mentions,
+void report_cycle(const std::vector<model::Cpf>& cpfs, const std::vector<Span>& mentions,
                   Context& context) {
     std::string path = cpf_name(cpfs.front(), context);
     for (std::size_t i = 1; i < cpfs.size(); ++i) path += " -> " + cpf_name(cpfs[i], context);
     path += " -> " + cpf_name(cpfs.front(), context);
-    Diagnostic diagnostic{
-        cyclic_cpfs, context.model.cpfs[cpfs.front()].span,
-        fmt::format("'{}' depends on itself: {}", cpf_name(cpfs.front(), context), path)};
     // The span of the whole CPF would underline its body.
-    diagnostic.span = mentions.back();
+    Diagnostic diagnostic{
+        cyclic_cpfs, mentions.back(),
+        fmt::format("'{}' depends on itself: {}", cpf_name(cpfs.front(), context), path)};
     for (std::size_t i = 0; i < cpfs.size(); ++i)
         diagnostic.notes.push_back(
             {mentions[i], fmt::format("'{}' needs '{}'", cpf_name(cpfs[i], context),
                                       cpf_name(cpfs[(i + 1) % cpfs.size()], context))});
-    const bool has_arguments = std::ranges::any_of(cpfs, [&](std::size_t cpf) {
-        return !context.fluent(context.model.cpfs[cpf].fluent).parameters.empty();
+    const bool has_arguments = std::ranges::any_of(cpfs, [&](const model::Cpf& cpf) {
+        return !context.fluent(cpf.fluent).parameters.empty();
     });
     if (has_arguments)
         diagnostic.hint = "dependencies are between fluents, whatever their arguments";
@@ -165,7 +198,8 @@ void report_cycle(const std::vector<std::size_t>& cpfs, const std::vector<Span>&
 }
 
 // Walks along dependencies without a level until a CPF comes again: that is a cycle.
-void report_cycles(const Graph& graph, const std::vector<int>& levels, Context& context) {
+void report_cycles(const std::vector<model::Cpf>& cpfs, const Graph& graph,
+                   const std::vector<int>& levels, Context& context) {
     std::vector<bool> visited(graph.size(), false);
     for (std::size_t start = 0; start < graph.size(); ++start) {
         std::vector<std::size_t> path;
@@ -182,7 +216,9 @@ void report_cycles(const Graph& graph, const std::vector<int>& levels, Context& 
         const auto first = std::ranges::find(path, cpf);
         if (first == path.end()) continue;
         const auto skipped = first - path.begin();
-        report_cycle({first, path.end()}, {mentions.begin() + skipped, mentions.end()}, context);
+        std::vector<model::Cpf> cycle;
+        for (auto step = first; step != path.end(); ++step) cycle.push_back(cpfs[*step]);
+        report_cycle(cycle, {mentions.begin() + skipped, mentions.end()}, context);
     }
 }
 
@@ -194,30 +230,31 @@ void check_dependencies(Definition definition, const std::string& what,
     std::set<std::pair<model::FluentId, bool>> reported;
     for (const FluentUse& use : uses) {
         const model::Fluent& fluent = context.fluent(use.fluent);
-        if (allows(rule, fluent.role, use.next)) continue;
+        if (allows(rule, use, context.model)) continue;
         if (!reported.insert({use.fluent, use.next}).second) continue;
         context.report(
             diagnose(illegal_dependency, use.span,
                      fmt::format("{} may not depend on '{}', {}", what,
                                  written_name(fluent, use.next), role_of(fluent, use.next)))
                 .note(fluent.span, "declared here")
-                .with_hint(hint_for(rule, fluent, use.next)));
+                .with_hint(hint_for(rule, use, context.model)));
     }
 }
 
-void order_cpfs(const std::vector<CpfUses>& uses, Context& context) {
-    const Graph graph = build_graph(uses, context);
+void order_cpfs(std::vector<model::Cpf>& cpfs, const std::vector<CpfUses>& uses, Context& context) {
+    const Graph graph = build_graph(cpfs, uses, context);
     const std::vector<int> levels = levels_of(graph);
-    report_cycles(graph, levels, context);
+    report_cycles(cpfs, graph, levels, context);
 
     std::vector<std::size_t> order(graph.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::sort(
-        order, {}, [&](std::size_t cpf) { return std::pair(levels[cpf], cpf_name(cpf, context)); });
+    std::ranges::sort(order, {}, [&](std::size_t cpf) {
+        return std::pair(levels[cpf], cpf_name(cpfs[cpf], context));
+    });
     std::vector<model::Cpf> sorted;
     sorted.reserve(order.size());
-    for (const std::size_t cpf : order) sorted.push_back(std::move(context.model.cpfs[cpf]));
-    context.model.cpfs = std::move(sorted);
+    for (const std::size_t cpf : order) sorted.push_back(std::move(cpfs[cpf]));
+    cpfs = std::move(sorted);
 }
 
 }  // namespace rddlc::checking

@@ -8,6 +8,8 @@
 namespace rddlc::checking {
 namespace {
 
+enum class Block { Domain, Policy };
+
 // Values are held in dense tables; more than this is a mistake in the instance.
 constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
 
@@ -43,7 +45,21 @@ void check_name(const ast::PVariable& declaration, Context& context) {
                            .with_hint("'__' and '___' separate the parts of grounded names"));
 }
 
-std::optional<Role> resolve_role(const ast::PVariable& declaration, Context& context) {
+// A param-fluent is a non-fluent that is meant to be varied.
+std::optional<Role> resolve_policy_role(const ast::PVariable& declaration, Context& context) {
+    const std::string& kind = declaration.kind.text;
+    if (kind == "param-fluent") return Role::NonFluent;
+    const std::optional<Role> role = role_named(kind);
+    if (role == Role::NonFluent || role == Role::Derived || role == Role::State) return role;
+    context.report(diagnose(bad_policy, declaration.kind.span,
+                            fmt::format("a policy cannot declare {}s", kind))
+                       .with_hint("it declares non-fluents, param-fluents, derived-fluents and "
+                                  "state-fluents"));
+    return std::nullopt;
+}
+
+std::optional<Role> resolve_role(const ast::PVariable& declaration, Block block, Context& context) {
+    if (block == Block::Policy) return resolve_policy_role(declaration, context);
     const std::optional<Role> role = role_named(declaration.kind.text);
     if (!role)
         context.report({illegal_declaration, declaration.kind.span,
@@ -88,11 +104,20 @@ void check_range_of_role(const ast::PVariable& declaration, const model::Fluent&
                 .with_hint("give its values in the instance"));
 }
 
-void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, Context& context) {
-    if (!declaration.default_value || !has_initial_values(fluent.role)) return;
+// A policy is given no values by the instance, so its defaults may be objects of the instance.
+void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, Block block,
+                     Context& context) {
+    if (!has_initial_values(fluent.role)) return;
+    if (!declaration.default_value) {
+        if (block == Block::Policy)
+            context.report(diagnose(bad_policy, declaration.name.span,
+                                    fmt::format("'{}' needs a default", fluent.name))
+                               .with_hint("the instance gives no values to a policy"));
+        return;
+    }
     // After an error any value will do: what matters is that there is a default.
     fluent.default_value = model::Value{false};
-    if (has_object_range(fluent, context)) return;
+    if (block == Block::Domain && has_object_range(fluent, context)) return;
     const std::optional<model::Value> value =
         value_of(*declaration.default_value, fluent, bad_default, context);
     if (value) fluent.default_value = *value;
@@ -119,31 +144,35 @@ bool check_grounding_count(const model::Fluent& fluent, Context& context) {
     return true;
 }
 
-void declare_fluent(const ast::PVariable& declaration, Context& context) {
+void report_repeated(const ast::PVariable& declaration, model::FluentId first, Context& context) {
+    const std::string_view what = context.model.policy && !context.model.is_of_policy(first)
+                                      ? "is declared in the domain already"
+                                      : "is declared twice";
+    context.report(diagnose(repeated_fluent, declaration.name.span,
+                            fmt::format("'{}' {}", declaration.name.text, what))
+                       .note(context.fluent(first).span, "first declared here"));
+}
+
+void declare_fluent(const ast::PVariable& declaration, Block block, Context& context) {
     check_name(declaration, context);
     const std::string& name = declaration.name.text;
     const auto id = static_cast<model::FluentId>(context.model.fluents.size());
     const auto [entry, is_new] = context.names.fluents.try_emplace(name, id);
-    if (!is_new) {
-        context.report(diagnose(repeated_fluent, declaration.name.span,
-                                fmt::format("'{}' is declared twice", name))
-                           .note(context.fluent(entry->second).span, "first declared here"));
-        return;
-    }
+    if (!is_new) return report_repeated(declaration, entry->second, context);
     model::Fluent fluent{name, Role::NonFluent,       {}, model::bool_type,
                          {},   declaration.name.span, {}};
-    const std::optional<Role> role = resolve_role(declaration, context);
+    const std::optional<Role> role = resolve_role(declaration, block, context);
     const std::optional<model::ValueType> range = resolve_range(declaration.range, context);
     bool sound = resolve_parameters(declaration, fluent, context);
     fluent.role = role.value_or(Role::NonFluent);
     fluent.range = range.value_or(model::bool_type);
     if (role && range) {
-        check_range_of_role(declaration, fluent, context);
-        resolve_default(declaration, fluent, context);
+        if (block == Block::Domain) check_range_of_role(declaration, fluent, context);
+        resolve_default(declaration, fluent, block, context);
     }
     sound = sound && check_grounding_count(fluent, context);
     if (!role || !range || !sound) context.names.broken_fluents.insert(id);
-    if (role == Role::Derived)
+    if (role == Role::Derived && block == Block::Domain)
         context.report(
             diagnose(derived_is_interm, declaration.kind.span,
                      fmt::format("derived-fluent '{}' is treated as an interm-fluent", name))
@@ -155,7 +184,19 @@ void declare_fluent(const ast::PVariable& declaration, Context& context) {
 
 void declare_fluents(const Blocks& blocks, Context& context) {
     for (const ast::PVariable& declaration : blocks.pvariables->declarations)
-        declare_fluent(declaration, context);
+        declare_fluent(declaration, Block::Domain, context);
+}
+
+void declare_policy_fluents(const Blocks& blocks, Context& context) {
+    if (!blocks.policy_pvariables) return;
+    for (const ast::PVariable& declaration : blocks.policy_pvariables->declarations)
+        declare_fluent(declaration, Block::Policy, context);
+    for (model::FluentId id = context.model.policy->first_fluent; id < context.model.fluents.size();
+         ++id) {
+        model::Fluent& fluent = context.model.fluents[id];
+        if (has_initial_values(fluent.role) && !context.names.broken_fluents.contains(id))
+            fill_with_default(fluent, context);
+    }
 }
 
 void warn_of_unused_fluents(Context& context) {

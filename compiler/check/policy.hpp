@@ -1,4 +1,4 @@
-// Policy blocks: read, checked for names, not executed.
+// Policy blocks: how the agent chooses its actions (docs/policies.md).
 #pragma once
 
 #include "check/blocks.hpp"
@@ -6,7 +6,8 @@
 
 namespace rddlc::checking {
 
-// Declarations, CPFs of all action-fluents, and that every fluent mentioned exists.
+// Model::policy and its fluents. After all expressions of the domain have been checked, which must
+// not see what the policy declares.
 void check_policy(const Blocks& blocks, Context& context);
 
 }  // namespace rddlc::checking

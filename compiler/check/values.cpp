@@ -296,12 +296,16 @@ void fill_with_defaults(Context& context) {
         const bool has_values = fluent.role == Role::NonFluent || fluent.role == Role::State ||
                                 fluent.role == Role::Action;
         if (!has_values || context.names.broken_fluents.contains(id)) continue;
-        fluent.values.assign(static_cast<std::size_t>(context.model.grounding_count(fluent)),
-                             fluent.default_value.value_or(zero_of(fluent.range.kind)));
+        fill_with_default(fluent, context);
     }
 }
 
 }  // namespace
+
+void fill_with_default(model::Fluent& fluent, Context& context) {
+    fluent.values.assign(static_cast<std::size_t>(context.model.grounding_count(fluent)),
+                         fluent.default_value.value_or(zero_of(fluent.range.kind)));
+}
 
 void assign_values(const Blocks& blocks, Context& context) {
     fill_with_defaults(context);

@@ -90,6 +90,7 @@ class Describer {
         conditions("terminations", program.terminations);
         default_action();
         problem();
+        policy();
         sites();
         return with_joined_regions(std::move(text_));
     }
@@ -127,6 +128,7 @@ class Describer {
         std::set<FileId> used;
         for (const ir::Fluent& fluent : unit_.program.fluents) used.insert(fluent.span.file);
         for (const ir::Site& site : unit_.program.sites) used.insert(site.span.file);
+        if (unit_.program.policy) used.insert(unit_.program.policy->span.file);
         for (const auto* conditions : {&unit_.program.preconditions, &unit_.program.invariants,
                                        &unit_.program.terminations}) {
             for (const ir::Computation& condition : *conditions) used.insert(condition.span.file);
@@ -291,6 +293,17 @@ class Describer {
         add(text + "};\n");
     }
 
+    void policy() {
+        const std::optional<ir::Policy>& policy = unit_.program.policy;
+        if (!policy) return;
+        add("inline constexpr rddl_policy policy = {\n"
+            "    .name = " +
+            literal(std::string_view(policy->name)) + ",\n    .source = " + source(policy->span) +
+            ",\n    .memory_size = " + size_of(ir::Storage::Memory, "PolicyMemory") +
+            ",\n    .stochastic = " + (ir::is_policy_stochastic(unit_.program) ? "1" : "0") +
+            ",\n};\n");
+    }
+
     // The table of the variables that are in scope at a site.
     std::string scope_table(const ir::Site& site) {
         if (site.scope.empty()) return "{}";
@@ -335,8 +348,16 @@ std::string about(const Unit& unit) {
     return Describer(unit).describe();
 }
 
-std::string sites_argument(const Unit& unit) {
-    return unit.program.sites.empty() ? "{}" : "about::sites";
+std::string table_definition(const Unit& unit) {
+    std::vector<std::string> arguments = {"about::problem", "about::sites", "Engine()"};
+    if (unit.program.sites.empty()) arguments[1] = "{}";
+    if (unit.program.policy) arguments.push_back("&about::policy");
+    std::string text;
+    for (const std::string& line : fill_call("static const rddl::SimulatorTable<Engine> table(",
+                                             arguments, ");", indentation)) {
+        text += std::string(indentation, ' ') + line + "\n";
+    }
+    return text;
 }
 
 }  // namespace rddlc::cpp

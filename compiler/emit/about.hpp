@@ -9,7 +9,7 @@ namespace rddlc::cpp {
 
 std::string about(const Unit& unit);
 
-// The table of sites as an argument; it may be empty.
-std::string sites_argument(const Unit& unit);
+// The variable `table`, made of description, sites, engine and policy; indented by one level.
+std::string table_definition(const Unit& unit);
 
 }  // namespace rddlc::cpp

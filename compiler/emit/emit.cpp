@@ -52,9 +52,12 @@ std::string simulator(const Unit& unit) {
                        {"reward", cpp::reward_function(unit)},
                        {"conditions", cpp::condition_functions(unit)},
                        {"cpfs", step.cpfs},
+                       {"policy", cpp::policy(unit)},
                        {"asserts", cpp::asserts(unit)},
                        {"about", cpp::about(unit)},
-                       {"sites", cpp::sites_argument(unit)}});
+                       {"engine", unit.program.policy ? "rddl::Compiled<Simulator, Policy>"
+                                                      : "rddl::Compiled<Simulator>"},
+                       {"table", cpp::table_definition(unit)}});
 }
 
 std::string file(const Unit& unit) {

@@ -214,6 +214,12 @@ std::string Expressions::record(ir::BufferId id) {
         case ir::Storage::Observation:
             uses_.observation = true;
             return "observation." + name;
+        case ir::Storage::Memory:
+            uses_.memory = true;
+            return "memory." + name;
+        case ir::Storage::NextMemory:
+            uses_.next_memory = true;
+            return "next_memory." + name;
     }
     return name;
 }
@@ -225,6 +231,8 @@ std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeI
     uses_.stores_scratch |= storage == ir::Storage::Scratch;
     uses_.stores_next |= storage == ir::Storage::Next;
     uses_.stores_observation |= storage == ir::Storage::Observation;
+    uses_.stores_action |= storage == ir::Storage::Action;
+    uses_.stores_next_memory |= storage == ir::Storage::NextMemory;
     return text;
 }
 

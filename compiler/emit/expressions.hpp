@@ -34,7 +34,9 @@ struct Spelled {
 // The parameters and the type aliases that a function turns out to need.
 struct Uses {
     bool state = false, action = false, scratch = false, next = false, observation = false;
+    bool memory = false, next_memory = false;
     bool stores_scratch = false, stores_next = false, stores_observation = false;
+    bool stores_action = false, stores_next_memory = false;
     bool context = false;
     bool bool_type = false, int_type = false, real_type = false;
 };

@@ -5,6 +5,8 @@
 #include "emit/line_directives.hpp"
 #include "emit/literals.hpp"
 #include "emit/tables.hpp"
+#include "emit/templates.hpp"
+#include "support/template_slots.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +15,7 @@
 namespace rddlc::cpp {
 namespace {
 
-constexpr int level = 1;  // of the members of Simulator
+constexpr int level = 1;  // of the members of Simulator and Policy
 
 std::string indented(const std::string& text, int levels) {
     return std::string(static_cast<std::size_t>(levels * indentation), ' ') + text + "\n";
@@ -47,6 +49,19 @@ std::vector<Parameter> record_parameters(const Uses& uses) {
         record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
         record_parameter("State", "next", uses.next, uses.stores_next),
         record_parameter("Observation", "observation", uses.observation, uses.stores_observation),
+        context_parameter(uses)};
+}
+
+// Those of a function of the policy, which sees the observation if there is one, else the state.
+std::vector<Parameter> policy_parameters(const Unit& unit, const Uses& uses) {
+    return {
+        unit.program.partially_observed()
+            ? record_parameter("Observation", "observation", uses.observation, false)
+            : record_parameter("State", "state", uses.state, false),
+        record_parameter("PolicyMemory", "memory", uses.memory, false),
+        record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
+        record_parameter("Action", "action", uses.action, uses.stores_action),
+        record_parameter("PolicyMemory", "next_memory", uses.next_memory, uses.stores_next_memory),
         context_parameter(uses)};
 }
 
@@ -119,11 +134,17 @@ std::string lifted_head(const Unit& unit, const ir::Definition& definition) {
     return head;
 }
 
-std::string cpf_comment(const Unit& unit, const ir::Definition& definition) {
+// Which definitions: the step's or the policy's.
+enum class Owner { Simulator, Policy };
+
+std::string cpf_comment(const Unit& unit, const ir::Definition& definition, Owner owner) {
     const std::string place = unit.where(definition.span);
-    const ir::Buffer& target = unit.program[definition.target];
-    if (target.fluent) return comment(lifted_head(unit, definition), place);
-    return comment("A table for " + lifted_head(unit, definition), place);
+    const bool is_cpf = unit.program[definition.target].fluent || owner == Owner::Policy;
+    return comment((is_cpf ? "" : "A table for ") + lifted_head(unit, definition), place);
+}
+
+std::vector<Parameter> parameters_of(const Unit& unit, const Uses& uses, Owner owner) {
+    return owner == Owner::Policy ? policy_parameters(unit, uses) : record_parameters(uses);
 }
 
 void unite(Uses& all, const Uses& some) {
@@ -132,7 +153,47 @@ void unite(Uses& all, const Uses& some) {
     all.scratch |= some.scratch;
     all.next |= some.next;
     all.observation |= some.observation;
+    all.memory |= some.memory;
+    all.next_memory |= some.next_memory;
     all.context |= some.context;
+}
+
+// A record by the name that the runtime looks for.
+std::string alias(const Unit& unit, const std::string& name, const std::string& record) {
+    const std::string head = "using " + name + " =";
+    const std::string target = unit.names.space + "::" + record + "<L>;";
+    const bool fits = level * indentation + head.size() + 1 + target.size() <= line_width;
+    return indented("template <class L>", level) +
+           (fits ? indented(head + " " + target, level)
+                 : indented(head, level) + indented(target, level + 1));
+}
+
+// A function for each definition, and the lines that call them.
+struct CpfFunctions {
+    std::string calls;
+    std::string functions;
+    Uses uses;  // of all together
+};
+
+CpfFunctions cpf_functions(const Unit& unit, const std::vector<ir::Definition>& definitions,
+                           const std::vector<std::string>& names, Owner owner) {
+    CpfFunctions result;
+    for (std::size_t k = 0; k < definitions.size(); ++k) {
+        const ir::Definition& definition = definitions[k];
+        FunctionBody body(unit, level + 1);
+        body.block(definition.body);
+        const Uses& uses = body.uses();
+        unite(result.uses, uses);
+        const std::vector<Parameter> parameters = only_used(parameters_of(unit, uses, owner));
+        for (const std::string& line :
+             fill_call(names[k] + "(", {arguments(parameters)}, ");", level * indentation)) {
+            result.calls += indented(line, level + 1);
+        }
+        result.functions +=
+            (k > 0 ? "\n" : "") + cpf_comment(unit, definition, owner) +
+            function("void", names[k], parameters, body_text(unit, body, definition.span));
+    }
+    return result;
 }
 
 std::string count_constant(const std::string& word, std::size_t count) {
@@ -214,14 +275,8 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
 
 std::string record_aliases(const Unit& unit) {
     std::string text;
-    for (const std::string record : {"State", "Action", "Scratch", "Observation"}) {
-        const std::string head = "using " + record + " =";
-        const std::string target = unit.names.space + "::" + record + "<L>;";
-        const bool fits = level * indentation + head.size() + 1 + target.size() <= line_width;
-        text += indented("template <class L>", level);
-        text += fits ? indented(head + " " + target, level)
-                     : indented(head, level) + indented(target, level + 1);
-    }
+    for (const std::string record : {"State", "Action", "Scratch", "Observation"})
+        text += alias(unit, record, record);
     return text;
 }
 
@@ -260,27 +315,29 @@ std::string condition_functions(const Unit& unit) {
 }
 
 StepFunctions step_functions(const Unit& unit) {
-    Uses all;
-    StepFunctions result;
-    std::string calls;
-    for (std::size_t k = 0; k < unit.program.step.size(); ++k) {
-        const ir::Definition& definition = unit.program.step[k];
-        FunctionBody body(unit, level + 1);
-        body.block(definition.body);
-        const Uses& uses = body.uses();
-        unite(all, uses);
-        const std::string& name = unit.names.functions[k];
-        const std::vector<Parameter> parameters = only_used(record_parameters(uses));
-        for (const std::string& line :
-             fill_call(name + "(", {arguments(parameters)}, ");", level * indentation)) {
-            calls += indented(line, level + 1);
-        }
-        result.cpfs += (k > 0 ? "\n" : "") + cpf_comment(unit, definition) +
-                       function("void", name, parameters, body_text(unit, body, definition.span));
-    }
-    all.stores_scratch = all.stores_next = all.stores_observation = true;
-    result.step = function("void", "step", record_parameters(all), calls);
-    return result;
+    CpfFunctions cpfs =
+        cpf_functions(unit, unit.program.step, unit.names.functions, Owner::Simulator);
+    Uses& uses = cpfs.uses;
+    uses.stores_scratch = uses.stores_next = uses.stores_observation = true;
+    return {function("void", "step", record_parameters(uses), cpfs.calls), cpfs.functions};
+}
+
+std::string policy(const Unit& unit) {
+    if (!unit.program.policy) return "";
+    CpfFunctions cpfs =
+        cpf_functions(unit, unit.program.policy->act, unit.names.policy_functions, Owner::Policy);
+    Uses& uses = cpfs.uses;
+    uses.stores_scratch = uses.stores_action = uses.stores_next_memory = true;
+    const std::string initial = assignments(unit, ir::Storage::Memory, "memory", level + 1);
+    const std::vector<Parameter> memory = {
+        record_parameter("PolicyMemory", "memory", !initial.empty(), true)};
+    return fill_slots(templates::policy,
+                      {{"name", comment_text(unit.program.policy->name)},
+                       {"place", unit.where(unit.program.policy->span)},
+                       {"alias", alias(unit, "Memory", "PolicyMemory")},
+                       {"reset", function("void", "reset", memory, initial)},
+                       {"act", function("void", "act", policy_parameters(unit, uses), cpfs.calls)},
+                       {"cpfs", cpfs.functions}});
 }
 
 }  // namespace rddlc::cpp

@@ -1,4 +1,4 @@
-// The functions of the struct Simulator, indented by one level.
+// The functions of the structs Simulator and Policy, indented by one level.
 #pragma once
 
 #include "emit/unit.hpp"
@@ -21,6 +21,9 @@ struct StepFunctions {
     std::string cpfs;
 };
 StepFunctions step_functions(const Unit& unit);
+
+// The struct Policy; nothing if there is none.
+std::string policy(const Unit& unit);
 
 // The assignments that fill a record with the initial or default values of its buffers.
 std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,

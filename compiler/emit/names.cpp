@@ -14,15 +14,21 @@ const std::vector<std::string> file_words = {
     "State", "Action", "Scratch", "Observation", "Simulator",   "Bool",    "Int",  "Real",
     "state", "action", "scratch", "next",        "observation", "context", "about"};
 
+const std::vector<std::string> policy_file_words = {"Policy", "PolicyMemory", "memory",
+                                                    "next_memory"};
+
+// The members of Policy.
+const std::vector<std::string> policy_words = {"Memory", "reset", "act"};
+
 // The members of Simulator.
 const std::vector<std::string> simulator_words = {
     "reset",     "step",         "reward",          "termination",        "termination_count",
     "invariant", "precondition", "invariant_count", "precondition_count", "partially_observed"};
 
-// Each record has a region of its own, except that Next is State again.
+// Each record has a region of its own, except that Next is State again, and NextMemory Memory.
 struct RecordScopes {
     explicit RecordScopes(const Scope& file)
-        : state(&file), action(&file), scratch(&file), observation(&file) {}
+        : state(&file), action(&file), scratch(&file), observation(&file), memory(&file) {}
 
     Scope& of(Storage storage) {
         switch (storage) {
@@ -32,18 +38,25 @@ struct RecordScopes {
                 return scratch;
             case Storage::Observation:
                 return observation;
+            case Storage::Memory:
+                return memory;
             default:
                 return state;
         }
     }
 
-    Scope state, action, scratch, observation;
+    Scope state, action, scratch, observation, memory;
 };
 
-// A next value is the member of State that it will become.
-std::size_t state_of(const ir::Program& program, const ir::Buffer& next) {
+bool is_next(const ir::Buffer& buffer) {
+    return buffer.storage == Storage::Next || buffer.storage == Storage::NextMemory;
+}
+
+// A next value is the member of State or Memory that it will become.
+std::size_t current_of(const ir::Program& program, const ir::Buffer& next) {
+    const Storage current = next.storage == Storage::Next ? Storage::State : Storage::Memory;
     const auto found = std::ranges::find_if(program.buffers, [&](const ir::Buffer& buffer) {
-        return buffer.storage == Storage::State && buffer.name == next.name;
+        return buffer.storage == current && buffer.name == next.name;
     });
     return static_cast<std::size_t>(found - program.buffers.begin());
 }
@@ -52,12 +65,12 @@ void name_members(const ir::Program& program, const Scope& file, std::vector<std
     RecordScopes records(file);
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
-        if (buffer.storage == Storage::Constant || buffer.storage == Storage::Next) continue;
+        if (buffer.storage == Storage::Constant || is_next(buffer)) continue;
         names[index] = records.of(buffer.storage).claim(buffer.name);
     }
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
-        if (buffer.storage == Storage::Next) names[index] = names[state_of(program, buffer)];
+        if (is_next(buffer)) names[index] = names[current_of(program, buffer)];
     }
 }
 
@@ -68,7 +81,10 @@ Names names_of(const ir::Program& program) {
     const std::string problem = program.domain_name + "_" + program.instance_name;
     names.space = identifier(problem);
     names.entry = "rddl_simulator_" + names.space;
-    names.file = Scope(nullptr, file_words);
+    std::vector<std::string> words = file_words;
+    if (program.policy)
+        words.insert(words.end(), policy_file_words.begin(), policy_file_words.end());
+    names.file = Scope(nullptr, words);
 
     for (const ir::ObjectType& type : program.types) {
         names.counts.push_back(names.file.claim(type.name + "_count"));
@@ -93,6 +109,12 @@ Names names_of(const ir::Program& program) {
     Scope simulator(&names.file, simulator_words);
     for (const ir::Definition& definition : program.step) {
         names.functions.push_back(simulator.claim(program[definition.target].name));
+    }
+    if (program.policy) {
+        Scope policy(&names.file, policy_words);
+        for (const ir::Definition& definition : program.policy->act) {
+            names.policy_functions.push_back(policy.claim(program[definition.target].name));
+        }
     }
     const auto claim_all = [&](std::size_t count, const std::string& word) {
         std::vector<std::string> claimed;

@@ -16,6 +16,7 @@ struct Names {
     std::vector<std::string> buffers;    // by BufferId: a table, or a member of a record
     std::vector<std::string> initial;    // by BufferId: the table of its first values, or empty
     std::vector<std::string> functions;  // by index into Program::step: what fills its buffer
+    std::vector<std::string> policy_functions;                         // by index into Policy::act
     std::vector<std::string> preconditions, invariants, terminations;  // one function each
     Scope file;  // what local names must differ from
 };

@@ -120,6 +120,12 @@ std::string record(const Unit& unit, const std::string& name, ir::Storage storag
     return head + (members.empty() ? "" : "\n" + with_comments(members)) + "};\n";
 }
 
+std::string policy_record(const Unit& unit) {
+    if (!unit.program.policy) return "";
+    return "\n// What the policy remembers from one decision to the next.\n" +
+           record(unit, "PolicyMemory", ir::Storage::Memory);
+}
+
 // "north, lake, ...", cut to the width.
 std::string object_list(const ir::ObjectType& type, std::size_t width) {
     std::string text;
@@ -289,14 +295,16 @@ std::string records(const Unit& unit) {
                                   record(unit, "Action", ir::Storage::Action) + "\n" +
                                   "// What the CPFs tell each other within a step.\n" +
                                   record(unit, "Scratch", ir::Storage::Scratch) + "\n" +
-                                  record(unit, "Observation", ir::Storage::Observation));
+                                  record(unit, "Observation", ir::Storage::Observation) +
+                                  policy_record(unit));
 }
 
 // That the records are laid out as the interpreter's are; Compiled checks that copies are trivial.
 std::string asserts(const Unit& unit) {
     return size_assert(unit, "State", ir::Storage::State) +
            size_assert(unit, "Action", ir::Storage::Action) +
-           size_assert(unit, "Observation", ir::Storage::Observation);
+           size_assert(unit, "Observation", ir::Storage::Observation) +
+           size_assert(unit, "PolicyMemory", ir::Storage::Memory);
 }
 
 }  // namespace rddlc::cpp

@@ -8,5 +8,6 @@ namespace rddlc::cpp::templates {
 extern const std::string_view source;     // a .cpp: the simulator and the exported C function
 extern const std::string_view header;     // a .hpp: the simulator alone
 extern const std::string_view simulator;  // what both contain
+extern const std::string_view policy;     // the struct Policy, where there is a policy block
 
 }  // namespace rddlc::cpp::templates

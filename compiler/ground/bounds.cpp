@@ -241,7 +241,7 @@ class Narrowing {
 };
 
 void start_unbounded(const model::Model& model, ir::Program& program) {
-    for (std::size_t id = 0; id < model.fluents.size(); ++id) {
+    for (std::size_t id = 0; id < program.fluents.size(); ++id) {
         const model::Fluent& fluent = model.fluents[id];
         const bool may_be_bounded = fluent.role == Role::State || fluent.role == Role::Action;
         if (!may_be_bounded || !is_numeric(fluent)) continue;

@@ -5,6 +5,11 @@
 namespace rddlc::grounding {
 namespace {
 
+ir::Storage policy_storage_of(Role role) {
+    if (role == Role::State) return ir::Storage::Memory;
+    return role == Role::NonFluent ? ir::Storage::Constant : ir::Storage::Scratch;
+}
+
 ir::Storage storage_of(Role role) {
     switch (role) {
         case Role::NonFluent:
@@ -33,14 +38,16 @@ ir::BufferId add_buffer(ir::Program& program, ir::Buffer buffer) {
 
 ir::Buffer buffer_of(const model::Model& model, model::FluentId id) {
     const model::Fluent& fluent = model.fluents[id];
-    ir::Buffer buffer{.name = fluent.name,
-                      .storage = storage_of(fluent.role),
-                      .scalar = scalar_of(fluent.range),
-                      .shape = {},
-                      .types = fluent.parameters,
-                      .fluent = id,
-                      .values = fluent.values,
-                      .span = fluent.span};
+    const bool of_policy = model.is_of_policy(id);
+    ir::Buffer buffer{
+        .name = fluent.name,
+        .storage = of_policy ? policy_storage_of(fluent.role) : storage_of(fluent.role),
+        .scalar = scalar_of(fluent.range),
+        .shape = {},
+        .types = fluent.parameters,
+        .fluent = of_policy ? std::nullopt : std::optional(id),
+        .values = fluent.values,
+        .span = fluent.span};
     for (model::TypeId type : fluent.parameters) {
         buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
     }
@@ -48,7 +55,8 @@ ir::Buffer buffer_of(const model::Model& model, model::FluentId id) {
 }
 
 ir::Buffer next_of(ir::Buffer state) {
-    state.storage = ir::Storage::Next;
+    state.storage =
+        state.storage == ir::Storage::Memory ? ir::Storage::NextMemory : ir::Storage::Next;
     state.values.clear();
     return state;
 }
@@ -99,7 +107,8 @@ Declarations declare(const model::Model& model) {
         if (fluent.role == Role::State) {
             buffers.next = add_buffer(program, next_of(buffer_of(model, id)));
         }
-        program.fluents.push_back(description_of(fluent, buffers.current));
+        if (!model.is_of_policy(id))
+            program.fluents.push_back(description_of(fluent, buffers.current));
         result.buffers.push_back(buffers);
     }
     return result;

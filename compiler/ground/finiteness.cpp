@@ -56,14 +56,19 @@ Finiteness::Finiteness(const model::Model& model) : model_(model) {
     for (const model::Fluent& fluent : model.fluents) {
         fluent_is_finite_.push_back(has_finite_values(fluent));
     }
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (const model::Cpf& cpf : model.cpfs) {
-            if (!fluent_is_finite_[cpf.fluent] || is_finite(cpf.body)) continue;
-            fluent_is_finite_[cpf.fluent] = false;
-            changed = true;
-        }
+    while (find_non_finite(model.cpfs) || (model.policy && find_non_finite(model.policy->cpfs))) {
     }
+}
+
+bool Finiteness::find_non_finite(const std::vector<model::Cpf>& cpfs) {
+    bool found = false;
+    for (const model::Cpf& cpf : cpfs) {
+        const bool is_action = model_.fluents[cpf.fluent].role == Role::Action;
+        if (is_action || !fluent_is_finite_[cpf.fluent] || is_finite(cpf.body)) continue;
+        fluent_is_finite_[cpf.fluent] = false;
+        found = true;
+    }
+    return found;
 }
 
 bool Finiteness::is_finite(const model::Expr& expr) const {

@@ -18,6 +18,8 @@ class Finiteness {
     bool is_finite(const model::Expr& expr) const;
 
   private:
+    // Marks fluents whose CPF may make them inf or nan; false if there are no more.
+    bool find_non_finite(const std::vector<model::Cpf>& cpfs);
     bool is_finite(const model::Apply& form) const;
     bool is_finite(const model::Aggregate& form) const;
     bool is_never_zero(const model::Expr& expr) const;

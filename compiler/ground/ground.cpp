@@ -22,6 +22,12 @@ std::vector<ir::Computation> lower_all(const std::vector<model::Expr>& condition
     return lowered;
 }
 
+ir::Policy policy_of(const model::Policy& policy, grounding::Lowering& lowering) {
+    ir::Policy lowered{policy.name, {}, policy.span};
+    for (const model::Cpf& cpf : policy.cpfs) lowered.act.push_back(lowering.definition_of(cpf));
+    return lowered;
+}
+
 // Conditions have their tables on the stack.
 constexpr std::size_t most_condition_bytes = 1 << 20;
 
@@ -55,6 +61,8 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         program.preconditions = lower_all(model.action_preconditions, lowering);
         program.invariants = lower_all(model.state_invariants, lowering);
         program.terminations = lower_all(model.terminations, lowering);
+        // At the end, so that neither sites nor nodes of the simulator change with the policy.
+        if (model.policy) program.policy = policy_of(*model.policy, lowering);
     }
     report_large_conditions(program, diagnostics);
     grounding::find_bounds(model, declarations.buffers, program, diagnostics);

@@ -193,6 +193,28 @@ void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
     roots.push_back(computation.value);
 }
 
+// Program and Definition both const, or neither.
+template <class AnyDefinition, class AnyProgram>
+std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
+    std::vector<AnyDefinition*> definitions;
+    for (auto& definition : program.step) definitions.push_back(&definition);
+    if (program.policy)
+        for (auto& definition : program.policy->act) definitions.push_back(&definition);
+    return definitions;
+}
+
+bool draws(const Block& block, const std::vector<Facts>& facts) {
+    bool draws =
+        std::ranges::any_of(roots_of(block), [&](NodeId root) { return facts[root.index].random; });
+    for_each_statement<Call>(block, [&](const Call& call) { draws |= call.place.has_value(); });
+    return draws;
+}
+
+bool draws(const std::vector<Definition>& definitions, const std::vector<Facts>& facts) {
+    return std::ranges::any_of(
+        definitions, [&](const Definition& definition) { return draws(definition.body, facts); });
+}
+
 }  // namespace
 
 Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known) {
@@ -232,9 +254,17 @@ std::vector<NodeId> operands_of(const Node& node) {
         [](const Fault& fault) { return std::vector{fault.place.index}; });
 }
 
+std::vector<const Definition*> definitions_of(const Program& program) {
+    return definitions_in<const Definition>(program);
+}
+std::vector<Definition*> definitions_of(Program& program) {
+    return definitions_in<Definition>(program);
+}
+
 std::vector<const Block*> blocks_of(const Program& program) {
     std::vector<const Block*> blocks;
-    for (const Definition& definition : program.step) blocks.push_back(&definition.body);
+    for (const Definition* definition : definitions_of(program))
+        blocks.push_back(&definition->body);
     blocks.push_back(&program.reward.body);
     for (const auto* conditions :
          {&program.preconditions, &program.invariants, &program.terminations}) {
@@ -292,7 +322,8 @@ std::vector<NodeId> roots_of(const Computation& computation) {
 
 std::vector<NodeId> roots_of(const Program& program) {
     std::vector<NodeId> roots;
-    for (const Definition& definition : program.step) append_roots(definition.body, roots);
+    for (const Definition* definition : definitions_of(program))
+        append_roots(definition->body, roots);
     append_roots(program.reward, roots);
     for (const Computation& condition : program.preconditions) append_roots(condition, roots);
     for (const Computation& condition : program.invariants) append_roots(condition, roots);
@@ -311,20 +342,18 @@ std::vector<bool> reachable_nodes(const Program& program) {
 }
 
 bool is_stochastic(const Program& program) {
-    const std::vector<bool> reachable = reachable_nodes(program);
-    for (std::size_t index = 0; index < reachable.size(); ++index) {
-        const Node& node = program.nodes[index];
-        const bool draws = std::holds_alternative<Sample>(node.form) ||
-                           std::holds_alternative<Discrete>(node.form) ||
-                           std::holds_alternative<DiscreteOver>(node.form);
-        if (reachable[index] && draws) return true;
-    }
-    bool draws_vector = false;
-    for (const Block* block : blocks_of(program)) {
-        for_each_statement<Call>(*block,
-                                 [&](const Call& call) { draws_vector |= call.place.has_value(); });
-    }
-    return draws_vector;
+    const std::vector<Facts> facts = all_facts(program);
+    const auto is_random = [&](const Computation& computation) {
+        return draws(computation.body, facts) || facts[computation.value.index].random;
+    };
+    return draws(program.step, facts) || is_random(program.reward) ||
+           std::ranges::any_of(program.preconditions, is_random) ||
+           std::ranges::any_of(program.invariants, is_random) ||
+           std::ranges::any_of(program.terminations, is_random);
+}
+
+bool is_policy_stochastic(const Program& program) {
+    return program.policy && draws(program.policy->act, all_facts(program));
 }
 
 }  // namespace rddlc::ir

@@ -44,6 +44,10 @@ std::optional<Place> place_of(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
+// The definitions of the step, then those of the policy.
+std::vector<const Definition*> definitions_of(const Program& program);
+std::vector<Definition*> definitions_of(Program& program);
+
 // The statements of every definition and computation.
 std::vector<const Block*> blocks_of(const Program& program);
 
@@ -67,13 +71,14 @@ std::vector<NodeId> operands_of(const Call& call);
 // Every value and index that the statements evaluate, in order, those of nested loops included.
 std::vector<NodeId> roots_of(const Block& block);
 std::vector<NodeId> roots_of(const Computation& computation);
-// All of the program: the step, the reward and the conditions.
+// All of the program: the step, the reward, the conditions and the policy.
 std::vector<NodeId> roots_of(const Program& program);
 
 // By NodeId::index: is the node part of something that the program evaluates?
 std::vector<bool> reachable_nodes(const Program& program);
 
-// Does anything that the program evaluates draw at random?
+// Does the step, the reward or a condition draw at random? And does the policy?
 bool is_stochastic(const Program& program);
+bool is_policy_stochastic(const Program& program);
 
 }  // namespace rddlc::ir

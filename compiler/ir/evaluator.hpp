@@ -20,7 +20,7 @@ void write_values(const Buffer& buffer, std::byte* to);
 
 // A record for each storage; null where a computation has none.
 struct Records {
-    std::array<std::byte*, 6> begin{};  // by Storage
+    std::array<std::byte*, 8> begin{};  // by Storage
 
     // Of read-only storages too: verify() says that nothing stores to them.
     Records& set(Storage storage, const std::byte* record) {

@@ -30,6 +30,7 @@ Interpreter::Interpreter(Program program, ExternalFunctions functions)
                             ? record_layout(*program_, Storage::Observation).size
                             : state_size_),
       scratch_size_(record_layout(*program_, Storage::Scratch).size),
+      memory_size_(record_layout(*program_, Storage::Memory).size),
       conditions_fill_tables_(do_conditions_fill_tables(*program_)) {}
 
 void Interpreter::reset(std::byte* state) const {
@@ -55,6 +56,21 @@ double Interpreter::step(const std::byte* state, const std::byte* action, std::b
     for (const Definition& definition : program_->step) evaluator_.run(definition.body, frame);
     evaluator_.run(program_->reward.body, frame);
     return evaluator_.value<double>(program_->reward.value, frame);
+}
+
+void Interpreter::reset_policy(std::byte* memory) const {
+    write_initial(Storage::Memory, memory);
+}
+
+void Interpreter::act(const std::byte* observation, const std::byte* memory, std::byte* scratch,
+                      std::byte* action, std::byte* next_memory, Context& context) const {
+    Records records;
+    const Storage seen = program_->partially_observed() ? Storage::Observation : Storage::State;
+    records.set(seen, observation).set(Storage::Memory, memory).set(Storage::Scratch, scratch);
+    records.set(Storage::Action, action).set(Storage::NextMemory, next_memory);
+    Evaluator::Frame frame(evaluator_, records, context);
+    for (const Definition& definition : program_->policy->act)
+        evaluator_.run(definition.body, frame);
 }
 
 // All are evaluated, as in the compiled simulator: one of them may fault.

@@ -40,6 +40,13 @@ class Interpreter {
     int violated_precondition(const std::byte* state, const std::byte* action,
                               Context& context) const;
 
+    // The policy block (rddl/engine.hpp: PolicyEngine), if there is one.
+    bool has_policy() const { return program_->policy.has_value(); }
+    std::size_t memory_size() const { return memory_size_; }
+    void reset_policy(std::byte* memory) const;
+    void act(const std::byte* observation, const std::byte* memory, std::byte* scratch,
+             std::byte* action, std::byte* next_memory, Context& context) const;
+
   private:
     bool holds(const Computation& condition, Records records, Context& context) const;
     int first_violated(const std::vector<Computation>& conditions, Records records,
@@ -48,7 +55,7 @@ class Interpreter {
 
     std::unique_ptr<const Program> program_;
     Evaluator evaluator_;
-    std::size_t state_size_, action_size_, observation_size_, scratch_size_;
+    std::size_t state_size_, action_size_, observation_size_, scratch_size_, memory_size_;
     bool conditions_fill_tables_;
 };
 

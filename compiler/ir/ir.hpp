@@ -48,10 +48,12 @@ struct Variable {
 enum class Storage : std::uint8_t {
     Constant,  // a table fixed by the instance
     State,     // read only, except in `reset`
-    Action,    // read only
-    Scratch,   // interm- and derived-fluents, large temporaries
+    Action,    // read only, except in the policy, which computes it
+    Scratch,   // interm- and derived-fluents, those of the policy too, large temporaries
     Next,      // the next state: one buffer for each State buffer, same name and shape
     Observation,
+    Memory,      // what the policy remembers; read only, except in its reset
+    NextMemory,  // one buffer for each Memory buffer, same name and shape
 };
 
 // Named storage of fixed shape, row-major over the objects of its parameter types.
@@ -61,8 +63,9 @@ struct Buffer {
     Scalar scalar;
     std::vector<std::int64_t> shape;      // empty: one value
     std::vector<std::uint32_t> types;     // one per dimension, index into Program::types
-    std::optional<std::uint32_t> fluent;  // index into Program::fluents
-    std::vector<Value> values;            // Constant: the table; State: initial; Action: defaults
+    std::optional<std::uint32_t> fluent;  // index into Program::fluents; absent: the policy's own
+    // Constant: the table; State, Memory: initial; Action: defaults.
+    std::vector<Value> values;
     Span span;
 
     std::int64_t count() const;
@@ -171,7 +174,7 @@ struct Let {
     NodeId value;
 };
 struct Store {
-    BufferId target;  // Scratch, Next or Observation
+    BufferId target;  // Scratch, Next or Observation; in the policy Scratch, Action or NextMemory
     std::vector<NodeId> indices;
     NodeId value;
 };
@@ -241,6 +244,14 @@ struct Fluent {
     std::vector<double> lower, upper;
 };
 
+// The policy block: from what is observed (the state, unless there are Observation buffers) and
+// from its memory it computes the action and its next memory.
+struct Policy {
+    std::string name;
+    std::vector<Definition> act;  // in evaluation order
+    Span span;                    // of its name
+};
+
 struct Program {
     std::string domain_name;
     std::string instance_name;
@@ -265,6 +276,8 @@ struct Program {
     std::int64_t horizon = 0;
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;
+
+    std::optional<Policy> policy;
 
     const Node& operator[](NodeId id) const { return nodes[id.index]; }
     const Variable& operator[](VariableId id) const { return variables[id.index]; }

@@ -77,8 +77,8 @@ std::string_view name_of(Scalar scalar) {
 }
 
 std::string_view name_of(Storage storage) {
-    constexpr std::string_view names[] = {"constant", "state", "action",
-                                          "scratch",  "next",  "observation"};
+    constexpr std::string_view names[] = {"constant", "state",       "action", "scratch",
+                                          "next",     "observation", "memory", "next_memory"};
     return names[static_cast<std::size_t>(storage)];
 }
 
@@ -108,8 +108,9 @@ class Printer {
     std::string whole_program() && {
         writer_.line(fmt::format("program {} {}", program_.domain_name, program_.instance_name));
         types();
-        for (Storage storage : {Storage::Constant, Storage::State, Storage::Action,
-                                Storage::Scratch, Storage::Next, Storage::Observation}) {
+        for (Storage storage :
+             {Storage::Constant, Storage::State, Storage::Action, Storage::Scratch, Storage::Next,
+              Storage::Observation, Storage::Memory, Storage::NextMemory}) {
             buffers(storage);
         }
         bounds();
@@ -120,6 +121,7 @@ class Printer {
         conditions("precondition", program_.preconditions);
         conditions("invariant", program_.invariants);
         conditions("termination", program_.terminations);
+        if (program_.policy) policy(*program_.policy);
         sites();
         return std::move(writer_).text();
     }
@@ -226,6 +228,12 @@ class Printer {
         writer_.line(name).indent();
         block(computation.body);
         writer_.line("= " + expression(computation.value)).dedent();
+    }
+
+    void policy(const Policy& policy) {
+        writer_.line().line("policy " + policy.name).indent();
+        for (const Definition& definition : policy.act) block(definition.body);
+        writer_.dedent();
     }
 
     void block(const Block& statements) {

@@ -82,7 +82,7 @@ void change_roots(Block& block, const Change& change) {
 }
 
 void change_roots(Program& program, const Change& change) {
-    for (Definition& definition : program.step) change_roots(definition.body, change);
+    for (Definition* definition : definitions_of(program)) change_roots(definition->body, change);
     change_roots(program.reward, change);
     for (Computation& condition : program.preconditions) change_roots(condition, change);
     for (Computation& condition : program.invariants) change_roots(condition, change);
@@ -93,9 +93,9 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
     for (Node& node : program.nodes) {
         if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
     }
-    for (Definition& definition : program.step) {
-        change(definition.target);
-        change_tables(definition.body, change);
+    for (Definition* definition : definitions_of(program)) {
+        change(definition->target);
+        change_tables(definition->body, change);
     }
     change_tables(program.reward.body, change);
     for (auto* conditions : {&program.preconditions, &program.invariants, &program.terminations}) {

@@ -30,6 +30,7 @@ class Verifier {
             nodes();
             step();
             conditions();
+            policy();
         }
         return std::move(complaints_);
     }
@@ -50,8 +51,12 @@ class Verifier {
             values(buffer);
         }
         for (const Buffer& buffer : program_.buffers) {
-            if (buffer.storage != Storage::State) continue;
-            require(count_like(buffer, Storage::Next) == 1, "'{}' has no next state", buffer.name);
+            if (buffer.storage == Storage::State)
+                require(count_like(buffer, Storage::Next) == 1, "'{}' has no next state",
+                        buffer.name);
+            if (buffer.storage == Storage::Memory)
+                require(count_like(buffer, Storage::NextMemory) == 1, "'{}' has no next memory",
+                        buffer.name);
         }
         for (const Fluent& fluent : program_.fluents) {
             require(!fluent.buffer || fluent.buffer->index < program_.buffers.size(),
@@ -60,9 +65,9 @@ class Verifier {
     }
 
     void values(const Buffer& buffer) {
-        const bool has_values = buffer.storage == Storage::Constant ||
-                                buffer.storage == Storage::State ||
-                                buffer.storage == Storage::Action;
+        const StorageSet with_values = {Storage::Constant, Storage::State, Storage::Action,
+                                        Storage::Memory};
+        const bool has_values = with_values.contains(buffer.storage);
         const std::size_t expected = has_values ? static_cast<std::size_t>(buffer.count()) : 0;
         require(buffer.values.size() == expected, "'{}' has {} values instead of {}", buffer.name,
                 buffer.values.size(), expected);
@@ -339,17 +344,35 @@ class Verifier {
     void step() {
         const StorageSet readable = {Storage::Constant, Storage::State, Storage::Action,
                                      Storage::Scratch, Storage::Next};
-        for (const Definition& definition : program_.step) {
-            body(definition.body, readable);
-        }
+        computed_ = {Storage::Scratch, Storage::Next, Storage::Observation};
+        definitions(program_.step, readable);
+        computation("reward", program_.reward, Scalar::Real, readable);
+    }
+
+    void policy() {
+        if (!program_.policy) return;
+        const StorageSet readable = {
+            Storage::Constant,
+            Storage::Memory,
+            Storage::Scratch,
+            Storage::Action,
+            Storage::NextMemory,
+            program_.partially_observed() ? Storage::Observation : Storage::State};
+        computed_ = {Storage::Scratch, Storage::Action, Storage::NextMemory};
+        defined_.clear();
+        definitions(program_.policy->act, readable);
+    }
+
+    // They fill the records that they compute.
+    void definitions(const std::vector<Definition>& definitions, const StorageSet& readable) {
+        for (const Definition& definition : definitions) body(definition.body, readable);
         for (std::uint32_t index = 0; index < program_.buffers.size(); ++index) {
             const Buffer& buffer = program_.buffers[index];
             const bool filled =
-                buffer.storage == Storage::Next || buffer.storage == Storage::Observation;
+                buffer.storage != Storage::Scratch && computed_.contains(buffer.storage);
             require(!filled || defined_.contains(BufferId{index}), "nothing computes '{}'",
                     buffer.name);
         }
-        computation("reward", program_.reward, Scalar::Real, readable);
     }
 
     void conditions() {
@@ -425,10 +448,7 @@ class Verifier {
 
     void store(const Store& form, const Scope& scope, const StorageSet& readable) {
         const Buffer& buffer = program_[form.target];
-        const bool writable = buffer.storage == Storage::Scratch ||
-                              buffer.storage == Storage::Next ||
-                              buffer.storage == Storage::Observation;
-        require(writable, "'{}' is read only", buffer.name);
+        require(computed_.contains(buffer.storage), "'{}' is read only", buffer.name);
         require(are_indices(buffer, form.indices), "the indices of '{}' do not fit", buffer.name);
         require(type(form.value) == buffer.scalar, "the type stored to '{}' is wrong", buffer.name);
         for (NodeId index : form.indices) use(index, scope, readable);
@@ -529,9 +549,8 @@ class Verifier {
     void readable_now(BufferId id, const StorageSet& readable) {
         const Buffer& buffer = program_[id];
         require(readable.contains(buffer.storage), "'{}' must not be read here", buffer.name);
-        const bool computed = buffer.storage == Storage::Scratch || buffer.storage == Storage::Next;
-        require(!computed || defined_.contains(id), "'{}' is read before it is computed",
-                buffer.name);
+        require(!computed_.contains(buffer.storage) || defined_.contains(id),
+                "'{}' is read before it is computed", buffer.name);
     }
 
     std::vector<NodeId> below(NodeId root) const {
@@ -549,6 +568,7 @@ class Verifier {
 
     const Program& program_;
     std::vector<Facts> facts_;
+    StorageSet computed_;  // what the current block computes
     std::set<BufferId> defined_;
     std::map<LocalId, Scalar> let_types_;
     std::vector<std::string> complaints_;

@@ -9,4 +9,12 @@ std::int64_t Model::grounding_count(const Fluent& fluent) const {
     return count;
 }
 
+std::span<const Fluent> Model::domain_fluents() const {
+    return std::span(fluents).first(policy ? policy->first_fluent : fluents.size());
+}
+
+std::span<const Fluent> Model::policy_fluents() const {
+    return std::span(fluents).subspan(policy ? policy->first_fluent : fluents.size());
+}
+
 }  // namespace rddlc::model

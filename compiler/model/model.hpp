@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -164,12 +165,21 @@ struct Cpf {
     Span span;
 };
 
+// A policy block: how to choose the action. What it declares are state-fluents (its memory),
+// derived-fluents and non-fluents, among which param-fluents are.
+struct Policy {
+    std::string name;
+    FluentId first_fluent;  // from there on, Model::fluents are the policy's own
+    std::vector<Cpf> cpfs;  // of the action-fluents and of its own, in evaluation order
+    Span span;              // of its name
+};
+
 struct Model {
     std::string domain_name;
     std::string instance_name;
 
     std::vector<Type> types;
-    std::vector<Fluent> fluents;  // in declaration order
+    std::vector<Fluent> fluents;  // in declaration order, the domain's before the policy's
     std::vector<Variable> variables;
 
     std::vector<Cpf> cpfs;  // in evaluation order (semantics 4.6)
@@ -183,6 +193,11 @@ struct Model {
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;  // absent: no limit (pos-inf)
 
+    std::optional<Policy> policy;
+
+    std::span<const Fluent> domain_fluents() const;
+    std::span<const Fluent> policy_fluents() const;
+    bool is_of_policy(FluentId id) const { return policy && id >= policy->first_fluent; }
     const Type& type_of(const Variable& variable) const { return types[variable.type]; }
     // The number of groundings: the product of the parameter types' sizes.
     std::int64_t grounding_count(const Fluent& fluent) const;

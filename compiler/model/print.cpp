@@ -89,6 +89,14 @@ std::string conditions(const Model& model, std::string_view title,
     return text;
 }
 
+std::string policy_text(const Model& model, const Policy& policy) {
+    std::string text = fmt::format("\npolicy {}\n", policy.name);
+    for (const Fluent& fluent : model.policy_fluents()) text += fluent_line(model, fluent);
+    text += "\npolicy cpfs\n";
+    for (const Cpf& cpf : policy.cpfs) text += cpf_text(model, cpf);
+    return text;
+}
+
 }  // namespace
 
 std::string print(const Model& model) {
@@ -96,13 +104,14 @@ std::string print(const Model& model) {
     if (!model.types.empty()) text += "\ntypes\n";
     for (const Type& type : model.types) text += type_line(type);
     text += "\nfluents\n";
-    for (const Fluent& fluent : model.fluents) text += fluent_line(model, fluent);
+    for (const Fluent& fluent : model.domain_fluents()) text += fluent_line(model, fluent);
     text += "\ncpfs\n";
     for (const Cpf& cpf : model.cpfs) text += cpf_text(model, cpf);
     text += fmt::format("\nreward\n    {}\n", text_of(model, model.reward, 4));
     text += conditions(model, "action-preconditions", model.action_preconditions);
     text += conditions(model, "state-invariants", model.state_invariants);
     text += conditions(model, "termination", model.terminations);
+    if (model.policy) text += policy_text(model, *model.policy);
     return text;
 }
 

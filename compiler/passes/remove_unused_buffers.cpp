@@ -54,10 +54,13 @@ bool drop_a_definition(ir::Program& program, const std::vector<ir::Facts>& facts
     const auto is_needed = [&](const ir::Definition& definition) {
         return used[definition.target.index] || may_fault(definition, facts);
     };
-    const auto last = std::find_if_not(program.step.rbegin(), program.step.rend(), is_needed);
-    if (last == program.step.rend()) return false;
-    program.step.erase(std::prev(last.base()));
-    return true;
+    const auto drop_from = [&](std::vector<ir::Definition>& definitions) {
+        const auto last = std::find_if_not(definitions.rbegin(), definitions.rend(), is_needed);
+        if (last == definitions.rend()) return false;
+        definitions.erase(std::prev(last.base()));
+        return true;
+    };
+    return drop_from(program.step) || (program.policy && drop_from(program.policy->act));
 }
 
 // Removes buffers that are neither read nor written and renumbers the others.

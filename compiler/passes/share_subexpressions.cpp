@@ -50,19 +50,24 @@ class Sharing {
     explicit Sharing(ir::Program program) : program_(std::move(program)), builder_(program_) {}
 
     ir::Program run() && {
-        for (ir::Definition& definition : program_.step) {
-            const bool runs = program_[definition.target].count() > 0;
-            if (runs) share_in(definition.body);
-        }
+        share_in(program_.step);
         share_in(program_.reward);
         for (auto* conditions :
              {&program_.preconditions, &program_.invariants, &program_.terminations}) {
             for (ir::Computation& condition : *conditions) share_in(condition);
         }
+        if (program_.policy) share_in(program_.policy->act);
         return std::move(program_);
     }
 
   private:
+    void share_in(std::vector<ir::Definition>& definitions) {
+        for (ir::Definition& definition : definitions) {
+            const bool runs = program_[definition.target].count() > 0;
+            if (runs) share_in(definition.body);
+        }
+    }
+
     void share_in(ir::Block& block) {
         bound_.clear();
         share_below(block);

@@ -52,8 +52,10 @@ inline std::optional<BatchOptions> checked_options(const rddl_problem& problem,
 template <Engine E>
 class SimulatorTable {
   public:
-    SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine)
-        : problem_(&problem), sites_(sites), engine_(std::move(engine)) {}
+    // `policy` describes the engine's policy and must outlive it, too; null if it has none.
+    SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine,
+                   const rddl_policy* policy = nullptr)
+        : problem_(&problem), sites_(sites), engine_(std::move(engine)), policy_(policy) {}
     SimulatorTable(const SimulatorTable&) = delete;
     SimulatorTable& operator=(const SimulatorTable&) = delete;
 
@@ -85,6 +87,11 @@ class SimulatorTable {
         return engine_.state_size() == static_cast<std::size_t>(problem_->state_size) &&
                engine_.action_size() == static_cast<std::size_t>(problem_->action_size) &&
                engine_.observation_size() == static_cast<std::size_t>(problem_->observation_size);
+    }
+
+    Site site_of(const FaultRecord& fault) const {
+        if (fault.kind == FaultKind::ActionLimit) return {policy_->source, "the policy", {}};
+        return sites_[fault.place.site];
     }
 
     static rddl_batch* create(const rddl_simulator* simulator, const rddl_batch_options* options) {
@@ -157,6 +164,15 @@ class SimulatorTable {
         return RDDL_OK;
     }
 
+    static rddl_error policy_act(rddl_batch* batch, void* actions) {
+        if (batch == nullptr) return RDDL_BAD_ARGUMENT;
+        const rddl_problem& problem = handle(batch).problem();
+        if (actions == nullptr && problem.action_size > 0) return RDDL_BAD_ARGUMENT;
+        if constexpr (PolicyEngine<E>)
+            handle(batch).batch.act(problem, static_cast<std::byte*>(actions));
+        return RDDL_OK;
+    }
+
     // Calls body(k, environment) for each of the environments.
     template <class Body>
     static rddl_error for_each(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
@@ -220,7 +236,7 @@ class SimulatorTable {
             const Episode& episode = handle(batch).batch.episode(i);
             fault->faulty = episode.fault ? 1 : 0;
             if (!episode.fault) return;
-            const Site& site = handle(batch).maker->sites_[episode.fault.place.site];
+            const Site site = handle(batch).maker->site_of(episode.fault);
             fault->step = static_cast<std::int32_t>(episode.fault_steps);
             fault->source = site.source;
             describe_fault(episode.fault, site, fault->message);
@@ -230,6 +246,7 @@ class SimulatorTable {
     const rddl_problem* problem_;
     std::span<const Site> sites_;
     E engine_;
+    const rddl_policy* policy_;
     rddl_simulator table_{.abi_version = RDDL_ABI_VERSION,
                           .struct_size = sizeof(rddl_simulator),
                           .problem = problem_,
@@ -248,7 +265,9 @@ class SimulatorTable {
                           .copy = copy,
                           .action_choice_count = action_choice_count,
                           .action_choice = action_choice,
-                          .action_mask = action_mask};
+                          .action_mask = action_mask,
+                          .policy = policy_,
+                          .policy_act = policy_ ? policy_act : nullptr};
 };
 
 }  // namespace rddl

@@ -8,6 +8,7 @@
 #include <rddl/action_choices.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
+#include <rddl/policy.hpp>
 #include <rddl/simulator.h>
 #include <rddl/threads.hpp>
 
@@ -71,6 +72,7 @@ class Batch {
           options_(options),
           states_(count(), engine.state_size()),
           observations_(options.partially_observed ? count() : 0, engine.observation_size()),
+          memories_(has_policy(engine) ? count() : 0, memory_size(engine)),
           episodes_(count()),
           workspaces_(static_cast<std::size_t>(options.thread_count), Workspace(engine)),
           team_(options.thread_count) {
@@ -81,6 +83,7 @@ class Batch {
           options_(other.options_),
           states_(other.states_),
           observations_(other.observations_),
+          memories_(other.memories_),
           episodes_(other.episodes_),
           workspaces_(other.workspaces_),
           team_(other.options_.thread_count) {}
@@ -122,6 +125,21 @@ class Batch {
         });
     }
 
+    // The action of the policy in each environment; the default one where the episode is over or
+    // the policy faults. Only with an engine that has a policy.
+    void act(const rddl_problem& problem, std::byte* actions) requires PolicyEngine<E> {
+        const auto* const default_action = static_cast<const std::byte*>(problem.default_action);
+        for_each_environment([&](Workspace& workspace, std::int64_t i) {
+            Episode& episode = episode_of(i);
+            if (!episode.over())
+                decide(*engine_, problem, episode, observation(i), workspace.decision_buffers(),
+                       memories_[i]);
+            const std::byte* const action = episode.over() ? default_action : workspace.action[0];
+            const std::size_t size = engine_->action_size();
+            if (size > 0) std::memcpy(actions + static_cast<std::size_t>(i) * size, action, size);
+        });
+    }
+
     // One byte for each environment and choice (action_choices.hpp): is it allowed now?
     void action_mask(const rddl_problem& problem, std::uint8_t* masks) {
         const std::int64_t choices = choice_count(problem);
@@ -143,14 +161,18 @@ class Batch {
             : action(1, engine.action_size()),
               scratch(1, engine.scratch_size()),
               next(1, engine.state_size()),
-              observation(1, engine.observation_size()) {}
+              observation(1, engine.observation_size()),
+              next_memory(1, memory_size(engine)) {}
 
         StepBuffers step_buffers() { return {scratch[0], next[0], observation[0]}; }
+
+        DecisionBuffers decision_buffers() { return {scratch[0], action[0], next_memory[0]}; }
 
         Records action;
         Records scratch;
         Records next;
         Records observation;
+        Records next_memory;
     };
 
     std::size_t count() const { return static_cast<std::size_t>(options_.environment_count); }
@@ -174,6 +196,8 @@ class Batch {
         start_next(*engine_, episode_of(i), options_.seed, identity, states_[i]);
         if (options_.partially_observed)
             std::memset(observations_[i], 0, engine_->observation_size());
+        if constexpr (PolicyEngine<E>)
+            if (engine_->has_policy()) engine_->reset_policy(memories_[i]);
     }
 
     // Of the action in the workspace.
@@ -228,6 +252,7 @@ class Batch {
     BatchOptions options_;
     Records states_;
     Records observations_;  // empty when fully observed
+    Records memories_;      // of the policy; empty without one
     std::vector<Episode> episodes_;
     std::vector<Workspace> workspaces_;
     Team team_;

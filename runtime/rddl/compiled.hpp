@@ -14,15 +14,23 @@ namespace rddl {
 template <class Record>
 inline constexpr std::size_t record_size = std::is_empty_v<Record> ? 0 : sizeof(Record);
 
-template <class Simulator>
+// Of a simulator whose problem has no policy block.
+struct NoPolicy {
+    template <class L>
+    struct Memory {};
+};
+
+template <class Simulator, class Policy = NoPolicy>
 struct Compiled {
     using State = typename Simulator::template State<Scalar>;
     using Action = typename Simulator::template Action<Scalar>;
     using Scratch = typename Simulator::template Scratch<Scalar>;
     using Observation = typename Simulator::template Observation<Scalar>;
+    using Memory = typename Policy::template Memory<Scalar>;
     static_assert(std::is_trivially_copyable_v<State> && std::is_trivially_copyable_v<Action> &&
                   std::is_trivially_copyable_v<Scratch> &&
-                  std::is_trivially_copyable_v<Observation>);
+                  std::is_trivially_copyable_v<Observation> &&
+                  std::is_trivially_copyable_v<Memory>);
 
     static constexpr std::size_t state_size() { return record_size<State>; }
     static constexpr std::size_t action_size() { return record_size<Action>; }
@@ -65,6 +73,23 @@ struct Compiled {
                 context.fault)
                 return static_cast<int>(k);
         return -1;
+    }
+
+    // The policy, if there is one (policy.hpp).
+    static constexpr bool with_policy = !std::is_same_v<Policy, NoPolicy>;
+    static constexpr bool has_policy() requires with_policy { return true; }
+    static constexpr std::size_t memory_size() { return record_size<Memory>; }
+
+    static void reset_policy(std::byte* memory) requires with_policy {
+        Policy::reset(as<Memory>(memory));
+    }
+
+    static void act(const std::byte* observation, const std::byte* memory, std::byte* scratch,
+                    std::byte* action, std::byte* next_memory,
+                    Context<Scalar>& context) requires with_policy {
+        using Seen = std::conditional_t<Simulator::partially_observed, Observation, State>;
+        Policy::act(as<Seen>(observation), as<Memory>(memory), as<Scratch>(scratch),
+                    as<Action>(action), as<Memory>(next_memory), context);
     }
 
   private:

@@ -50,6 +50,7 @@ enum class FaultKind : std::uint8_t {
     PositiveWeight,  // not > 0
     Covariance,      // not positive definite
     Undefined,       // no value; the site's text is the message
+    ActionLimit,     // a policy's action with more than max-nondef-actions changed values
 };
 
 struct FaultRecord {

@@ -94,6 +94,14 @@ typedef struct {
     int32_t termination_count;
 } rddl_problem;
 
+/* The policy block: how to choose the action (docs/policies.md). */
+typedef struct {
+    const char* name;
+    rddl_source source;
+    int64_t memory_size; /* bytes that it remembers of each environment's episode */
+    int32_t stochastic;  /* 1: it draws at random */
+} rddl_policy;
+
 /* ------------------------------------------------------------------------------ batches */
 
 typedef enum { RDDL_OK = 0, RDDL_BAD_ARGUMENT = 1, RDDL_OUT_OF_MEMORY = 2 } rddl_error;
@@ -198,6 +206,16 @@ struct rddl_simulator {
     /* For each environment action_choice_count bytes: 1 where the choice satisfies all preconditions
      * in the current state, else 0; also 0 for all but choice 0 where max_nondef_actions is 0. */
     rddl_error (*action_mask)(rddl_batch*, uint8_t* masks);
+
+    /* The policy block; NULL, as policy_act is, if the problem has none. */
+    const rddl_policy* policy;
+    /* For each environment writes the action record that the policy chooses upon its state or, if
+     * partially observed, upon its last observation; the default action where the episode is over.
+     * What the policy remembers belongs to the batch: an episode starts with the defaults, and each
+     * call moves it on, so call this once before each step. A fault of the policy ends the episode
+     * at once, and so does an action that violates max_nondef_actions. The policy's random numbers
+     * are its own: those of the steps do not depend on it. */
+    rddl_error (*policy_act)(rddl_batch*, void* actions);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

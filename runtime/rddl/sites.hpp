@@ -71,6 +71,8 @@ constexpr std::string_view requirement_of(FaultKind kind) {
             return "covariance must be positive definite";
         case FaultKind::Undefined:
             return "value is undefined";
+        case FaultKind::ActionLimit:
+            return "number of actions that are not the default must not exceed max-nondef-actions";
     }
     return "value is wrong";
 }

@@ -183,9 +183,10 @@ TEST_P(Cases, AreAsExpected) {
     expect_part(expected, "tables.exp", compilation.text, "namespace ",
                 "template <class L>\nstruct State");
     expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // Of the step");
-    const bool runs =
-        std::ranges::any_of(std::array{"sim.cpp.exp", "tables.exp", "step.exp", "trace.exp"},
-                            [&](const char* file) { return expected.expects(file); });
+    expect_part(expected, "policy.exp", compilation.text, "// The policy block", "static_assert");
+    const bool runs = std::ranges::any_of(
+        std::array{"sim.cpp.exp", "tables.exp", "step.exp", "policy.exp", "trace.exp"},
+        [&](const char* file) { return expected.expects(file); });
     if (runs && compilation.program) expect_trace(expected, compilation);
 }
 

@@ -92,7 +92,8 @@ std::string trace_of(const rddl_simulator& simulator) {
     text += "\n";
     std::uint8_t causes = RDDL_RUNNING;
     for (int step = 0; step < steps && causes == RDDL_RUNNING; ++step) {
-        const Record action = action_at(problem, action_layout, step);
+        Record action = action_at(problem, action_layout, step);
+        if (simulator.policy) simulator.policy_act(batch, action.data());
         double reward = 0;
         const rddl_transition out{.observations = observation.data(),
                                   .rewards = &reward,

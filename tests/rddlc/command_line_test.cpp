@@ -26,7 +26,7 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
     const std::vector<std::vector<std::string>> wrong = {
         {},
         {"--nonsense"},
-        {"domain.rddl", "instance.rddl", "third.rddl"},
+        {"domain.rddl", "instance.rddl", "policy.rddl", "fourth.rddl"},
         {"domain.rddl", "instance.rddl", "--print=nothing"},
         {"domain.rddl", "instance.rddl", "--stop-after=never"},
         {"domain.rddl", "instance.rddl", "--diagnostics-format=xml"},
@@ -69,6 +69,16 @@ TEST_F(CommandLine, WritesTheTextToStandardOutputWithoutAnOutput) {
 TEST_F(CommandLine, ReadsBothBlocksFromOneFile) {
     write("problem.rddl", read("domain.rddl") + read("instance.rddl"));
     EXPECT_EQ(rddlc({"problem.rddl", "--check"}).status, 0);
+}
+
+TEST_F(CommandLine, TakesThePolicyFromAThirdFile) {
+    write("policy.rddl", "policy always { cpfs { press(?l) = true; }; }");
+    const std::vector<std::string> words = {"domain.rddl", "instance.rddl", "policy.rddl"};
+    const Result with_policy = rddlc(words);
+    EXPECT_EQ(with_policy.status, 0) << with_policy.output;
+    EXPECT_NE(with_policy.output.find("\nstruct Policy {"), std::string::npos);
+    EXPECT_EQ(rddlc({words[0], words[1]}).output.find("Policy"), std::string::npos);
+    EXPECT_NE(rddlc({"--help"}).output.find("DOMAIN [INSTANCE] [POLICY]"), std::string::npos);
 }
 
 TEST_F(CommandLine, StopsWhereItIsTold) {

@@ -168,7 +168,8 @@ class Options(CommandTest):
             self.assertEqual(result.output, "")
 
     def test_wrong_command_lines(self):
-        for words in ([RDDLC], [RDDLC, *PROBLEM, "third.rddl"], [RDDLC, *PROBLEM, "--nonsense"],
+        for words in ([RDDLC], [RDDLC, *PROBLEM, "policy.rddl", "fourth.rddl"],
+                      [RDDLC, *PROBLEM, "--nonsense"],
                       [RDDLC, *PROBLEM, "--print=nonsense"], [RDDLC, *PROBLEM, "-o"],
                       [RDDLC, *PROBLEM, "--stop-after=lunch"], [RDDLC, *PROBLEM, "--lanes=x"],
                       [RDDLC, "--explain", "E9999"], [RDDLC, "--explain", "nonsense"],

@@ -1,5 +1,6 @@
 // After its creation a batch never allocates, in a million steps with resets and faults.
 #include "tiny_batch.hpp"
+#include "tiny_policy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +74,18 @@ TEST(Allocations, DoNotHappenInSteps) {
             simulator()->reset(batch.get(), nullptr, batch.observations.data());
             EXPECT_EQ(allocations, before) << threads << " threads, mode " << mode;
         }
+}
+
+TEST(Allocations, DoNotHappenInDecisions) {
+    const rddl_simulator& functions = *simulator_with_policy();
+    const rddl_batch_options options{environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1};
+    TinyBatch batch(options, &functions);
+    const std::int64_t before = allocations;
+    for (int time = 0; time < 1000; ++time) {
+        functions.policy_act(batch.get(), batch.actions.data());
+        batch.step();
+    }
+    EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -17,10 +17,11 @@ using ActionRecord = Action<Scalar>;
 
 class TinyBatch {
   public:
-    explicit TinyBatch(const rddl_batch_options& options)
-        : TinyBatch(simulator()->create(simulator(), &options),
-                    static_cast<std::size_t>(options.environment_count)) {}
-    TinyBatch(rddl_batch* batch, std::size_t size)
+    explicit TinyBatch(const rddl_batch_options& options,
+                       const rddl_simulator* functions = simulator())
+        : TinyBatch(functions->create(functions, &options),
+                    static_cast<std::size_t>(options.environment_count), functions) {}
+    TinyBatch(rddl_batch* batch, std::size_t size, const rddl_simulator* functions = simulator())
         : observations(size),
           finals(size),
           actions(size),
@@ -28,9 +29,10 @@ class TinyBatch {
           terminated(size),
           truncated(size),
           causes(size),
+          functions_(functions),
           batch_(batch) {}
     TinyBatch(const TinyBatch&) = delete;
-    ~TinyBatch() { simulator()->destroy(batch_); }
+    ~TinyBatch() { functions_->destroy(batch_); }
 
     rddl_batch* get() { return batch_; }
     std::size_t size() const { return actions.size(); }
@@ -39,12 +41,12 @@ class TinyBatch {
     void step() {
         const rddl_transition out{observations.data(), rewards.data(), terminated.data(),
                                   truncated.data(),    causes.data(),  finals.data()};
-        ASSERT_EQ(simulator()->step(batch_, actions.data(), &out), RDDL_OK);
+        ASSERT_EQ(functions_->step(batch_, actions.data(), &out), RDDL_OK);
     }
     std::vector<StateRecord> states() {
         std::vector<StateRecord> states(size());
         const auto count = static_cast<std::int64_t>(size());
-        EXPECT_EQ(simulator()->get_state(batch_, 0, count, states.data()), RDDL_OK);
+        EXPECT_EQ(functions_->get_state(batch_, 0, count, states.data()), RDDL_OK);
         return states;
     }
 
@@ -54,6 +56,7 @@ class TinyBatch {
     std::vector<std::uint8_t> terminated, truncated, causes;
 
   private:
+    const rddl_simulator* functions_;
     rddl_batch* batch_;
 };
 

@@ -1,0 +1,100 @@
+// The policy block of a problem, beside its simulator: what a batch needs to let it choose actions.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/engine.hpp>
+#include <rddl/episode.hpp>
+#include <rddl/simulator.h>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace rddl {
+
+// An engine that may have a policy. Memory is what the policy remembers within an episode.
+template <class E>
+concept PolicyEngine = Engine<E> &&
+    requires(const E engine, const std::byte* record, std::byte* target, Context<Scalar>& context) {
+    // The functions below may be called where this is true.
+    { engine.has_policy() } -> std::convertible_to<bool>;
+    { engine.memory_size() } -> std::convertible_to<std::size_t>;
+
+    // reset_policy(memory): the memory before the first decision.
+    {engine.reset_policy(target)};
+    // act(observation, memory, scratch, action, next_memory, context): fills the action and the
+    // next memory. In a fully observed problem the state is what is observed.
+    {engine.act(record, record, target, target, target, context)};
+};
+
+template <Engine E>
+constexpr bool has_policy(const E& engine) {
+    if constexpr (PolicyEngine<E>) return engine.has_policy();
+    return false;
+}
+
+template <Engine E>
+constexpr std::size_t memory_size(const E& engine) {
+    if constexpr (PolicyEngine<E>) return engine.has_policy() ? engine.memory_size() : 0;
+    return 0;
+}
+
+namespace detail {
+
+template <class T>
+std::int64_t count_unequal(const std::byte* a, const std::byte* b, std::int64_t count) {
+    std::int64_t unequal = 0;
+    for (std::int64_t i = 0; i < count; ++i) {
+        T of_a, of_b;
+        std::memcpy(&of_a, a + i * static_cast<std::int64_t>(sizeof(T)), sizeof(T));
+        std::memcpy(&of_b, b + i * static_cast<std::int64_t>(sizeof(T)), sizeof(T));
+        unequal += of_a != of_b;
+    }
+    return unequal;
+}
+
+}  // namespace detail
+
+// How many values of an action record are not the default.
+inline std::int64_t count_non_default(const rddl_problem& problem, const std::byte* action) {
+    std::int64_t count = 0;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = problem.fluents[f];
+        if (fluent.role != RDDL_ACTION) continue;
+        const auto* const defaults = static_cast<const std::byte*>(problem.default_action);
+        const auto count_of = [&]<class T>(T) {
+            return detail::count_unequal<T>(action + fluent.offset, defaults + fluent.offset,
+                                            fluent.count);
+        };
+        count += fluent.scalar == RDDL_BOOL  ? count_of(std::uint8_t{})
+                 : fluent.scalar == RDDL_INT ? count_of(std::int64_t{})
+                                             : count_of(double{});
+    }
+    return count;
+}
+
+// Where a decision leaves its results until it is known not to have faulted.
+struct DecisionBuffers {
+    std::byte* scratch;
+    std::byte* action;
+    std::byte* next_memory;
+};
+
+// One decision of a running episode. A fault ends the episode, and so does an action with more than
+// max-nondef-actions values that are not the default; else the memory changes.
+template <PolicyEngine E>
+void decide(const E& engine, const rddl_problem& problem, Episode& episode,
+            const std::byte* observation, const DecisionBuffers& buffers, std::byte* memory) {
+    Context<Scalar> context = episode.context_at(episode.steps + 1);
+    engine.act(observation, memory, buffers.scratch, buffers.action, buffers.next_memory, context);
+    if (problem.max_nondef_actions >= 0) {
+        const std::int64_t changed = count_non_default(problem, buffers.action);
+        context.require(changed <= problem.max_nondef_actions, FaultKind::ActionLimit, {},
+                        static_cast<double>(changed));
+    }
+    if (context.fault) return episode.end_by(context.fault);
+    std::memcpy(memory, buffers.next_memory, engine.memory_size());
+}
+
+}  // namespace rddl
