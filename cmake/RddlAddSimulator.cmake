@@ -1,30 +1,19 @@
-<<<<<<< HEAD
-# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [EXTERN <header>...] [NAME <name>] [HEADER]
-=======
-# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [POLICY <file>] [NAME <name>] [HEADER]
->>>>>>> e62383b (Run policy blocks)
-#                    [OPTIONS <option>...])
+# rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [POLICY <file>] [EXTERN <header>...]
+#                    [NAME <name>] [HEADER] [OPTIONS <option>...])
 #
 # Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
 #
 #   DOMAIN, INSTANCE   relative to the current source folder; one file that holds both may be named
 #                      as DOMAIN alone
-<<<<<<< HEAD
-#   EXTERN             C++ headers that define external functions, relative to the current source folder
-=======
 #   POLICY             a file with a policy block
->>>>>>> e62383b (Run policy blocks)
+#   EXTERN             C++ headers that define external functions, relative to the current source folder
 #   NAME               of the emitted file (default: the target's name)
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
 #   OPTIONS            more options for rddlc, such as -Werror
 #
 # A static library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
 function(rddl_add_simulator target)
-<<<<<<< HEAD
-  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;NAME" "EXTERN;OPTIONS" ${ARGN})
-=======
-  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;POLICY;NAME" "OPTIONS" ${ARGN})
->>>>>>> e62383b (Run policy blocks)
+  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;POLICY;NAME" "EXTERN;OPTIONS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
