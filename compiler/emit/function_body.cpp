@@ -120,9 +120,20 @@ void FunctionBody::statement(const ir::Loop& loop) {
 }
 
 void FunctionBody::statement(const ir::Call& call) {
-    const auto column = static_cast<std::size_t>(level_ * indentation);
     const std::string text = expressions_.call_text(call) + ";";
     if (fits(text.size())) return line(text);
+    // The value of an external function stands behind a break.
+    const std::size_t sign = text.find(" = ");
+    if (sign == text.npos) return write_call(text);
+    line(text.substr(0, sign + 2));
+    ++level_;
+    write_call(text.substr(sign + 3));
+    --level_;
+}
+
+void FunctionBody::write_call(const std::string& text) {
+    if (fits(text.size())) return line(text);
+    const auto column = static_cast<std::size_t>(level_ * indentation);
     for (const std::string& each : fill_call(text, 0, column)) line(each);
 }
 

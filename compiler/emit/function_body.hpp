@@ -54,6 +54,7 @@ class FunctionBody {
 
     // Writes what has been prepared, in the form that fits.
     void write(const std::string& lead, ir::NodeId id);
+    void write_call(const std::string& text);
     void write_lambda_call(const std::string& lead, ir::NodeId id);
     void write_branch(const std::string& lead, const ir::Select& select);
     void add_lambda(std::string& current, ir::NodeId body, const std::string& tail);

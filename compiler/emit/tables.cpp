@@ -168,7 +168,7 @@ std::string with_comments(const std::vector<CommentedLine>& lines) {
     std::string result;
     for (const auto& [text, comment] : lines) {
         result += text;
-        if (column + width <= line_width) {
+        if (!comment.empty() && column + width <= line_width) {
             result += std::string(column - text.size(), ' ') + "// " + comment;
         }
         result += "\n";
