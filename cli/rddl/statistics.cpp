@@ -20,6 +20,8 @@ Statistics statistics_of(const std::vector<double>& values) {
     s.minimum = *std::min_element(values.begin(), values.end());
     s.maximum = *std::max_element(values.begin(), values.end());
     if (std::isnan(s.mean)) s.minimum = s.maximum = s.mean;
+    // Rounding shall not show a spread where there is none.
+    if (s.minimum == s.maximum) return {s.minimum, 0, s.minimum, s.maximum};
     return s;
 }
 

@@ -58,6 +58,7 @@ TEST(Statistics, OfASample) {
     EXPECT_EQ(s.minimum, 1);
     EXPECT_EQ(s.maximum, 4);
     EXPECT_EQ(statistics_of({7}).deviation, 0);
+    EXPECT_EQ(statistics_of(std::vector<double>(1000, 0.1)).deviation, 0);
     EXPECT_TRUE(std::isnan(statistics_of({1, std::nan("")}).maximum));
 }
 
