@@ -11,7 +11,8 @@ block : domain | instance | nonFluents | policy ;
 // ------------------------------------------------------------------------------------- domain
 
 domain : 'domain' ID '{' domainSection* '}' ';'? ;
-policy : 'policy' ID '{' domainSection* '}' ';'? ;
+policy : 'policy' ID '{' policySection* '}' ';'? ;
+policySection : 'domain' '=' ID ';' | domainSection ;
 
 domainSection
     : 'requirements' '='? '{' (ID (',' ID)*)? '}' ';'   # requirements

@@ -237,8 +237,12 @@ struct Constraints {
     std::vector<Expr> conditions;
 };
 
+struct DomainName {
+    Name name;
+};
+// Of a domain, or of a policy, which alone may name its domain.
 struct DomainSection {
-    std::variant<Requirements, Types, PVariables, Cpfs, Reward, Constraints> node;
+    std::variant<DomainName, Requirements, Types, PVariables, Cpfs, Reward, Constraints> node;
     Span span;
 };
 struct Domain {
@@ -264,9 +268,6 @@ struct Assignment {
     Span span;
 };
 
-struct DomainName {
-    Name name;
-};
 struct NonFluentsName {
     Name name;
 };

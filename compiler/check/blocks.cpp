@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <variant>
 
 namespace rddlc::checking {
@@ -26,6 +27,7 @@ void choose(Last<T>& last, const T& node, Span span, std::string_view what, Cont
 }
 
 struct DomainSections {
+    Last<ast::DomainName> domain;
     Last<ast::Requirements> requirements;
     Last<ast::Types> types;
     Last<ast::PVariables> pvariables;
@@ -43,6 +45,7 @@ DomainSections choose_sections(const std::vector<ast::DomainSection>& sections, 
         const Span span = section.span;
         match(
             section.node,
+            [&](const ast::DomainName& n) { choose(chosen.domain, n, span, "domain", context); },
             [&](const ast::Requirements& n) {
                 choose(chosen.requirements, n, span, "requirements", context);
             },
@@ -172,10 +175,26 @@ void take_domain(const ast::Domain& domain, Blocks& blocks, Context& context) {
     blocks.state_invariants = sections.constraints[3].node;
 }
 
-void take_policy(const ast::Policy& policy, Blocks& blocks, Context& context) {
-    const DomainSections sections = choose_sections(policy.sections, context);
+// A policy is a domain's pvariables and cpfs; an empty section of types does no harm.
+void report_foreign_sections(const DomainSections& sections, Context& context) {
+    const auto report = [&](const auto& last, std::string_view what) {
+        if (last.node)
+            context.report(
+                diagnose(bad_policy, last.span, fmt::format("a policy has no '{}'", what))
+                    .with_hint("it has 'pvariables' and 'cpfs'"));
+    };
+    report(sections.requirements, "requirements");
+    report(sections.reward, "reward");
+    for (std::size_t kind = 0; kind < std::size(constraint_names); ++kind)
+        report(sections.constraints[kind], constraint_names[kind]);
     if (sections.types.node && !sections.types.node->declarations.empty())
         context.report({bad_policy, sections.types.span, "a policy cannot declare types"});
+}
+
+void take_policy(const ast::Policy& policy, Blocks& blocks, Context& context) {
+    const DomainSections sections = choose_sections(policy.sections, context);
+    report_foreign_sections(sections, context);
+    warn_of_other_domain(sections.domain, *blocks.domain, context);
     blocks.policy = &policy;
     blocks.policy_pvariables = sections.pvariables.node;
     blocks.policy_cpfs = sections.cpfs.node;

@@ -144,6 +144,12 @@ ast::DomainSection to_section(const Conversion& conversion, Parser::DomainSectio
     return {to_node(conversion, context), span_of(conversion, context)};
 }
 
+ast::DomainSection to_policy_section(const Conversion& conversion,
+                                     Parser::PolicySectionContext& context) {
+    if (context.domainSection()) return to_section(conversion, *context.domainSection());
+    return {ast::DomainName{to_name(conversion, context.ID())}, span_of(conversion, context)};
+}
+
 }  // namespace
 
 ast::Domain to_domain(const Conversion& conversion, Parser::DomainContext& context) {
@@ -154,7 +160,7 @@ ast::Domain to_domain(const Conversion& conversion, Parser::DomainContext& conte
 
 ast::Policy to_policy(const Conversion& conversion, Parser::PolicyContext& context) {
     return {to_name(conversion, context.ID()),
-            each<ast::DomainSection>(conversion, context.domainSection(), to_section),
+            each<ast::DomainSection>(conversion, context.policySection(), to_policy_section),
             span_of(conversion, context)};
 }
 

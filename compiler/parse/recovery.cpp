@@ -35,8 +35,8 @@ TokenTypes expected_by(const antlr4::RecognitionException& error) {
 }
 
 bool is_section(std::size_t rule) {
-    return rule == Parser::RuleDomainSection || rule == Parser::RuleInstanceSection ||
-           rule == Parser::RuleNonFluentsSection;
+    return rule == Parser::RuleDomainSection || rule == Parser::RulePolicySection ||
+           rule == Parser::RuleInstanceSection || rule == Parser::RuleNonFluentsSection;
 }
 
 bool is_block(std::size_t rule) {

@@ -142,6 +142,7 @@ std::string_view construct(std::size_t rule) {
         case Parser::RuleAssignment:
             return "the value";
         case Parser::RuleDomainSection:
+        case Parser::RulePolicySection:
         case Parser::RuleInstanceSection:
         case Parser::RuleNonFluentsSection:
             return "the section";

@@ -74,6 +74,7 @@ Outcome exercise(std::string_view text, std::uint64_t seed, int steps) {
     ir::Program optimised = optimise(*program);
     require_valid(optimised, "optimise");
     emit(optimised, sources, {});
+    if (!program->externals.empty()) return Outcome::Accepted;  // nobody has the functions
     if (step_cost(*program) > 1e5) return Outcome::TooLarge;
     if (const auto difference = compare(*std::move(program), std::move(optimised), seed, steps)) {
         throw Contradiction("optimising changes " + *difference);

@@ -19,7 +19,8 @@ enum class Outcome { Rejected, Accepted, TooLarge };
 // Parses, checks, grounds, optimises and emits; steps the interpreter before and after optimisation
 // under random actions. Expects that printed syntax reads back as the same, that the IR is valid,
 // and that optimising changes no bit. Throws Contradiction; what else it throws or stops at is a
-// bug, too. Problems of which a step costs too much to be worth it are compiled and not run.
+// bug, too. Problems of which a step costs too much to be worth it, or that call external
+// functions, are compiled and not run.
 Outcome exercise(std::string_view text, std::uint64_t seed, int steps);
 
 }  // namespace rddlc::fuzzing

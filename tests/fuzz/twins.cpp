@@ -59,8 +59,11 @@ class Engine {
           action_(interpreter_.action_size()),
           scratch_(interpreter_.scratch_size()),
           observation_(interpreter_.observation_size()),
+          memory_(interpreter_.memory_size()),
+          next_memory_(interpreter_.memory_size()),
           context_{.key = rddl::stream_key(seed, 0, 0), .step = 0, .fault = {}} {
         interpreter_.reset(state_.data());
+        if (interpreter_.has_policy()) interpreter_.reset_policy(memory_.data());
     }
 
     // Every third value is not the default.
@@ -72,6 +75,15 @@ class Engine {
                              const std::uint64_t draw = random();
                              if (draw % 3 == 0) write_value(at, buffer, draw / 3);
                          });
+    }
+
+    // The policy block instead, if there is one.
+    void decide() {
+        if (!interpreter_.has_policy()) return;
+        const Record& seen = interpreter_.program().partially_observed() ? observation_ : state_;
+        interpreter_.act(seen.data(), memory_.data(), scratch_.data(), action_.data(),
+                         next_memory_.data(), context_);
+        memory_.swap(next_memory_);
     }
 
     void step() {
@@ -99,6 +111,8 @@ class Engine {
         for_each_element(program, ir::Storage::State, state_, add);
         if (program.partially_observed())
             for_each_element(program, ir::Storage::Observation, observation_, add);
+        for_each_element(program, ir::Storage::Action, action_, add);
+        for_each_element(program, ir::Storage::Memory, memory_, add);
         const double reward = std::isnan(reward_) ? std::nan("") : reward_;
         text.append(reinterpret_cast<const char*>(&reward), sizeof reward);
         return text;
@@ -129,7 +143,7 @@ class Engine {
     }
 
     ir::Interpreter interpreter_;
-    Record state_, next_, action_, scratch_, observation_;
+    Record state_, next_, action_, scratch_, observation_, memory_, next_memory_;
     ir::Context context_;
     double reward_ = 0;
 };
@@ -160,6 +174,8 @@ std::optional<std::string> compare(ir::Program plain, ir::Program optimised, std
         std::mt19937_64 same = random;
         first.act(random);
         second.act(same);
+        first.decide();
+        second.decide();
         if (first.violated_precondition() != second.violated_precondition())
             return "the preconditions" + when;
         first.step();

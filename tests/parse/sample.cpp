@@ -85,6 +85,7 @@ instance inst_sample {
 };
 
 policy sample_policy {
+    domain = sample_mdp;
     cpfs { go(?p) = true; };
 }
 )";

@@ -1,0 +1,40 @@
+// The simulator is linked with a policy from a file of its own.
+#include <rddl/simulator.h>
+
+#include <cstdint>
+#include <cstring>
+
+extern "C" const rddl_simulator* rddl_simulator_tank_one(void);
+
+namespace {
+
+struct State {
+    double water[3];
+    std::uint8_t leaks[3];
+};
+
+bool acts_as_written(const rddl_simulator& simulator, rddl_batch* batch) {
+    const rddl_transition nothing{};
+    for (int step = 0; step < 20; ++step) {
+        State state;
+        std::uint8_t pump[3];
+        if (simulator.get_state(batch, 0, 1, &state) != RDDL_OK) return false;
+        if (simulator.policy_act(batch, pump) != RDDL_OK) return false;
+        for (int tank = 0; tank < 3; ++tank)
+            if (pump[tank] != (state.water[tank] < 5.0)) return false;
+        if (simulator.step(batch, pump, &nothing) != RDDL_OK) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+int main() {
+    const rddl_simulator& simulator = *rddl_simulator_tank_one();
+    if (!simulator.policy || std::strcmp(simulator.policy->name, "fill") != 0) return 1;
+    const rddl_batch_options options{1, 0, 7, 1, RDDL_AUTORESET_DISABLED, -1};
+    rddl_batch* const batch = simulator.create(&simulator, &options);
+    const bool good = batch && acts_as_written(simulator, batch);
+    simulator.destroy(batch);
+    return good ? 0 : 1;
+}
