@@ -1,8 +1,14 @@
-"""Where pyRDDLGym itself stops with an error, ours must report a fault: in the same state, under the
-same action.
+"""Where pyRDDLGym itself stops with an error, ours must report a fault: in the same state, under
+the same action.
 
 That happens under actions that the preconditions forbid, which pyRDDLGym executes unless told
 otherwise. So these walks take any action within the bounds and max-nondef-actions.
+
+One kind of error we do not share: pyRDDLGym evaluates both branches of an `if` for all objects as
+soon as some take the one and some the other, and so stops at a probability of 1.3 in a branch that
+no object with that probability takes. Ours looks at the branch taken (docs/decisions.md). Such a
+step is found by making it twice, with each improper Bernoulli false and then true: if that changes
+nothing, nobody took its branch, and the step is compared like any other.
 """
 
 from dataclasses import dataclass
@@ -36,7 +42,7 @@ class Refused:
 
 @dataclass
 class Refusals:
-    """A walk under any actions: what was refused, and some of the steps between."""
+    """A walk under any actions: what was refused with good reason, and some of the other steps."""
 
     problem: Problem
     walk: Transitions | None  # none where everything was refused
@@ -60,10 +66,37 @@ class HeedlessReference(Reference):
             return False
         return True
 
+    def step_without_untaken_branches(self, state: Values, action: Values) -> Values | None:
+        """The outcome of a refused step if the refusal was about a branch that nobody takes."""
+        try:
+            first, second = (self._step_with(value, state, action) for value in (False, True))
+        except REFUSED:
+            return None
+        same = all(np.array_equal(first[name], second[name], equal_nan=True) for name in first)
+        return first if same else None
+
+    def _step_with(self, value: bool, state: Values, action: Values) -> Values:
+        """A step in which every Bernoulli of an improper probability has the given value."""
+        simulator = self.simulator
+
+        def bernoulli(expression, table):
+            probability = np.asarray(simulator._sample(expression.args[0], table))
+            valid = (probability >= 0) & (probability <= 1)
+            drawn = simulator.rng.uniform(size=probability.shape) <= probability
+            return np.where(valid, drawn, value)
+
+        simulator.seed(self.seed)
+        simulator._sample_bernoulli = bernoulli
+        try:
+            return self.step(state, action)
+        finally:
+            del simulator._sample_bernoulli
+
 
 def record_refusals(case: Case, plan: RefusalPlan) -> Refusals:
     reference = HeedlessReference(case)
     steps: list[tuple[Values, Values, Values]] = []
+    excused: list[tuple[Values, Values, Values]] = []
     refused: list[Refused] = []
     state, age = reference.initial_state(), 0
     for _ in range(int(np.clip(plan.seconds / reference.seconds_a_step(), 20, plan.steps))):
@@ -71,8 +104,13 @@ def record_refusals(case: Case, plan: RefusalPlan) -> Refusals:
         try:
             outcome = reference.step(state, action)
         except REFUSED as error:
-            if len(refused) < MOST_REFUSALS and reference.always_refuses(state, action):
-                refused.append(Refused(state, action, str(error)))
+            enough = min(len(refused), len(excused)) >= MOST_REFUSALS
+            if not enough and reference.always_refuses(state, action):
+                outcome = reference.step_without_untaken_branches(state, action)
+                if outcome is None:
+                    refused.append(Refused(state, action, str(error)))
+                else:
+                    excused.append((state, action, outcome))
             state, age = reference.initial_state(), 0
             continue
         steps.append((state, action, outcome))
@@ -80,5 +118,6 @@ def record_refusals(case: Case, plan: RefusalPlan) -> Refusals:
         if outcome[TERMINATED][0] or outcome[TRUNCATED][0] or age == reference.problem.horizon:
             state, age = reference.initial_state(), 0
     kept = np.unique(np.linspace(0, len(steps) - 1, min(plan.kept, len(steps))).astype(int))
-    walk = transitions_of([steps[index] for index in kept]) if steps else None
-    return Refusals(reference.problem, walk, refused)
+    compared = [steps[index] for index in kept] + excused[:MOST_REFUSALS]
+    walk = transitions_of(compared) if compared else None
+    return Refusals(reference.problem, walk, refused[:MOST_REFUSALS])
