@@ -69,7 +69,7 @@ struct Simulator {
 
     // The initial state.
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, rddl::Context<L>& /*context*/) {
         state.position = 0.0;
         state.velocity = 0.0;
         state.angle = 0.02;

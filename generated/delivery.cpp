@@ -111,7 +111,7 @@ struct Simulator {
 
     // The initial state.
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, rddl::Context<L>& /*context*/) {
         state.sky = 0;
         rddl::assign(state.position, 3);
         rddl::assign(state.status, 0);

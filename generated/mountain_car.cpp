@@ -97,7 +97,7 @@ struct Simulator {
 
     // The initial state.
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, rddl::Context<L>& /*context*/) {
         state.position = -0.5;
         state.velocity = 0.0;
     }

@@ -110,7 +110,7 @@ struct Simulator {
 
     // The initial state.
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, rddl::Context<L>& /*context*/) {
         rddl::assign(state.water, initial_water);
         state.temperature = 22.0;
     }

@@ -88,7 +88,7 @@ struct Simulator {
 
     // The initial state.
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, rddl::Context<L>& /*context*/) {
         state.x = 1.0;
         state.y = 1.0;
         state.heading = 0.7;

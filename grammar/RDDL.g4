@@ -1,5 +1,8 @@
 // RDDL, as pyRDDLGym reads it. Labelled alternatives, no actions: compiler/parse walks the tree.
 //
+// Accepted with --std=rddlc only, and refused later: a 'draw' as an initial value, 'horizon =
+// pos-inf', an INT as discount, an exponent in a REAL.
+//
 // Accepted beyond pyRDDLGym, all harmless: any order of blocks and sections, a ';' after a block,
 // empty lists of values, any number of arguments of a distribution (the checker counts them).
 grammar RDDL;
@@ -62,7 +65,7 @@ objectList : ID ':' '{' ID (',' ID)* '}' ';' ;
 
 assignment
     : '~' ID symbols? ';'                                   # unset
-    | ID symbols? ('=' constant)? ';'                       # set
+    | ID symbols? ('=' (constant | draw))? ';'              # set
     ;
 symbols : '(' symbol (',' symbol)* ')' ;
 symbol : ID | ENUM ;
@@ -74,6 +77,13 @@ constant
     | 'pos-inf'                                             # posInf
     | 'neg-inf'                                             # negInf
     | symbol                                                # symbolConstant
+    ;
+
+// A random initial value.
+draw
+    : DISTRIBUTION '(' expr (',' expr)* ')'                 # drawDistribution
+    | DISCRETE '(' ID (',' symbol ':' expr)+ ')'            # drawCases
+    | DISCRETE binder expr                                  # drawOver
     ;
 
 // -------------------------------------------------------------------------------- expressions
@@ -218,11 +228,12 @@ VAR : '?' [a-zA-Z0-9_-]* [a-zA-Z0-9] ;
 ENUM : '@' [a-zA-Z0-9_-]* [a-zA-Z0-9] ;
 INT : [0-9]+ ;
 REAL : [0-9]* '.' [0-9]+ ;
+// A REAL with --std=rddlc.
+EXPONENT_NUMBER : ([0-9]+ | [0-9]* '.' [0-9]+) [eE] [+-]? [0-9]+ ;
 
 // Spellings of other languages. compiler/parse reports them and puts what was meant in their
 // place, so the grammar never sees one.
-EXPONENT_NUMBER : ([0-9]+ '.'? [0-9]* | '.' [0-9]+) [eE] [+-]? [0-9]+ ;
-POINT_WITHOUT_DIGITS : [0-9]+ '.' ;
+POINT_WITHOUT_DIGITS : [0-9]+ '.' ([eE] [+-]? [0-9]+)? ;
 FOREIGN_OPERATOR : '!' | '!=' | '&&' | '||' | '%' | '**' | '<>' | '->' ;
 FOREIGN_COMMENT : '/*' .*? ('*/' | EOF) | '#' ~[\r\n]* ;
 LONE_PRIME : '\'' ;

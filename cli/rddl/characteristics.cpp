@@ -158,6 +158,8 @@ Characteristics characteristics_of(const Model& model) {
             c.random_cpfs.push_back(fluent.name + (fluent.role == Role::State ? "'" : ""));
     }
     c.random_reward = is_random(model.reward);
+    for (const InitialDraw& draw : model.initial_draws)
+        c.random_initial_state = is_random(draw.value) || c.random_initial_state;
     for (const auto* conditions :
          {&model.action_preconditions, &model.state_invariants, &model.terminations})
         for (const Expr& condition : *conditions)

@@ -23,6 +23,7 @@ struct ValueKinds {
 struct Characteristics {
     std::vector<std::string> random_cpfs;  // "burning'", in evaluation order
     bool random_reward = false;
+    bool random_initial_state = false;
     bool random_conditions = false;  // terminations, invariants or preconditions
     bool partially_observed = false;
     ValueKinds state, action, observation;
@@ -32,7 +33,9 @@ struct Characteristics {
     // Parts of the language beyond Boolean logic and arithmetic: "interm-fluents", "switch", ...
     std::set<std::string> features;
 
-    bool stochastic() const { return !random_cpfs.empty() || random_reward || random_conditions; }
+    bool stochastic() const {
+        return !random_cpfs.empty() || random_reward || random_conditions || random_initial_state;
+    }
     // Several actions may differ from their default at once.
     bool concurrent() const;
 };

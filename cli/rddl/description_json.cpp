@@ -93,11 +93,17 @@ Json values_json(const ValueKinds& kinds, std::int64_t bytes) {
 }
 
 Json characteristics_json(const Characteristics& c) {
-    return {{"stochastic", c.stochastic()},     {"random_cpfs", c.random_cpfs},
-            {"random_reward", c.random_reward}, {"random_conditions", c.random_conditions},
-            {"distributions", c.distributions}, {"partially_observed", c.partially_observed},
-            {"state", c.state.text()},          {"actions", c.action.text()},
-            {"concurrent", c.concurrent()},     {"features", c.features}};
+    return {{"stochastic", c.stochastic()},
+            {"random_cpfs", c.random_cpfs},
+            {"random_reward", c.random_reward},
+            {"random_conditions", c.random_conditions},
+            {"random_initial_state", c.random_initial_state},
+            {"distributions", c.distributions},
+            {"partially_observed", c.partially_observed},
+            {"state", c.state.text()},
+            {"actions", c.action.text()},
+            {"concurrent", c.concurrent()},
+            {"features", c.features}};
 }
 
 }  // namespace

@@ -176,6 +176,7 @@ std::string randomness_text(const Characteristics& c) {
     std::vector<std::string> places = c.random_cpfs;
     if (c.random_reward) places.push_back("reward");
     if (c.random_conditions) places.push_back("conditions");
+    if (c.random_initial_state) places.push_back("initial state");
     return fmt::format("stochastic: {}", fmt::join(places, ", "));
 }
 

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "driver/files.hpp"
 #include "format/format.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 #include "support/render.hpp"
 #include "unified_diff.hpp"
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 struct FormatOptions {
     std::vector<std::string> files;
     std::string output;
+    Standard standard = Standard::PyRddlGym;
     bool check = false;
     bool diff = false;
     bool to_stdout = false;
@@ -93,7 +95,8 @@ ExitStatus format_one(const FormatOptions& options, const std::string& path) {
         return diagnosed;
     }
     Diagnostics diagnostics;
-    const std::optional<std::string> text = format_file(sources, *file, diagnostics);
+    const std::optional<std::string> text =
+        format_file(sources, *file, diagnostics, options.standard);
     if (!text) {
         fmt::print(stderr, "{}", render(diagnostics, sources, {.color = is_terminal(2)}));
         return diagnosed;
@@ -132,6 +135,7 @@ Command add_fmt_command(CLI::App& program) {
     app->add_flag("--diff", options->diff, "Change nothing; show what would change");
     app->add_flag("--stdout", options->to_stdout, "Write to stdout");
     app->add_option("-o,--output", options->output, "Write to another file")->type_name("FILE");
+    add_standard_option(*app, options->standard);
     return {app, [options] {
                 return format(*options);
             }};

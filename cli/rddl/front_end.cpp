@@ -16,6 +16,7 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
     options.inputs = files.all();
     options.extern_headers = extern_headers;
     options.stop_after = last;
+    options.standard = files.standard;
     return compile(options);
 }
 

@@ -2,12 +2,28 @@
 
 namespace rddlc::cli {
 
+ProblemFiles ProblemArguments::files() const {
+    ProblemFiles files = find_files(first, second);
+    files.standard = standard;
+    return files;
+}
+
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required) {
     command
         .add_option("DOMAIN", arguments.first,
                     "Domain file, or NAME of a problem of rddlrepository")
         ->required(required);
     command.add_option("INSTANCE", arguments.second, "Instance file, or number of the instance");
+    add_standard_option(command, arguments.standard);
+}
+
+void add_standard_option(CLI::App& command, Standard& standard) {
+    command
+        .add_option_function<std::string>(
+            "--std", [&standard](const std::string& name) { standard = *standard_named(name); },
+            "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions")
+        ->check(CLI::IsMember({"pyrddlgym", "rddlc"}).description(""))
+        ->type_name("STANDARD");
 }
 
 void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation) {

@@ -15,13 +15,19 @@ namespace rddlc::cli {
 struct ProblemArguments {
     std::string first;   // DOMAIN or NAME
     std::string second;  // INSTANCE; may be empty for a file that holds both blocks
+    Standard standard = Standard::PyRddlGym;
 
-    ProblemFiles files() const { return find_files(first, second); }
+    ProblemFiles files() const;
 };
+// These and --std.
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required = true);
+
+// --std
+void add_standard_option(CLI::App& command, Standard& standard);
 
 // --extern
 void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation);
+
 // --engine, --extern, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
 

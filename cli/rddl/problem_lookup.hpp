@@ -1,6 +1,8 @@
 // Which files a problem is: two paths, or a name and an instance of rddlrepository.
 #pragma once
 
+#include "support/standard.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +16,7 @@ struct ProblemFiles {
     std::filesystem::path domain;
     std::optional<std::filesystem::path> instance;     // absent: `domain` holds both
     std::optional<std::filesystem::path> policy = {};  // a file with a policy block for it
+    Standard standard = Standard::PyRddlGym;           // in which they are written
 
     std::vector<std::filesystem::path> all() const;
 };

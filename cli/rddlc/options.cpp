@@ -40,6 +40,7 @@ struct Arguments {
     bool no_warnings = false;
     std::string format = "text";
     std::string color = "auto";
+    std::string standard = "pyrddlgym";
     std::string lanes = "1";
     std::string real = "double";
     std::string explained;
@@ -81,6 +82,11 @@ void declare(CLI::App& program, Arguments& arguments) {
                     "stop after a stage: read, parse, check, ground, verify, optimise, emit")
         ->type_name("STAGE");
     program.add_flag("--check", arguments.check_only, "only check: the same as --stop-after=check");
+    program
+        .add_option("--std", arguments.standard,
+                    "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions")
+        ->check(CLI::IsMember({"pyrddlgym", "rddlc"}))
+        ->type_name("STANDARD");
     program.add_flag("--emit-lines", arguments.line_directives,
                      "#line in the C++ text, for debuggers and profilers");
     program.add_flag("--MD", arguments.dependencies,
@@ -236,6 +242,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.line_directives = arguments.line_directives;
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
+    options.standard = *standard_named(arguments.standard);
     return options;
 }
 

@@ -258,13 +258,14 @@ struct Policy {
 
 // ------------------------------------------------------------------------------ instance
 
-// "p;", "~p(a);", "p(a, @b) = 3;"
+// "p;", "~p(a);", "p(a, @b) = 3;", "p(a) = Normal(0.0, 1.0);"
 struct Assignment {
     Name name;
     bool negated = false;
     std::vector<Symbol> arguments;
     std::vector<Span> argument_spans;
-    std::optional<Constant> value;  // absent for the short forms
+    // Absent for the short forms; an expression is a distribution.
+    std::optional<std::variant<Constant, ExprBox>> value;
     Span span;
 };
 
@@ -292,7 +293,7 @@ struct Horizon {
     std::variant<Integer, PosInf, Expr> value;  // Expr: terminate-when (e)
 };
 struct Discount {
-    Real value;
+    std::variant<Integer, Real> value;
 };
 
 struct InstanceSection {

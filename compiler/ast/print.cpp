@@ -54,8 +54,11 @@ std::string assignment(const Assignment& a) {
     for (std::size_t i = 0; i < a.arguments.size(); ++i)
         text.append(i == 0 ? "(" : ", ").append(symbol(a.arguments[i]));
     if (!a.arguments.empty()) text += ")";
-    if (a.value) text += " = " + constant(*a.value);
-    return text + ";";
+    if (!a.value) return text + ";";
+    const std::string value = match(
+        *a.value, [](const Constant& c) { return constant(c); },
+        [](const ExprBox& e) { return print(*e); });
+    return fmt::format("{} = {};", text, value);
 }
 
 std::string_view keyword(ConstraintKind kind) {
@@ -159,7 +162,12 @@ class Printer {
                 writer_.line(fmt::format("horizon = terminate-when ({});", ast::print(e)));
             });
     }
-    void print(const Discount& d) { writer_.line(fmt::format("discount = {};", d.value.text)); }
+    void print(const Discount& d) {
+        const std::string value = match(
+            d.value, [](const Integer& i) { return std::to_string(i.value); },
+            [](const Real& r) { return r.text; });
+        writer_.line(fmt::format("discount = {};", value));
+    }
 
     Writer writer_;
 };

@@ -269,8 +269,10 @@ void check_horizon(const ast::Horizon& horizon, Span span, Context& context) {
                 context.report({unsupported_horizon, span, "the horizon must not be negative"});
         },
         [&](const ast::PosInf&) {
+            context.model.horizon = 0;
+            if (context.standard == Standard::Rddlc) return;
             context.report(diagnose(unsupported_horizon, span, "the horizon must be finite")
-                               .with_hint(std::string(hint)));
+                               .with_hint(fmt::format("{}; {}", hint, extension_hint)));
         },
         [&](const ast::Expr&) {
             context.report(diagnose(unsupported_horizon, span, "'terminate-when' is not supported")
@@ -278,9 +280,14 @@ void check_horizon(const ast::Horizon& horizon, Span span, Context& context) {
         });
 }
 
-void check_discount(double discount, Span span, Context& context) {
-    context.model.discount = discount;
-    if (discount > 1)
+void check_discount(const ast::Discount& discount, Span span, Context& context) {
+    const auto* whole = std::get_if<ast::Integer>(&discount.value);
+    if (whole && context.standard == Standard::PyRddlGym)
+        context.report(diagnose(extension_needed, span, "the discount is a number with a point")
+                           .with_hint(fmt::format("write {}.0; {}", whole->value, extension_hint)));
+    context.model.discount =
+        whole ? static_cast<double>(whole->value) : std::get<ast::Real>(discount.value).value;
+    if (context.model.discount > 1)
         context.report({large_discount, span,
                         "a discount above 1 makes later rewards count more than earlier ones"});
 }
@@ -328,8 +335,7 @@ std::optional<Blocks> choose_blocks(const ast::Program& program, Context& contex
 
 void check_settings(const Blocks& blocks, Context& context) {
     if (blocks.horizon) check_horizon(*blocks.horizon, blocks.horizon_span, context);
-    if (blocks.discount)
-        check_discount(blocks.discount->value.value, blocks.discount_span, context);
+    if (blocks.discount) check_discount(*blocks.discount, blocks.discount_span, context);
     if (blocks.max_nondef_actions && blocks.max_nondef_actions->value)
         check_action_limit(*blocks.max_nondef_actions->value, blocks.max_nondef_actions_span,
                            context);

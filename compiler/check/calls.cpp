@@ -29,7 +29,7 @@ struct Substitute {
     std::string_view name, hint;
 };
 constexpr std::array substitutes = {
-    Substitute{"atan2", "there is no atan2: use 'atan[y / x]' and distinguish the quadrants"},
+    Substitute{"atan2", "use 'atan[y / x]' and distinguish the quadrants; --std=rddlc allows it"},
     Substitute{"sign", "the sign is 'sgn[x]'"},
     Substitute{"ceiling", "write 'ceil[x]'"},
     Substitute{"trunc", "write 'sgn[x] * floor[abs[x]]'"},
@@ -47,7 +47,11 @@ std::string hint_for_unknown(const std::string& name, const Context& context) {
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
     if (context.names.fluents.contains(name))
         return fmt::format("the fluent's arguments take round brackets: '{}(...)'", name);
-    return suggestion(context, name, function_names());
+    std::vector<std::string> names = function_names();
+    std::erase_if(names, [&](const std::string& known) {
+        return context.standard == Standard::PyRddlGym && is_extension(*function_named(known));
+    });
+    return suggestion(context, name, std::move(names));
 }
 
 std::string hint_for_arity(Operator op, std::size_t found) {
@@ -185,7 +189,8 @@ Typed check_call(const ast::Call& call, Span span, Scope& scope) {
     std::vector<Typed> arguments = check_all(call.arguments, scope);
     const std::string& name = call.function.text;
     const std::optional<Operator> op = function_named(name);
-    if (!op) {
+    const bool is_known = op && (!is_extension(*op) || scope.context.standard == Standard::Rddlc);
+    if (!is_known) {
         scope.context.report(diagnose(unknown_function, call.function.span,
                                       fmt::format("there is no function '{}'", name))
                                  .with_hint(hint_for_unknown(name, scope.context)));

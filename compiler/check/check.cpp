@@ -11,9 +11,9 @@
 namespace rddlc {
 
 std::optional<model::Model> check(const ast::Program& program, const Sources& sources,
-                                  Diagnostics& diagnostics) {
+                                  Diagnostics& diagnostics, Standard standard) {
     using namespace checking;
-    Context context{sources, diagnostics};
+    Context context{sources, diagnostics, standard};
     const std::optional<Blocks> blocks = choose_blocks(program, context);
     if (!blocks) return std::nullopt;
 

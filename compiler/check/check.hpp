@@ -5,6 +5,7 @@
 #include "model/model.hpp"
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
+#include "support/standard.hpp"
 
 #include <optional>
 
@@ -12,6 +13,7 @@ namespace rddlc {
 
 // Reports every error of the stage at once; nothing is returned if there was one.
 std::optional<model::Model> check(const ast::Program& program, const Sources& sources,
-                                  Diagnostics& diagnostics);
+                                  Diagnostics& diagnostics,
+                                  Standard standard = Standard::PyRddlGym);
 
 }  // namespace rddlc

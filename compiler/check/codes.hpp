@@ -81,6 +81,7 @@ inline constexpr Code wrong_value{'E', 503};
 inline constexpr Code conflicting_values{'E', 504};
 inline constexpr Code missing_values{'E', 505};
 inline constexpr Code objects_of_unknown_type{'E', 506};
+inline constexpr Code extension_needed{'E', 507};
 
 inline constexpr Code idle_action_limit{'W', 501};
 inline constexpr Code large_discount{'W', 502};

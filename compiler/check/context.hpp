@@ -6,6 +6,7 @@
 #include "model/model.hpp"
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
+#include "support/standard.hpp"
 
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ struct Names {
 struct Context {
     const Sources& sources;
     Diagnostics& diagnostics;
+    Standard standard = Standard::PyRddlGym;
     model::Model model = {};
     Names names = {};
     // Fluents that some expression mentions.

@@ -19,6 +19,7 @@ enum class Definition : std::uint8_t {
     ActionPrecondition,
     StateInvariant,
     Termination,
+    InitialValue,
     // In a policy.
     PolicyAction,
     PolicyDerived,

@@ -32,6 +32,7 @@ constexpr std::array rules = {
          false},
     Rule{Definition::StateInvariant, "a state-invariant", true, false, false, false, false},
     Rule{Definition::Termination, "a termination condition", true, false, false, false, false},
+    Rule{Definition::InitialValue, "an initial value", false, false, false, false, false},
     Rule{Definition::PolicyAction, "an action of the policy", true, true, false, false, false},
     Rule{Definition::PolicyDerived, "a derived-fluent of the policy", true, false, false, false,
          false},

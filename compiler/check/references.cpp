@@ -18,7 +18,7 @@ model::ValueType object_type(model::TypeId type) {
 // An object is named in the domain; only members of enumerated types may be.
 Typed check_object(const std::string& name, const Object& object, Span span, Scope& scope) {
     const model::Type& type = scope.context.type(object.type);
-    if (!type.enumerated) {
+    if (!type.enumerated && !scope.may_name_objects) {
         scope.context.report(
             diagnose(
                 object_in_domain, span,

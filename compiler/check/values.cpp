@@ -1,5 +1,6 @@
 #include "check/values.hpp"
 
+#include "check/initial_draws.hpp"
 #include "check/types.hpp"
 #include "support/match.hpp"
 
@@ -155,15 +156,25 @@ class Assigner {
         }
         Given& given = given_[*id];
         if (given.empty()) given.resize(fluent.values.size(), nullptr);
-        const std::optional<model::Value> value = value_assigned(assignment, fluent);
         const ast::Assignment* earlier = std::exchange(given[*place], &assignment);
+        if (draw_of(assignment)) {
+            if (earlier) report_conflict(assignment, *earlier, fluent, *place);
+            check_initial_draw(assignment, *id, grounded_name(fluent, *place), context_);
+            return;
+        }
+        const std::optional<model::Value> value = value_assigned(assignment, fluent);
         if (!value) return;
-        if (earlier && *value != fluent.values[*place])
-            context_.report(diagnose(conflicting_values, assignment.span,
-                                     fmt::format("'{}' is set twice, to different values",
-                                                 grounded_name(fluent, *place)))
-                                .note(earlier->span, "first set here"));
+        if (earlier && (draw_of(*earlier) || *value != fluent.values[*place]))
+            report_conflict(assignment, *earlier, fluent, *place);
         fluent.values[*place] = *value;
+    }
+
+    void report_conflict(const ast::Assignment& assignment, const ast::Assignment& earlier,
+                         const model::Fluent& fluent, std::size_t place) {
+        context_.report(diagnose(conflicting_values, assignment.span,
+                                 fmt::format("'{}' is set twice, to different values",
+                                             grounded_name(fluent, place)))
+                            .note(earlier.span, "first set here"));
     }
 
     const model::FluentId* settable(const ast::Assignment& assignment, const Section& section) {
@@ -245,7 +256,9 @@ class Assigner {
 
     std::optional<model::Value> value_assigned(const ast::Assignment& assignment,
                                                const model::Fluent& fluent) {
-        if (assignment.value) return value_of(*assignment.value, fluent, wrong_value, context_);
+        if (assignment.value)
+            return value_of(std::get<ast::Constant>(*assignment.value), fluent, wrong_value,
+                            context_);
         const ast::Constant truth{ast::Boolean{!assignment.negated}, assignment.span};
         return value_of(truth, fluent, wrong_value, context_);
     }

@@ -88,15 +88,16 @@ void run_stages(Run& run) {
     if (run.ends_after(Stage::Read)) return;
 
     // Text -> what was written.
-    const auto tree =
-        run.measure(Stage::Parse, [&] { return parse(result.sources, files, diagnostics); });
+    const Standard standard = run.options.standard;
+    const auto tree = run.measure(
+        Stage::Parse, [&] { return parse(result.sources, files, diagnostics, standard); });
     if (diagnostics.has_errors()) return;
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;
 
     // What was written -> what it means: names, types, casts, the order of the CPFs.
-    result.model =
-        run.measure(Stage::Check, [&] { return check(tree, result.sources, diagnostics); });
+    result.model = run.measure(Stage::Check,
+                               [&] { return check(tree, result.sources, diagnostics, standard); });
     if (diagnostics.has_errors()) return;
     run.show(Form::Model, [&] { return model::print(*result.model); });
     if (run.ends_after(Stage::Check)) return;

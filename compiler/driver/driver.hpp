@@ -5,6 +5,7 @@
 #include "model/model.hpp"
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
+#include "support/standard.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -39,6 +40,7 @@ struct CompileOptions {
     // A make rule that names the inputs of the output.
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;
+    Standard standard = Standard::PyRddlGym;
 };
 
 struct StageTime {

@@ -228,6 +228,7 @@ std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeI
     std::string text = record(buffer);
     for (ir::NodeId id : indices) text += "[" + index(id).text + "]";
     const ir::Storage storage = unit_.program[buffer].storage;
+    uses_.stores_state |= storage == ir::Storage::State;
     uses_.stores_scratch |= storage == ir::Storage::Scratch;
     uses_.stores_next |= storage == ir::Storage::Next;
     uses_.stores_observation |= storage == ir::Storage::Observation;

@@ -35,6 +35,7 @@ struct Spelled {
 struct Uses {
     bool state = false, action = false, scratch = false, next = false, observation = false;
     bool memory = false, next_memory = false;
+    bool stores_state = false;
     bool stores_scratch = false, stores_next = false, stores_observation = false;
     bool stores_action = false, stores_next_memory = false;
     bool context = false;

@@ -9,6 +9,8 @@
 #include "support/template_slots.hpp"
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,19 +100,32 @@ std::string function(const std::string& result, const std::string& name,
     return text + body + indented("}", level);
 }
 
-std::string body_text(const Unit& unit, FunctionBody& body, Span span, bool has_scratch = false) {
-    const bool directives = unit.options.line_directives;
+std::string type_aliases(const Uses& uses) {
     std::string text;
-    const Uses& uses = body.uses();
     if (uses.bool_type) text += indented("using Bool = typename L::Bool;", level + 1);
     if (uses.int_type) text += indented("using Int = typename L::Int;", level + 1);
     if (uses.real_type) text += indented("using Real = typename L::Real;", level + 1);
-    if (has_scratch) text += indented("Scratch<L> scratch{};", level + 1);
-    for (const std::string& line : body.lines()) {
+    return text;
+}
+
+// What a function has for itself that has no records for its tables.
+std::string own_scratch() {
+    return indented("Scratch<L> scratch{};", level + 1);
+}
+
+std::string statements_text(const Unit& unit, std::span<const std::string> lines, Span span) {
+    const bool directives = unit.options.line_directives;
+    std::string text;
+    for (const std::string& line : lines) {
         if (directives) text += line_directive(unit.sources, span);
         text += line + "\n";
     }
     return text + std::string(directives ? line_restorer : "");
+}
+
+std::string body_text(const Unit& unit, FunctionBody& body, Span span, bool has_scratch = false) {
+    return type_aliases(body.uses()) + (has_scratch ? own_scratch() : "") +
+           statements_text(unit, body.lines(), span);
 }
 
 // One line of comment, cut to the width of the page.
@@ -255,6 +270,13 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
            functions;
 }
 
+// Every element of the buffer is drawn when an episode starts.
+bool is_drawn(const ir::Program& program, std::size_t index) {
+    const auto draws = std::ranges::count_if(
+        program.reset, [&](const ir::Definition& d) { return d.target.index == index; });
+    return draws == program.buffers[index].count();
+}
+
 }  // namespace
 
 std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
@@ -263,6 +285,7 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage || buffer.values.empty()) continue;
+        if (is_drawn(unit.program, index)) continue;
         const std::string target = record + "." + unit.names.buffers[index];
         const std::string& table = unit.names.initial[index];
         const std::string value = table.empty() ? literal(buffer.values.front()) : table;
@@ -280,10 +303,23 @@ std::string record_aliases(const Unit& unit) {
     return text;
 }
 
+// The values that are given, then what is drawn.
 std::string reset_function(const Unit& unit) {
-    const std::string body = assignments(unit, ir::Storage::State, "state", level + 1);
-    return function("void", "reset", {record_parameter("State", "state", !body.empty(), true)},
-                    body);
+    std::string text = assignments(unit, ir::Storage::State, "state", level + 1);
+    const bool has_values = !text.empty();
+    FunctionBody body(unit, level + 1);
+    std::string draws;
+    for (const ir::Definition& definition : unit.program.reset) {
+        const std::size_t before = body.lines().size();
+        body.block(definition.body);
+        draws += statements_text(unit, std::span(body.lines()).subspan(before), definition.span);
+    }
+    const Uses& uses = body.uses();
+    if (uses.scratch) text += own_scratch();
+    return function("void", "reset",
+                    {record_parameter("State", "state", has_values || uses.state, true),
+                     context_parameter(uses)},
+                    type_aliases(uses) + text + draws);
 }
 
 std::string reward_function(const Unit& unit) {

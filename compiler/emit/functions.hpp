@@ -25,7 +25,8 @@ StepFunctions step_functions(const Unit& unit);
 // The struct Policy; nothing if there is none.
 std::string policy(const Unit& unit);
 
-// The assignments that fill a record with the initial or default values of its buffers.
+// The assignments that fill a record with the initial or default values of its buffers; without
+// those that are drawn.
 std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
                         int level);
 

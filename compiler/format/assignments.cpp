@@ -1,5 +1,6 @@
 #include "format/assignments.hpp"
 
+#include "format/expressions.hpp"
 #include "format/items.hpp"
 #include "format/plain.hpp"
 
@@ -27,7 +28,8 @@ struct Row {
     Lead lead;
     std::vector<Cell> cells;
     std::size_t first_column = 0;  // of the table
-    Doc rest;                      // a comment behind the row, or an assignment with comments in it
+    // A comment behind the row, or an assignment with comments or an expression in it.
+    Doc rest;
 
     std::size_t column_count() const { return first_column + cells.size(); }
     bool is_table_row() const { return !cells.empty(); }
@@ -39,10 +41,13 @@ class RowReader {
   public:
     RowReader(Cursor& cursor, std::size_t indent) : cursor_(cursor), indent_(indent) {}
 
-    std::vector<Row> read() {
-        while (!cursor_.is_at("}")) {
-            if (has_comments_inside(cursor_, ";"))
-                add_row_with_comments();
+    std::vector<Row> read(const std::vector<ast::Assignment>& assignments) {
+        for (const ast::Assignment& assignment : assignments) {
+            const auto* value = assignment.value ? &*assignment.value : nullptr;
+            if (const auto* draw = value ? std::get_if<ast::ExprBox>(value) : nullptr)
+                add_row_of_its_own([&] { return draw_row(**draw); });
+            else if (has_comments_inside(cursor_, ";"))
+                add_row_of_its_own([&] { return nest(plain(cursor_, ";")); });
             else
                 add_cell();
         }
@@ -50,10 +55,22 @@ class RowReader {
     }
 
   private:
-    void add_row_with_comments() {
+    template <class Read>
+    void add_row_of_its_own(Read read) {
         Lead lead = cursor_.take_lead();
-        rows_.push_back({std::move(lead), {}, 0, nest(plain(cursor_, ";"))});
+        rows_.push_back({std::move(lead), {}, 0, read()});
         row_is_full_ = true;
+    }
+
+    // "p(a) = Normal(0.0, 1.0);"
+    Doc draw_row(const ast::Expr& draw) {
+        std::vector<Doc> parts;
+        parts.push_back(plain_before(cursor_, "="));
+        parts.push_back(cursor_.take("="));
+        parts.push_back(text(" "));
+        parts.push_back(layout_expression(draw, cursor_));
+        parts.push_back(cursor_.take(";"));
+        return nest(concat(std::move(parts)));
     }
 
     void add_cell() {
@@ -252,8 +269,9 @@ bool drop_first_columns(std::span<Row> rows, std::size_t indent) {
 
 }  // namespace
 
-void print_assignments(Cursor& cursor, std::size_t indent, std::vector<TextLine>& lines) {
-    std::vector<Row> rows = RowReader(cursor, indent).read();
+void print_assignments(const std::vector<ast::Assignment>& assignments, Cursor& cursor,
+                       std::size_t indent, std::vector<TextLine>& lines) {
+    std::vector<Row> rows = RowReader(cursor, indent).read(assignments);
     std::vector<std::span<Row>> tables = tables_of(rows);
     while (std::any_of(tables.begin(), tables.end(),
                        [&](std::span<Row> table) { return drop_first_columns(table, indent); }))

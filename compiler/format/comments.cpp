@@ -102,12 +102,24 @@ class Reader {
     }
 
     std::size_t number_length() const {
+        std::size_t length = digits_at(0);
+        if (peek(length) == '.') length += 1 + digits_at(length + 1);
+        return length + exponent_length(length);
+    }
+
+    std::size_t digits_at(std::size_t begin) const {
         std::size_t length = 0;
-        while (is_digit(peek(length))) ++length;
-        if (peek(length) != '.') return length;
-        do ++length;
-        while (is_digit(peek(length)));
+        while (is_digit(peek(begin + length))) ++length;
         return length;
+    }
+
+    // Of "e-3" behind a number.
+    std::size_t exponent_length(std::size_t begin) const {
+        if (peek(begin) != 'e' && peek(begin) != 'E') return 0;
+        const bool has_sign = peek(begin + 1) == '+' || peek(begin + 1) == '-';
+        const std::size_t mark = has_sign ? 2 : 1;
+        const std::size_t digits = digits_at(begin + mark);
+        return digits == 0 ? 0 : mark + digits;
     }
 
     std::size_t word_length() const {

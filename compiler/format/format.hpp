@@ -3,6 +3,7 @@
 
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
+#include "support/standard.hpp"
 
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ namespace rddlc {
 // between them. Formatting the result changes nothing. Reports what is wrong and returns nothing if
 // the file is not RDDL; throws std::logic_error if the result did not mean the same.
 std::optional<std::string> format_file(const Sources& sources, FileId file,
-                                       Diagnostics& diagnostics);
+                                       Diagnostics& diagnostics,
+                                       Standard standard = Standard::PyRddlGym);
 
 }  // namespace rddlc

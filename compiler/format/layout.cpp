@@ -110,10 +110,10 @@ class Layout {
     void print(const ast::PVariables&) {
         print_items_in_brackets([&] { return pvariable(); });
     }
-    void print(const ast::NonFluentValues&) { print_values(); }
-    void print(const ast::InitState&) { print_values(); }
-    void print_values() {
-        print_in_brackets([&] { print_assignments(cursor_, indent_, lines_); });
+    void print(const ast::NonFluentValues& values) { print_values(values.assignments); }
+    void print(const ast::InitState& values) { print_values(values.assignments); }
+    void print_values(const std::vector<ast::Assignment>& assignments) {
+        print_in_brackets([&] { print_assignments(assignments, cursor_, indent_, lines_); });
     }
 
     template <class ReadItem>

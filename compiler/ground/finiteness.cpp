@@ -56,6 +56,9 @@ Finiteness::Finiteness(const model::Model& model) : model_(model) {
     for (const model::Fluent& fluent : model.fluents) {
         fluent_is_finite_.push_back(has_finite_values(fluent));
     }
+    for (const model::InitialDraw& draw : model.initial_draws) {
+        if (!is_finite(draw.value)) fluent_is_finite_[draw.fluent] = false;
+    }
     while (find_non_finite(model.cpfs) || (model.policy && find_non_finite(model.policy->cpfs))) {
     }
 }

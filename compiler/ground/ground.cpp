@@ -28,11 +28,18 @@ ir::Policy policy_of(const model::Policy& policy, grounding::Lowering& lowering)
     return lowered;
 }
 
-// Conditions have their tables on the stack.
-constexpr std::size_t most_condition_bytes = 1 << 20;
+// Conditions and initial values have their tables on the stack.
+constexpr std::size_t most_bytes_of_tables = 1 << 20;
 
-void report_large_conditions(const ir::Program& program, Diagnostics& diagnostics) {
-    if (ir::record_layout(program, ir::Storage::Scratch).size <= most_condition_bytes) return;
+void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
+    if (ir::record_layout(program, ir::Storage::Scratch).size <= most_bytes_of_tables) return;
+    for (const ir::Definition& value : program.reset) {
+        if (!ir::calls_functions(value.body)) continue;
+        diagnostics.report(
+            {grounding::not_supported_yet, value.span,
+             "valid RDDL, not supported yet: matrix and external functions in initial "
+             "values where all tables of a step take more than 1 MB"});
+    }
     for (const auto* conditions :
          {&program.preconditions, &program.invariants, &program.terminations}) {
         for (const ir::Computation& condition : *conditions) {
@@ -61,10 +68,12 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         program.preconditions = lower_all(model.action_preconditions, lowering);
         program.invariants = lower_all(model.state_invariants, lowering);
         program.terminations = lower_all(model.terminations, lowering);
+        for (const model::InitialDraw& draw : model.initial_draws)
+            program.reset.push_back(lowering.definition_of(draw));
         // At the end, so that neither sites nor nodes of the simulator change with the policy.
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
     }
-    report_large_conditions(program, diagnostics);
+    report_large_tables(program, diagnostics);
     grounding::find_bounds(model, declarations.buffers, program, diagnostics);
     if (diagnostics.error_count() > errors_before) return std::nullopt;
 #ifndef NDEBUG

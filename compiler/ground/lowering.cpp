@@ -57,6 +57,16 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     return {store.target, std::move(body), cpf.span};
 }
 
+// One store, behind what it needs first.
+ir::Definition Lowering::definition_of(const model::InitialDraw& draw) {
+    ir::Store store{.target = buffers_[draw.fluent].current, .indices = {}, .value = {}};
+    for (std::int64_t object : draw.objects) store.indices.push_back(integer(object));
+    store.value = lower_as(draw.value, scalar_of(model_.fluents[draw.fluent].range));
+    ir::Block body = std::exchange(prelude_, {});
+    body.push_back({store});
+    return {store.target, std::move(body), draw.span};
+}
+
 ir::Computation Lowering::value_of(const model::Expr& expr) {
     const ir::NodeId value = lower(expr);
     return {std::exchange(prelude_, {}), value, expr.span};

@@ -26,6 +26,7 @@ class Lowering {
              Diagnostics& diagnostics);
 
     ir::Definition definition_of(const model::Cpf& cpf);
+    ir::Definition definition_of(const model::InitialDraw& draw);
     // Of an expression outside of any CPF: reward and conditions.
     ir::Computation value_of(const model::Expr& expr);
 

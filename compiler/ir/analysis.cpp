@@ -33,6 +33,7 @@ double cost_of(Operator op) {
         case Operator::Tanh:
         case Operator::Log:
         case Operator::Hypot:
+        case Operator::Atan2:
         case Operator::LnGamma:
         case Operator::Gamma:
             return 20;
@@ -197,6 +198,7 @@ void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
 template <class AnyDefinition, class AnyProgram>
 std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
     std::vector<AnyDefinition*> definitions;
+    for (auto& definition : program.reset) definitions.push_back(&definition);
     for (auto& definition : program.step) definitions.push_back(&definition);
     if (program.policy)
         for (auto& definition : program.policy->act) definitions.push_back(&definition);
@@ -280,6 +282,12 @@ bool fills_tables(const Block& block) {
     return fills;
 }
 
+bool calls_functions(const Block& block) {
+    bool calls = false;
+    for_each_statement<Call>(block, [&](const Call&) { calls = true; });
+    return calls;
+}
+
 std::vector<NodeId> operands_of(const Call& call) {
     std::vector<NodeId> operands;
     const auto add = [&](const std::vector<NodeId>& ids) {
@@ -346,7 +354,7 @@ bool is_stochastic(const Program& program) {
     const auto is_random = [&](const Computation& computation) {
         return draws(computation.body, facts) || facts[computation.value.index].random;
     };
-    return draws(program.step, facts) || is_random(program.reward) ||
+    return draws(program.reset, facts) || draws(program.step, facts) || is_random(program.reward) ||
            std::ranges::any_of(program.preconditions, is_random) ||
            std::ranges::any_of(program.invariants, is_random) ||
            std::ranges::any_of(program.terminations, is_random);

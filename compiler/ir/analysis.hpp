@@ -44,7 +44,7 @@ std::optional<Place> place_of(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
-// The definitions of the step, then those of the policy.
+// The definitions of reset, of the step and of the policy.
 std::vector<const Definition*> definitions_of(const Program& program);
 std::vector<Definition*> definitions_of(Program& program);
 
@@ -64,6 +64,8 @@ void for_each_statement(const Block& block, const Visit& visit) {
 
 // Does it write to buffers?
 bool fills_tables(const Block& block);
+// Does it pass tables to functions? That takes room in Scratch.
+bool calls_functions(const Block& block);
 
 // What a call evaluates before it looks at its tables.
 std::vector<NodeId> operands_of(const Call& call);
@@ -77,7 +79,7 @@ std::vector<NodeId> roots_of(const Program& program);
 // By NodeId::index: is the node part of something that the program evaluates?
 std::vector<bool> reachable_nodes(const Program& program);
 
-// Does the step, the reward or a condition draw at random? And does the policy?
+// Does reset, the step, the reward or a condition draw at random? And does the policy?
 bool is_stochastic(const Program& program);
 bool is_policy_stochastic(const Program& program);
 

@@ -19,6 +19,12 @@ bool do_conditions_fill_tables(const Program& program) {
            std::ranges::any_of(program.terminations, does);
 }
 
+bool does_reset_fill_tables(const Program& program) {
+    return std::ranges::any_of(program.reset, [](const Definition& definition) {
+        return calls_functions(definition.body);
+    });
+}
+
 }  // namespace
 
 Interpreter::Interpreter(Program program, ExternalFunctions functions)
@@ -31,10 +37,17 @@ Interpreter::Interpreter(Program program, ExternalFunctions functions)
                             : state_size_),
       scratch_size_(record_layout(*program_, Storage::Scratch).size),
       memory_size_(record_layout(*program_, Storage::Memory).size),
-      conditions_fill_tables_(do_conditions_fill_tables(*program_)) {}
+      conditions_fill_tables_(do_conditions_fill_tables(*program_)),
+      reset_fills_tables_(does_reset_fill_tables(*program_)) {}
 
-void Interpreter::reset(std::byte* state) const {
+void Interpreter::reset(std::byte* state, Context& context) const {
     write_initial(Storage::State, state);
+    if (program_->reset.empty()) return;
+    std::vector<std::byte> scratch(reset_fills_tables_ ? scratch_size_ : 0);
+    const Records records =
+        Records().set(Storage::State, state).set(Storage::Scratch, scratch.data());
+    Evaluator::Frame frame(evaluator_, records, context);
+    for (const Definition& definition : program_->reset) evaluator_.run(definition.body, frame);
 }
 
 void Interpreter::default_action(std::byte* action) const {

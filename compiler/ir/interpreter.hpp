@@ -25,7 +25,7 @@ class Interpreter {
     std::size_t scratch_size() const { return scratch_size_; }
 
     // Writes the initial state, and the default action.
-    void reset(std::byte* state) const;
+    void reset(std::byte* state, Context& context) const;
     void default_action(std::byte* action) const;
 
     // Computes the next state (and the observation, which is unused when fully observed) and
@@ -56,7 +56,7 @@ class Interpreter {
     std::unique_ptr<const Program> program_;
     Evaluator evaluator_;
     std::size_t state_size_, action_size_, observation_size_, scratch_size_, memory_size_;
-    bool conditions_fill_tables_;
+    bool conditions_fill_tables_, reset_fills_tables_;
 };
 
 }  // namespace rddlc::ir

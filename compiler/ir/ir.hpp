@@ -209,11 +209,12 @@ struct External {
     Span span;         // of its first use
 };
 
-// One CPF, or a table made by a pass: the statements that fill one buffer.
+// One CPF, one random initial value, or a table made by a pass: the statements that fill (a part
+// of) one buffer.
 struct Definition {
     BufferId target;
     Block body;
-    Span span;  // of the CPF
+    Span span;  // of the CPF or the value
 };
 // A value with what must be computed before it.
 struct Computation {
@@ -265,6 +266,9 @@ struct Program {
     std::vector<External> externals;
     std::uint32_t local_count = 0;
 
+    // What is drawn when an episode starts, into State buffers that hold their values already.
+    // Reads constants only.
+    std::vector<Definition> reset;
     // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
     // their place.
     std::vector<Definition> step;
@@ -273,7 +277,7 @@ struct Program {
     std::vector<Computation> invariants;
     std::vector<Computation> terminations;
 
-    std::int64_t horizon = 0;
+    std::int64_t horizon = 0;  // 0: none
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;
 

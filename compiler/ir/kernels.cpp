@@ -126,6 +126,8 @@ double apply_real(Operator op, double a, double b, rddl::Place place, Context& c
             return rddl::log(a, b);
         case Operator::Hypot:
             return rddl::hypot(a, b);
+        case Operator::Atan2:
+            return rddl::atan2(a, b);
         case Operator::LnGamma:
             return rddl::ln_gamma(context, place, a);
         case Operator::Gamma:

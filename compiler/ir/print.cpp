@@ -114,9 +114,9 @@ class Printer {
             buffers(storage);
         }
         bounds();
-        writer_.line().line("step").indent();
-        for (const Definition& definition : program_.step) block(definition.body);
-        writer_.dedent().line();
+        if (!program_.reset.empty()) definitions("reset", program_.reset);
+        definitions("step", program_.step);
+        writer_.line();
         computation("reward", program_.reward);
         conditions("precondition", program_.preconditions);
         conditions("invariant", program_.invariants);
@@ -127,6 +127,12 @@ class Printer {
     }
 
   private:
+    void definitions(const char* name, const std::vector<Definition>& definitions) {
+        writer_.line().line(name).indent();
+        for (const Definition& definition : definitions) block(definition.body);
+        writer_.dedent();
+    }
+
     // ------------------------------------------------------------------------- tables
 
     void types() {

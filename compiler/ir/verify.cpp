@@ -28,6 +28,7 @@ class Verifier {
         if (pool_is_sound()) {
             facts_ = all_facts(program_);
             nodes();
+            reset();
             step();
             conditions();
             policy();
@@ -340,6 +341,15 @@ class Verifier {
         std::set<VariableId> variables;
         std::set<LocalId> locals;
     };
+
+    void reset() {
+        computed_ = {Storage::Scratch, Storage::State};
+        for (const Definition& definition : program_.reset) {
+            defined_.clear();
+            body(definition.body, {Storage::Constant, Storage::Scratch});
+        }
+        defined_.clear();
+    }
 
     void step() {
         const StorageSet readable = {Storage::Constant, Storage::State, Storage::Action,

@@ -49,7 +49,8 @@ struct Fluent {
     ValueType range;
     std::optional<Value> default_value;
     Span span;
-    // Non-fluents: the instance's values; state-fluents: initial values; action-fluents: the
+    // Non-fluents: the instance's values; state-fluents: initial values, or anything where
+    // Model::initial_draws has one; action-fluents: the
     // default for every grounding; others: empty. Row-major over the parameters' objects, each
     // already of the range's type (bool, int64 or double).
     std::vector<Value> values;
@@ -174,6 +175,14 @@ struct Policy {
     Span span;              // of its name
 };
 
+// A random initial value of one grounding of a state-fluent.
+struct InitialDraw {
+    FluentId fluent;
+    std::vector<std::int64_t> objects;  // one for each parameter
+    Expr value;                         // of exactly the fluent's range; reads non-fluents only
+    Span span;
+};
+
 struct Model {
     std::string domain_name;
     std::string instance_name;
@@ -182,6 +191,7 @@ struct Model {
     std::vector<Fluent> fluents;  // in declaration order, the domain's before the policy's
     std::vector<Variable> variables;
 
+    std::vector<InitialDraw> initial_draws;  // of different groundings, in the order written
     std::vector<Cpf> cpfs;  // in evaluation order (semantics 4.6)
     Expr reward;            // real
     // Each of type bool. State-action constraints are not kept: nothing enforces them.
@@ -189,7 +199,7 @@ struct Model {
     std::vector<Expr> state_invariants;
     std::vector<Expr> terminations;
 
-    std::int64_t horizon = 0;
+    std::int64_t horizon = 0;  // 0: none (pos-inf)
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;  // absent: no limit (pos-inf)
 

@@ -80,6 +80,23 @@ std::string cpf_text(const Model& model, const Cpf& cpf) {
                        text_of(model, fluent.range), text_of(model, cpf.body, 8));
 }
 
+std::string initial_draws(const Model& model) {
+    if (model.initial_draws.empty()) return "";
+    std::string text = "\ninit-state\n";
+    for (const InitialDraw& draw : model.initial_draws) {
+        const Fluent& fluent = model.fluents[draw.fluent];
+        std::string objects;
+        for (std::size_t i = 0; i < draw.objects.size(); ++i)
+            objects +=
+                (i == 0 ? "(" : ", ") + model.types[fluent.parameters[i]]
+                                            .objects[static_cast<std::size_t>(draw.objects[i])];
+        if (!objects.empty()) objects += ")";
+        text += fmt::format("    {}{}: {} = {}\n", fluent.name, objects,
+                            text_of(model, fluent.range), text_of(model, draw.value, 4));
+    }
+    return text;
+}
+
 std::string conditions(const Model& model, std::string_view title,
                        const std::vector<Expr>& expressions) {
     if (expressions.empty()) return "";
@@ -105,6 +122,7 @@ std::string print(const Model& model) {
     for (const Type& type : model.types) text += type_line(type);
     text += "\nfluents\n";
     for (const Fluent& fluent : model.domain_fluents()) text += fluent_line(model, fluent);
+    text += initial_draws(model);
     text += "\ncpfs\n";
     for (const Cpf& cpf : model.cpfs) text += cpf_text(model, cpf);
     text += fmt::format("\nreward\n    {}\n", text_of(model, model.reward, 4));

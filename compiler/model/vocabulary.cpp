@@ -63,6 +63,7 @@ constexpr OperatorRow operators[] = {
     {Operator::Tanh, "tanh", "tanh", 1, true},
     {Operator::Log, "log", "log", 2, true},
     {Operator::Hypot, "hypot", "hypot", 2, true},
+    {Operator::Atan2, "atan2", "atan2", 2, true},
     {Operator::LnGamma, "ln_gamma", "lngamma", 1, true},
     {Operator::Gamma, "gamma", "gamma", 1, true},
     {Operator::Defined, "defined", "", 1, false},
@@ -163,6 +164,10 @@ bool is_function(Operator op) {
 }
 int arity_of(Distribution distribution) {
     return row(distribution).arity;
+}
+
+bool is_extension(Operator op) {
+    return op == Operator::Atan2;
 }
 
 bool may_fault(Operator op, bool on_integers) {

@@ -33,6 +33,7 @@ enum class Operator : std::uint8_t {
     Exp, Ln, Sqrt, Cos, Sin, Tan, Acos, Asin, Atan, Cosh, Sinh, Tanh,
     Log,                                      // log[x, base]
     Hypot,
+    Atan2,                                    // atan2[y, x], an extension
     LnGamma, Gamma,                           // fault unless the operand is > 0
     Defined,                                  // not in RDDL: real -> real, faults on nan
 };
@@ -71,6 +72,9 @@ int arity_of(Operator op);
 // Written name[...] in RDDL, unlike the infix and prefix operators.
 bool is_function(Operator op);
 int arity_of(Distribution distribution);
+
+// Functions that only --std=rddlc has.
+bool is_extension(Operator op);
 
 // True for operators that fault on some operands: Power on ints, LnGamma, Gamma, Defined.
 bool may_fault(Operator op, bool on_integers);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 namespace rddlc {
 
@@ -56,8 +58,9 @@ ast::Integer to_integer(const Conversion& conversion, std::string text, Span spa
 ast::Real to_real(const Conversion& conversion, std::string text, Span span) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool has_whole_part = text.find_first_of("123456789") < text.find('.');
-    if (error == std::errc::result_out_of_range && has_whole_part)
+    // What is too small is zero.
+    const bool is_large = std::isinf(std::strtod(text.c_str(), nullptr));
+    if (error == std::errc::result_out_of_range && is_large)
         conversion.diagnostics.report(
             {number_out_of_range, span, "this number is too large for a real"});
     return {value, std::move(text)};

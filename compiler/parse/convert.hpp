@@ -34,6 +34,7 @@ ast::Constant to_constant(const Conversion& conversion, Parser::ConstantContext&
 // convert_expression.cpp
 ast::Expr to_expr(const Conversion& conversion, Parser::ExprContext& context);
 ast::Expr to_expr(const Conversion& conversion, Parser::RandomVectorContext& context);
+ast::Expr to_expr(const Conversion& conversion, Parser::DrawContext& context);
 
 // convert_domain.cpp
 ast::Domain to_domain(const Conversion& conversion, Parser::DomainContext& context);

@@ -176,12 +176,14 @@ ast::ExprNode to_node(const Conversion& conversion, Parser::CallContext& context
     return ast::Call{to_name(conversion, context.ID()), to_exprs(conversion, context.expr())};
 }
 
-ast::ExprNode to_node(const Conversion& conversion, Parser::DistributionContext& context) {
-    return ast::Distribution{to_name(conversion, context.DISTRIBUTION()),
-                             to_exprs(conversion, context.expr())};
+// A distribution is an expression or an initial value.
+template <class Context>
+ast::Distribution to_distribution(const Conversion& conversion, Context& context) {
+    return {to_name(conversion, context.DISTRIBUTION()), to_exprs(conversion, context.expr())};
 }
 
-ast::ExprNode to_node(const Conversion& conversion, Parser::DiscreteCasesContext& context) {
+template <class Context>
+ast::DiscreteCases to_discrete_cases(const Conversion& conversion, Context& context) {
     ast::DiscreteCases discrete{
         to_name(conversion, context.DISCRETE()), to_name(conversion, context.ID()), {}};
     const auto labels = context.symbol();
@@ -190,6 +192,14 @@ ast::ExprNode to_node(const Conversion& conversion, Parser::DiscreteCasesContext
         discrete.weights.push_back({to_name(conversion, *labels[i]->getStart()),
                                     labels[i]->ENUM() != nullptr, to_box(conversion, weights[i])});
     return discrete;
+}
+
+ast::ExprNode to_node(const Conversion& conversion, Parser::DistributionContext& context) {
+    return to_distribution(conversion, context);
+}
+
+ast::ExprNode to_node(const Conversion& conversion, Parser::DiscreteCasesContext& context) {
+    return to_discrete_cases(conversion, context);
 }
 
 ast::ExprNode to_node(const Conversion& conversion, Parser::MatrixFunctionContext& context) {
@@ -245,6 +255,14 @@ ast::ExprNode to_node(const Conversion& conversion, Parser::DeterminantContext& 
                             to_box(conversion, context.expr())};
 }
 
+ast::ExprNode to_node(const Conversion& conversion, Parser::DrawContext& context) {
+    if (auto* distribution = as<Parser::DrawDistributionContext>(context))
+        return to_distribution(conversion, *distribution);
+    if (auto* cases = as<Parser::DrawCasesContext>(context))
+        return to_discrete_cases(conversion, *cases);
+    return to_discrete_over(conversion, *as<Parser::DrawOverContext>(context));
+}
+
 // Tries the alternatives one after the other.
 template <class First, class... Rest>
 ast::ExprNode to_node_of(const Conversion& conversion, Parser::ExprContext& context) {
@@ -274,6 +292,10 @@ ast::Expr to_expr(const Conversion& conversion, Parser::RandomVectorContext& con
                               to_slot(conversion, *context.slot()),
                               to_vectors(conversion, context.vectorReferences())},
             span_of(conversion, context)};
+}
+
+ast::Expr to_expr(const Conversion& conversion, Parser::DrawContext& context) {
+    return {to_node(conversion, context), span_of(conversion, context)};
 }
 
 }  // namespace rddlc

@@ -30,6 +30,7 @@ ast::Assignment to_assignment(const Conversion& conversion, Parser::AssignmentCo
     assignment.name = to_name(conversion, set.ID());
     set_arguments(conversion, set.symbols(), assignment);
     if (set.constant()) assignment.value = to_constant(conversion, *set.constant());
+    if (set.draw()) assignment.value = ast::ExprBox(to_expr(conversion, *set.draw()));
     return assignment;
 }
 
@@ -69,6 +70,13 @@ ast::MaxNondefActions to_max_nondef_actions(const Conversion& conversion,
     return {limit ? std::optional(limit->value) : std::nullopt};
 }
 
+ast::Discount to_discount(const Conversion& conversion, Parser::DiscountContext& context) {
+    antlr4::tree::TerminalNode* number = context.REAL() ? context.REAL() : context.INT();
+    const Span span = span_of(conversion.file, *number->getSymbol());
+    if (context.INT()) return {to_integer(conversion, number->getText(), span)};
+    return {to_real(conversion, number->getText(), span)};
+}
+
 // ----------------------------------------------------------------------------------- sections
 
 SectionNode to_node(const Conversion& conversion, Parser::NonFluentsSectionContext& context) {
@@ -93,10 +101,7 @@ SectionNode to_node(const Conversion& conversion, Parser::InstanceSectionContext
         return to_max_nondef_actions(conversion, *limit);
     if (auto* horizon = as<Parser::HorizonContext>(context))
         return to_horizon(conversion, *horizon);
-    auto& discount = *as<Parser::DiscountContext>(context);
-    antlr4::tree::TerminalNode* number = discount.REAL() ? discount.REAL() : discount.INT();
-    return ast::Discount{
-        to_real(conversion, number->getText(), span_of(conversion.file, *number->getSymbol()))};
+    return to_discount(conversion, *as<Parser::DiscountContext>(context));
 }
 
 template <class Context>

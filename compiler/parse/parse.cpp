@@ -68,12 +68,12 @@ ast::Block to_block(const Conversion& conversion, Parser::BlockContext& context)
     return to_policy(conversion, *context.policy());
 }
 
-void parse_file(FileId file, const Source& source, ast::Program& program,
+void parse_file(FileId file, const Source& source, Standard standard, ast::Program& program,
                 Diagnostics& diagnostics) {
     if (!is_text(file, source, diagnostics)) return;
     if (!within_limits(file, source, diagnostics)) return;
     const std::size_t errors_before = diagnostics.error_count();
-    TokenizedFile tokens(file, source, diagnostics);
+    TokenizedFile tokens(file, source, standard, diagnostics);
     if (!has_content(file, tokens, diagnostics)) return;
 
     Parser parser(&tokens.stream());
@@ -89,10 +89,10 @@ void parse_file(FileId file, const Source& source, ast::Program& program,
 
 }  // namespace
 
-ast::Program parse(const Sources& sources, std::span<const FileId> files,
-                   Diagnostics& diagnostics) {
+ast::Program parse(const Sources& sources, std::span<const FileId> files, Diagnostics& diagnostics,
+                   Standard standard) {
     ast::Program program;
-    for (const FileId file : files) parse_file(file, sources[file], program, diagnostics);
+    for (const FileId file : files) parse_file(file, sources[file], standard, program, diagnostics);
     return program;
 }
 

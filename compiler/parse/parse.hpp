@@ -3,6 +3,7 @@
 
 #include "ast/ast.hpp"
 #include "support/diagnostic.hpp"
+#include "support/standard.hpp"
 
 #include <span>
 
@@ -11,6 +12,7 @@ namespace rddlc {
 // Reads the blocks of all files, in their order; domain and instance may stand in one file or in
 // several. Reports what is wrong in each file; the result is meaningful only without errors.
 // Whether the blocks of a problem are all there is the checker's business.
-ast::Program parse(const Sources& sources, std::span<const FileId> files, Diagnostics& diagnostics);
+ast::Program parse(const Sources& sources, std::span<const FileId> files, Diagnostics& diagnostics,
+                   Standard standard = Standard::PyRddlGym);
 
 }  // namespace rddlc

@@ -92,8 +92,8 @@ std::optional<std::string> without_exponent(std::string_view text) {
 
 class Repair {
   public:
-    Repair(FileId file, const Source& source, Diagnostics& diagnostics)
-        : file_(file), text_(source.text()), diagnostics_(diagnostics) {}
+    Repair(FileId file, const Source& source, Standard standard, Diagnostics& diagnostics)
+        : file_(file), text_(source.text()), standard_(standard), diagnostics_(diagnostics) {}
 
     // The tokens that the parser shall see.
     TokenList operator()(TokenList tokens) {
@@ -108,8 +108,9 @@ class Repair {
     bool keep(antlr4::CommonToken& token) {
         switch (token.getType()) {
             case Parser::EXPONENT_NUMBER:
+                return repair_exponent(token);
             case Parser::POINT_WITHOUT_DIGITS:
-                return repair_number(token);
+                return repair_point(token);
             case Parser::FOREIGN_OPERATOR:
                 return repair_operator(token);
             case Parser::FOREIGN_COMMENT:
@@ -123,16 +124,21 @@ class Repair {
         }
     }
 
-    bool repair_number(antlr4::CommonToken& token) {
-        const bool exponent = token.getType() == Parser::EXPONENT_NUMBER;
-        std::string hint = "write at least one digit behind the point: " + text(token) + "0";
-        if (exponent) {
-            const auto fixed = without_exponent(text(token));
-            hint = "write all digits" + (fixed ? ": " + *fixed : ", or use pow[10, n]");
-        }
-        report(foreign_number, token,
-               exponent ? "RDDL numbers have no exponent" : "a number cannot end in a point",
-               std::move(hint));
+    bool repair_exponent(antlr4::CommonToken& token) {
+        token.setType(Parser::REAL);
+        if (standard_ == Standard::Rddlc) return true;
+        const auto fixed = without_exponent(text(token));
+        report(foreign_number, token, "RDDL numbers have no exponent",
+               fmt::format("write all digits{}; {}", fixed ? ": " + *fixed : ", or use pow[10, n]",
+                           extension_hint));
+        return true;
+    }
+
+    bool repair_point(antlr4::CommonToken& token) {
+        std::string fixed = text(token);
+        fixed.insert(fixed.find('.') + 1, "0");
+        report(foreign_number, token, "a number cannot end in a point",
+               "write at least one digit behind the point: " + fixed);
         token.setType(Parser::REAL);
         return true;
     }
@@ -215,6 +221,7 @@ class Repair {
 
     FileId file_;
     std::string_view text_;
+    Standard standard_;
     Diagnostics& diagnostics_;
     std::optional<Span> illegal_;
     std::size_t reported_ = 0;
@@ -222,9 +229,9 @@ class Repair {
 
 }  // namespace
 
-TokenList repair_spelling(FileId file, const Source& source, TokenList tokens,
+TokenList repair_spelling(FileId file, const Source& source, Standard standard, TokenList tokens,
                           Diagnostics& diagnostics) {
-    return Repair(file, source, diagnostics)(std::move(tokens));
+    return Repair(file, source, standard, diagnostics)(std::move(tokens));
 }
 
 }  // namespace rddlc

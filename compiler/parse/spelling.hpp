@@ -9,7 +9,7 @@ using TokenList = std::vector<std::unique_ptr<Token>>;
 
 // Reports such tokens and returns the others, with what was meant in place of what was written
 // where that is clear: the parser shall find no second error in the same place.
-TokenList repair_spelling(FileId file, const Source& source, TokenList tokens,
+TokenList repair_spelling(FileId file, const Source& source, Standard standard, TokenList tokens,
                           Diagnostics& diagnostics);
 
 }  // namespace rddlc

@@ -31,10 +31,11 @@ std::vector<std::unique_ptr<Token>> lex(antlr4::ANTLRInputStream& characters) {
 
 }  // namespace
 
-TokenizedFile::TokenizedFile(FileId file, const Source& source, Diagnostics& diagnostics)
+TokenizedFile::TokenizedFile(FileId file, const Source& source, Standard standard,
+                             Diagnostics& diagnostics)
     : characters_(masked(source.text())),
       source_(std::make_unique<antlr4::ListTokenSource>(
-          repair_spelling(file, source, lex(characters_), diagnostics))),
+          repair_spelling(file, source, standard, lex(characters_), diagnostics))),
       stream_(std::make_unique<antlr4::CommonTokenStream>(source_.get())) {
     stream_->fill();
 }

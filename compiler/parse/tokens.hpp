@@ -5,6 +5,7 @@
 #include "grammar/RDDLParser.h"
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
+#include "support/standard.hpp"
 
 #include <memory>
 #include <vector>
@@ -17,7 +18,7 @@ using antlr4::Token;
 // Owns the characters that the tokens point into. Token positions are byte offsets of the file.
 class TokenizedFile {
   public:
-    TokenizedFile(FileId file, const Source& source, Diagnostics& diagnostics);
+    TokenizedFile(FileId file, const Source& source, Standard standard, Diagnostics& diagnostics);
 
     antlr4::CommonTokenStream& stream() { return *stream_; }
     // All of them; the last is the end of the file.

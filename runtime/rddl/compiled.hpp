@@ -39,7 +39,9 @@ struct Compiled {
         return Simulator::partially_observed ? record_size<Observation> : record_size<State>;
     }
 
-    static void reset(std::byte* state) { Simulator::reset(as<State>(state)); }
+    static void reset(std::byte* state, Context<Scalar>& context) {
+        Simulator::reset(as<State>(state), context);
+    }
 
     static double step(const std::byte* state, const std::byte* action, std::byte* scratch,
                        std::byte* next, std::byte* observation, Context<Scalar>& context) {

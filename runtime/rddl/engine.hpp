@@ -22,8 +22,8 @@ concept Engine = requires(const E engine, const std::byte* record, std::byte* ta
     { engine.observation_size() } -> std::convertible_to<std::size_t>;
     { engine.scratch_size() } -> std::convertible_to<std::size_t>;
 
-    // reset(state): the initial values.
-    {engine.reset(target)};
+    // reset(state, context): the initial values.
+    {engine.reset(target, context)};
     // step(state, action, scratch, next, observation, context): fills the next state, and the
     // observation of a partially observed problem; the reward.
     { engine.step(record, record, target, target, target, context) } -> std::convertible_to<double>;

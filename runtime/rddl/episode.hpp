@@ -60,8 +60,12 @@ void start_next(const E& engine, Episode& episode, std::uint64_t seed, std::uint
     episode = {};
     episode.number = number;
     episode.key = stream_key(seed, environment, static_cast<std::uint64_t>(number));
-    engine.reset(state);
-    end_if_terminal(engine, episode, state);
+    Context<Scalar> context = episode.context_at(0);
+    engine.reset(state, context);
+    if (context.fault)
+        episode.end_by(context.fault);
+    else
+        end_if_terminal(engine, episode, state);
 }
 
 // One step of a running episode; the reward. The state and, if partially observed, the observation

@@ -213,6 +213,10 @@ inline double tanh(double a) {
 inline double hypot(double a, double b) {
     return std::hypot(a, b);
 }
+// The angle of the point (x, y), in [-pi, pi]; 0 for the origin.
+inline double atan2(double y, double x) {
+    return std::atan2(y, x);
+}
 inline double exp_minus_one(double a) {
     return std::expm1(a);
 }  // this and the next: for kernels

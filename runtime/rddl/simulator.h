@@ -81,9 +81,9 @@ typedef struct {
     int64_t action_size;
     int64_t observation_size; /* equals state_size when not partially observed */
     int32_t partially_observed;
-    int32_t stochastic; /* 1: some step draws at random */
+    int32_t stochastic; /* 1: something is drawn at random, in a step or at reset */
     const void* default_action; /* one action record */
-    int64_t horizon;            /* steps; 0: none */
+    int64_t horizon;            /* steps; 0: none (pos-inf) */
     double discount;
     int64_t max_nondef_actions; /* how many action values may differ from the default; -1: all */
     const rddl_condition* preconditions;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 #include <regex>
+#include <stdexcept>
+#include <string_view>
 
 namespace rddlc::testing {
 namespace {
@@ -20,10 +22,27 @@ void add_marks(const std::string& file, int number, const std::string& line,
     }
 }
 
+// As for rddlc: --std=rddlc, -Wno-W0202.
+void read_options(const fs::path& file, Case& result) {
+    std::ifstream stream(file);
+    for (std::string option; stream >> option;) {
+        const auto standard = standard_named(option.substr(std::min(option.size(), 6ul)));
+        const auto warning = parse_code(option.substr(std::min(option.size(), 5ul)));
+        if (option.starts_with("--std=") && standard)
+            result.standard = *standard;
+        else if (option.starts_with("-Wno-") && warning)
+            result.disabled_warnings.insert(*warning);
+        else
+            throw std::runtime_error(file.string() + ": unknown option " + option);
+    }
+}
+
 }  // namespace
 
 Case read_case(const fs::path& folder) {
-    Case result{folder, {}, {}, {}};
+    Case result;
+    result.folder = folder;
+    read_options(folder / "options", result);
     for (const auto& entry : fs::directory_iterator(folder)) {
         const fs::path name = entry.path().filename();
         if (name.extension() == ".rddl") result.files.push_back(name.string());

@@ -1,7 +1,11 @@
 // A case: a folder with RDDL files and what is expected of them.
 #pragma once
 
+#include "support/diagnostic.hpp"
+#include "support/standard.hpp"
+
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +25,8 @@ struct Case {
     std::vector<std::string> files;              // *.rddl, by name: domain.rddl, then instance.rddl
     std::vector<std::filesystem::path> headers;  // *.hpp: the external functions
     std::vector<Mark> marks;
+    Standard standard = Standard::PyRddlGym;
+    std::set<Code> disabled_warnings;
 
     bool expects(const std::string& file) const { return std::filesystem::exists(folder / file); }
 };

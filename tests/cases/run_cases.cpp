@@ -80,6 +80,8 @@ CompileOptions options_of(const Case& expected) {
     CompileOptions options;
     options.inputs.assign(expected.files.begin(), expected.files.end());
     options.extern_headers = expected.headers;
+    options.standard = expected.standard;
+    options.diagnostics.disabled_warnings = expected.disabled_warnings;
     return options;
 }
 
@@ -182,10 +184,12 @@ TEST_P(Cases, AreAsExpected) {
     expect_form(expected, "sim.cpp.exp", Form::Cpp);
     expect_part(expected, "tables.exp", compilation.text, "namespace ",
                 "template <class L>\nstruct State");
+    expect_part(expected, "reset.exp", compilation.text, "    // The initial state",
+                "    // All CPFs");
     expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // Of the step");
     expect_part(expected, "policy.exp", compilation.text, "// The policy block", "static_assert");
     const bool runs = std::ranges::any_of(
-        std::array{"sim.cpp.exp", "tables.exp", "step.exp", "policy.exp", "trace.exp"},
+        std::array{"sim.cpp.exp", "tables.exp", "reset.exp", "step.exp", "policy.exp", "trace.exp"},
         [&](const char* file) { return expected.expects(file); });
     if (runs && compilation.program) expect_trace(expected, compilation);
 }

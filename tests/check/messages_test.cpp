@@ -92,7 +92,7 @@ TEST(Messages, FunctionsAndAggregations) {
               "hint: nest it: 'min[a, min[b, c]]'; over objects it is 'min_{?x : type} ...'");
     EXPECT_EQ(report("r' = atan2[1, 2];"),
               "there is no function 'atan2'\n"
-              "hint: there is no atan2: use 'atan[y / x]' and distinguish the quadrants");
+              "hint: use 'atan[y / x]' and distinguish the quadrants; --std=rddlc allows it");
     EXPECT_EQ(report("r' = sum[1];"),
               "there is no function 'sum'\n"
               "hint: an aggregation is written 'sum_{?x : type} ...'");

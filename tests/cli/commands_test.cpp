@@ -1,6 +1,9 @@
 // What users see of list, info, check, run and bench.
 #include "program.hpp"
 
+#include <set>
+#include <sstream>
+
 namespace rddlc::cli {
 namespace {
 
@@ -271,6 +274,50 @@ TEST_F(Program, RefusesEndlessEpisodes) {
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_NE(outcome.err.find("give one with --horizon"), std::string::npos) << outcome.err;
     EXPECT_EQ(run(std::string("run endless.rddl --horizon 3") + interpreted).status, 0);
+}
+
+constexpr const char* random_start =
+    "domain d { pvariables { x : { state-fluent, real, default = 0.0 }; };\n"
+    "  cpfs { x' = x + 1e-3; }; reward = x; termination { x > 0.9; }; }\n"
+    "non-fluents n { domain = d; }\n"
+    "instance i { domain = d; non-fluents = n; init-state { x = Uniform(0.0, 1.0); };\n"
+    "  horizon = pos-inf; discount = 1; }";
+
+TEST_F(Program, ReadsExtensionsWhereAskedFor) {
+    write_file(folder_ / "random.rddl", random_start);
+    for (const char* command : {"run", "info", "check", "fmt", "bench", "replay"}) {
+        const Outcome refused = run(std::string(command) + " random.rddl");
+        EXPECT_EQ(refused.status, 1) << command;
+        EXPECT_NE(refused.err.find("--std=rddlc allows it"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(run("check --std=rddlc random.rddl").status, 0);
+    EXPECT_EQ(run("fmt --std=rddlc --stdout random.rddl").status, 0);
+    const json info = run_json("info --std=rddlc random.rddl --json");
+    EXPECT_EQ(info["horizon"], 0);
+    EXPECT_TRUE(info["characteristics"]["random_initial_state"]) << info;
+    EXPECT_EQ(run("run random.rddl --std c99").status, 2);
+}
+
+// One line an episode: what 'run' traces without the header, which names the engine.
+std::string steps_of(const Outcome& outcome) {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out.substr(outcome.out.find('\n') + 1);
+}
+
+TEST_F(Program, StartsEachEpisodeAnewAndReproducibly) {
+    write_file(folder_ / "random.rddl", random_start);
+    const std::string run_it =
+        "run --std=rddlc random.rddl --episodes 20 --horizon 1 --trace - --quiet";
+    const std::string steps = steps_of(run(run_it));
+    for (const char* other : {" --threads 1 --batch 1", " --threads 3 --batch 7", interpreted})
+        EXPECT_EQ(steps_of(run(run_it + other)), steps) << other;
+    EXPECT_NE(steps_of(run(run_it + " --seed 4" + interpreted)), steps);
+
+    std::set<double> states;
+    std::istringstream lines(steps);
+    for (std::string line; std::getline(lines, line);)
+        states.insert(json::parse(line)["state"]["x"].get<double>());
+    EXPECT_GT(states.size(), 10u) << "some episodes are over before their first step";
 }
 
 TEST_F(Program, EndsCleanlyWhenInterrupted) {

@@ -18,7 +18,8 @@ inline std::string formatted(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;
     const FileId file = sources.add("test.rddl", text);
-    const std::optional<std::string> result = format_file(sources, file, diagnostics);
+    const std::optional<std::string> result =
+        format_file(sources, file, diagnostics, Standard::Rddlc);
     EXPECT_TRUE(result) << render(diagnostics, sources, {}) << text;
     return result.value_or("");
 }

@@ -27,7 +27,8 @@ TEST_P(FormatGolden, IsAsExpected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Format, FormatGolden,
-                         ::testing::Values("comments", "everything", "expressions", "tables"),
+                         ::testing::Values("comments", "everything", "expressions", "extensions",
+                                           "tables"),
                          [](const auto& name) { return std::string(name.param); });
 
 // What the examples look like is what this layout is measured by.

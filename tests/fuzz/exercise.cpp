@@ -22,7 +22,7 @@ namespace {
 
 ast::Program parsed(std::string text, Sources& sources, Diagnostics& diagnostics) {
     const std::array files = {sources.add("problem.rddl", std::move(text))};
-    return parse(sources, files, diagnostics);
+    return parse(sources, files, diagnostics, Standard::Rddlc);
 }
 
 void expect_same_when_printed(const ast::Program& tree) {
@@ -51,7 +51,7 @@ std::optional<ir::Program> grounded(std::string_view text, Sources& sources,
     const ast::Program tree = parsed(std::string(text), sources, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
     expect_same_when_printed(tree);
-    const std::optional<model::Model> model = check(tree, sources, diagnostics);
+    const std::optional<model::Model> model = check(tree, sources, diagnostics, Standard::Rddlc);
     if (diagnostics.has_errors()) return std::nullopt;
     if (!model) throw Contradiction("no model and no error");
     model::print(*model);

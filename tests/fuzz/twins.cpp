@@ -62,7 +62,7 @@ class Engine {
           memory_(interpreter_.memory_size()),
           next_memory_(interpreter_.memory_size()),
           context_{.key = rddl::stream_key(seed, 0, 0), .step = 0, .fault = {}} {
-        interpreter_.reset(state_.data());
+        interpreter_.reset(state_.data(), context_);
         if (interpreter_.has_policy()) interpreter_.reset_policy(memory_.data());
     }
 

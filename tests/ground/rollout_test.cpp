@@ -23,7 +23,8 @@ class Rollout {
           action_(engine_.action_size()),
           scratch_(engine_.scratch_size()),
           observation_(engine_.observation_size()) {
-        engine_.reset(state_.data());
+        ir::Context context{.key = rddl::stream_key(1, 0, 0), .step = 0, .fault = {}};
+        engine_.reset(state_.data(), context);
         engine_.default_action(action_.data());
     }
 

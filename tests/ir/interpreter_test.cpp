@@ -1,5 +1,6 @@
 #include "ir/interpreter.hpp"
 
+#include "ir/verify.hpp"
 #include "programs.hpp"
 
 #include <rddl/distributions.hpp>
@@ -41,7 +42,7 @@ class InterpreterTest : public testing::Test {
         const Interpreter interpreter(w.program);
         EXPECT_EQ(interpreter.state_size(), sizeof(State));
         State state, next;
-        interpreter.reset(bytes(state));
+        interpreter.reset(bytes(state), context);
         std::array<bool, 3> action{};
         std::array<std::byte, 64> scratch;
         reward = interpreter.step(bytes(state), bytes(action), scratch.data(), bytes(next),
@@ -59,10 +60,27 @@ class InterpreterTest : public testing::Test {
 TEST_F(InterpreterTest, StartsWithTheInitialState) {
     const Interpreter interpreter(w.program);
     State state;
-    interpreter.reset(bytes(state));
+    interpreter.reset(bytes(state), context);
     EXPECT_TRUE(state.running[0] && state.running[1] && !state.running[2]);
     EXPECT_EQ(state.level, 2.0);
     EXPECT_EQ(state.count, 7);
+}
+
+TEST_F(InterpreterTest, DrawsInitialValues) {
+    add_step(w);
+    const NodeId normal = w.builder().sample(Scalar::Real, Distribution::Normal,
+                                             {SiteId{2}, w.integer(0)}, {w.real(5.0), w.real(1.0)});
+    w.program.reset = {w.assign(w.level, normal)};
+    EXPECT_EQ(verify(w.program), std::vector<std::string>{});
+    const Interpreter interpreter(w.program);
+    State state, again, other;
+    interpreter.reset(bytes(state), context);
+    interpreter.reset(bytes(again), context);
+    EXPECT_EQ(state.level, again.level);
+    EXPECT_EQ(state.count, 7);
+    context.key = rddl::stream_key(1, 2, 4);
+    interpreter.reset(bytes(other), context);
+    EXPECT_NE(state.level, other.level) << "of another episode";
 }
 
 TEST_F(InterpreterTest, ComputesAStep) {
@@ -203,7 +221,7 @@ TEST_F(InterpreterTest, CallsExternalFunctions) {
 
     const Interpreter interpreter(w.program, {third_of});
     State state, next;
-    interpreter.reset(bytes(state));
+    interpreter.reset(bytes(state), context);
     std::array<bool, 3> action{};
     std::array<std::byte, 64> scratch;
     for (const bool runs : {true, false}) {

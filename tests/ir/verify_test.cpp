@@ -56,6 +56,18 @@ TEST_F(VerifyTest, FindsValuesStoredToAnotherType) {
     EXPECT_EQ(complaint(), "the type stored to 'level' is wrong");
 }
 
+TEST_F(VerifyTest, StoresToStatesAtResetOnly) {
+    w.program.reset = {w.assign(w.level, w.real(3))};
+    EXPECT_EQ(complaint(), "");
+    w.program.reset = {w.assign(w.level, w.load(w.level))};
+    EXPECT_TRUE(complaint().starts_with("'level' must not be read here")) << complaint();
+    w.program.reset = {w.assign(w.next_level, w.real(3))};
+    EXPECT_EQ(complaint(), "'level' is read only");
+    w.program.reset.clear();
+    store_of_level().target = w.level;
+    EXPECT_EQ(complaint(), "'level' is read only; nothing computes 'level'");
+}
+
 TEST_F(VerifyTest, FindsMissingPlaces) {
     const NodeId count = w.load(w.count);
     auto& store = std::get<Store>(w.program.step[3].body.front().form);

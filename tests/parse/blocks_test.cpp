@@ -78,7 +78,8 @@ TEST(Instance, IsRead) {
     EXPECT_EQ(std::get<ast::Integer>(horizon(6)).value, 40);
     EXPECT_TRUE(std::holds_alternative<ast::PosInf>(horizon(7)));
     EXPECT_TRUE(std::holds_alternative<ast::Expr>(horizon(8)));
-    EXPECT_EQ(std::get<ast::Discount>(instance.sections[9].node).value.value, 0.95);
+    const auto& discount = std::get<ast::Discount>(instance.sections[9].node);
+    EXPECT_EQ(std::get<ast::Real>(discount.value).value, 0.95);
 }
 
 TEST(Instance, AcceptsTheFormOf2018) {
@@ -88,6 +89,22 @@ TEST(Instance, AcceptsTheFormOf2018) {
     ASSERT_FALSE(parsed.diagnostics.has_errors()) << parsed.report();
     const auto& instance = std::get<ast::Instance>(parsed.program.blocks.at(0));
     EXPECT_TRUE(std::holds_alternative<ast::NonFluentValues>(instance.sections.at(2).node));
+}
+
+TEST(Extensions, AreReadWhereAskedFor) {
+    const Parsed parsed = parse_text(
+        "instance i { init-state { q(a) = Uniform(-1e-3, .5E+1); }; horizon = pos-inf; "
+        "discount = 1; }",
+        Standard::Rddlc);
+    ASSERT_FALSE(parsed.diagnostics.has_errors()) << parsed.report();
+    const auto& instance = std::get<ast::Instance>(parsed.program.blocks.at(0));
+    const auto& values = std::get<ast::InitState>(instance.sections.at(0).node).assignments;
+    const auto& draw = *std::get<ast::ExprBox>(*values.at(0).value);
+    const auto& uniform = std::get<ast::Distribution>(draw.node);
+    EXPECT_EQ(uniform.name.text, "Uniform");
+    EXPECT_EQ(std::get<ast::Real>(uniform.arguments.at(1).node).value, 5.0);
+    const auto& discount = std::get<ast::Discount>(instance.sections.at(2).node);
+    EXPECT_EQ(std::get<ast::Integer>(discount.value).value, 1);
 }
 
 TEST(Files, MayHoldTheBlocksInAnyOrder) {

@@ -150,11 +150,17 @@ TEST(Errors, IllegalCharacters) {
 
 TEST(Errors, Numbers) {
     EXPECT_EQ(errors_in_reward("1e-3 + a"),
-              "E0108: RDDL numbers have no exponent | write all digits: 0.001");
+              "E0108: RDDL numbers have no exponent | write all digits: 0.001; --std=rddlc "
+              "allows it");
     EXPECT_EQ(errors_in_reward("2.5E+2"),
-              "E0108: RDDL numbers have no exponent | write all digits: 250.0");
+              "E0108: RDDL numbers have no exponent | write all digits: 250.0; --std=rddlc "
+              "allows it");
     EXPECT_EQ(errors_in_reward("1e-300"),
-              "E0108: RDDL numbers have no exponent | write all digits, or use pow[10, n]");
+              "E0108: RDDL numbers have no exponent | write all digits, or use pow[10, n]; "
+              "--std=rddlc allows it");
+    EXPECT_EQ(errors_in_reward("1.e-3"),
+              "E0108: a number cannot end in a point | write at least one digit behind the "
+              "point: 1.0e-3");
     EXPECT_EQ(errors_in_reward("a + 1. + b"),
               "E0108: a number cannot end in a point | write at least one digit behind the "
               "point: 1.0");

@@ -28,16 +28,17 @@ struct Parsed {
     }
 };
 
-inline Parsed parse_files(const std::vector<std::string>& texts) {
+inline Parsed parse_files(const std::vector<std::string>& texts,
+                          Standard standard = Standard::PyRddlGym) {
     Parsed parsed;
     std::vector<FileId> files;
     for (const std::string& text : texts) files.push_back(parsed.sources.add("test.rddl", text));
-    parsed.program = parse(parsed.sources, files, parsed.diagnostics);
+    parsed.program = parse(parsed.sources, files, parsed.diagnostics, standard);
     return parsed;
 }
 
-inline Parsed parse_text(const std::string& text) {
-    return parse_files({text});
+inline Parsed parse_text(const std::string& text, Standard standard = Standard::PyRddlGym) {
+    return parse_files({text}, standard);
 }
 
 // "domain d { reward = <expression>; }"

@@ -8,10 +8,10 @@ namespace rddlc {
 namespace {
 
 // What the printed text says, parsed again.
-void expect_round_trip(const Parsed& parsed) {
+void expect_round_trip(const Parsed& parsed, Standard standard = Standard::PyRddlGym) {
     ASSERT_FALSE(parsed.diagnostics.has_errors()) << parsed.report();
     const std::string text = ast::print(parsed.program);
-    const Parsed again = parse_text(text);
+    const Parsed again = parse_text(text, standard);
     ASSERT_FALSE(again.diagnostics.has_errors()) << again.report();
     EXPECT_TRUE(ast::equal(parsed.program, again.program)) << text;
     EXPECT_EQ(ast::print(again.program), text);
@@ -20,6 +20,15 @@ void expect_round_trip(const Parsed& parsed) {
 TEST(RoundTrip, KeepsEverything) {
     expect_round_trip(parse_files({sample_domain, sample_instance}));
     expect_round_trip(parse_text(sample_instance + sample_domain));
+}
+
+TEST(RoundTrip, KeepsExtensions) {
+    const std::string text =
+        "domain d { reward = atan2[y, 1e-3] + 2.5E+10 * x; }"
+        "instance i { init-state { q; p(a) = Normal(M(a) - 1, 1e0); r = 3;"
+        " s = Discrete(t, @a : 0.5, b : 0.5); o = UnnormDiscrete_{?x : t} W(?x) + 1; };"
+        " horizon = pos-inf; discount = 1; }";
+    expect_round_trip(parse_text(text, Standard::Rddlc), Standard::Rddlc);
 }
 
 TEST(RoundTrip, KeepsExpressionsThatNeedSeveralLines) {

@@ -10,7 +10,7 @@ TEST_F(CommandLine, ShowsVersionAndHelp) {
     const Result help = rddlc({"--help"});
     EXPECT_EQ(help.status, 0);
     for (const char* option : {"--print", "--stop-after", "--check", "--explain", "-MD", "-Werror",
-                               "--diagnostics-format", "--color", "-o"}) {
+                               "--diagnostics-format", "--color", "--std", "-o"}) {
         EXPECT_NE(help.output.find(option), std::string::npos) << option;
     }
     EXPECT_EQ(help.output.find("--MD"), std::string::npos) << "spelled as compilers do";
@@ -31,6 +31,7 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
         {"domain.rddl", "instance.rddl", "--stop-after=never"},
         {"domain.rddl", "instance.rddl", "--diagnostics-format=xml"},
         {"domain.rddl", "instance.rddl", "--color=blue"},
+        {"domain.rddl", "instance.rddl", "--std=c++20"},
         {"domain.rddl", "instance.rddl", "-Wno-W9999"},
         {"domain.rddl", "instance.rddl", "-Wno-E0101"},
         {"domain.rddl", "instance.rddl", "-Wall"},

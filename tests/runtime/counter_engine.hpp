@@ -21,13 +21,17 @@ struct CounterEngine {
     std::int64_t forbidden_from = never;   // a count that violates the invariant
     std::int64_t faulty_from = never;      // a count that no step may leave
     std::int64_t faulty_terminal = never;  // a count whose termination cannot be evaluated
+    bool faulty_reset = false;
 
     std::size_t state_size() const { return sizeof(std::int64_t); }
     std::size_t action_size() const { return sizeof(std::int64_t); }
     std::size_t observation_size() const { return sizeof(double); }
     std::size_t scratch_size() const { return 0; }
 
-    void reset(std::byte* state) const { write(state, initial); }
+    void reset(std::byte* state, Context<Scalar>& context) const {
+        write(state, initial);
+        if (faulty_reset) fault<bool>(context, {0, 0});
+    }
 
     double step(const std::byte* state, const std::byte* action, std::byte*, std::byte* next,
                 std::byte* observation, Context<Scalar>& context) const {

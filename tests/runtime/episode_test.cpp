@@ -233,6 +233,16 @@ TEST(Faults, AtResetEndTheEpisode) {
     EXPECT_EQ(counters.count(0), 3);
 }
 
+TEST(Faults, OfInitialValuesEndTheEpisode) {
+    const CounterEngine engine{.faulty_reset = true};
+    Counters counters(engine, options_of(1, RDDL_AUTORESET_NEXT_STEP));
+    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_FAULTED);
+    EXPECT_EQ(counters.batch.episode(0).fault.kind, FaultKind::Type);
+    counters.step();
+    EXPECT_EQ(counters.batch.episode(0).number, 1) << "the next one";
+    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_FAULTED);
+}
+
 TEST(Faults, CanBeReadUntilTheNextEpisodeMakesAStep) {
     const CounterEngine engine{.faulty_from = 5};
     Counters counters(engine, options_of(1, RDDL_AUTORESET_SAME_STEP));

@@ -58,7 +58,7 @@ struct Simulator {
     static constexpr Index precondition_count = 1;
 
     template <class L>
-    static void reset(State<L>& state) {
+    static void reset(State<L>& state, Context<L>& /*context*/) {
         state = {};
         for (Index m = 0; m < machines; ++m) state.running[m] = true;
     }
