@@ -70,14 +70,15 @@ def example_cases() -> list[Case]:
 
 
 def probe_cases() -> list[Case]:
-    """The problems of probes/: what no problem of the repository uses."""
-    return cases_in(Path(__file__).with_name("probes"))
+    """The problems of probes/: what no problem of the repository uses; and a case for each rule."""
+    probes = Path(__file__).with_name("probes")
+    return cases_in(probes) + cases_in(ROOT / "tests/cases", "meaning-*")
 
 
-def cases_in(folder: Path) -> list[Case]:
-    """The problems in the subfolders."""
+def cases_in(folder: Path, names: str = "*") -> list[Case]:
+    """The problems in the subfolders of these names."""
     cases = []
-    for domain in sorted(folder.glob("*/domain.rddl")):
+    for domain in sorted(folder.glob(f"{names}/domain.rddl")):
         for instance in sorted(domain.parent.glob("instance*.rddl")):
             number = instance.stem.removeprefix("instance") or "1"
             cases.append(Case(domain.parent.name, number, domain, instance))

@@ -133,7 +133,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
     parser.add_argument("--all", action="store_true", help="all problems of rddlrepository")
     parser.add_argument("--examples", action="store_true", help="the problems of examples/")
-    parser.add_argument("--probes", action="store_true", help="the problems of probes/")
+    parser.add_argument("--probes", action="store_true", help="the problems of probes/ and tests/cases/meaning-*")
     parser.add_argument(
         "--smallest-median-largest", action="store_true", help="up to three instances a problem"
     )
