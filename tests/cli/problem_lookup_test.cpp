@@ -20,7 +20,11 @@ void write(const fs::path& path, std::string_view text) {
 
 class Lookup : public testing::Test {
   protected:
-    Lookup() : root_(fs::path(testing::TempDir()) / "rddl-lookup-test") {
+    // A folder of its own for each test: they may run at the same time.
+    Lookup()
+        : root_(fs::path(testing::TempDir()) /
+                (std::string("rddl-lookup-") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
         fs::remove_all(root_);
         write(root_ / "archive/games/Chess/domain.rddl", "");
         write(root_ / "archive/games/Chess/__init__.py",
