@@ -18,10 +18,11 @@ from pathlib import Path
 
 from compare import Findings, compare_draws, compare_transitions, describe_start, judge_draws
 from ours import Replayed, ReplayFailure, faults, replay, trace
+from model import DrawPoint
 from problems import CORE, ROOT, Case, all_problems, example_cases, probe_cases
 from problems import repository_cases, smallest_median_largest
 from recordings import recording_of, refusals_of
-from reference import Plan
+from reference import Plan, Recording
 from refusals import RefusalPlan, Refusals
 from report import failure_text, row_text, table_head, write_document
 
@@ -60,7 +61,8 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
     plan = Plan(draws=options.draws, draw_points=options.draw_points, seconds=options.seconds)
     recording = recording_of(report.case, plan, options.cache)
     refusals = refusals_of(report.case, RefusalPlan(), options.cache)
-    problem, walk, points = recording.problem, recording.walk, recording.points
+    problem, walk = recording.problem, recording.walk
+    points = affordable_points(report.case, options, recording)
     report.transitions = len(walk)
     report.draws = max((point.count() for point in points), default=0)
     report.draw_points = sum(point.count() == report.draws for point in points)
@@ -84,6 +86,23 @@ def compare_engines(report: Report, options, false_alarm_rate: float) -> None:
         replayed[engine] = found
     if len(replayed) == len(ENGINES):
         compare_bit_for_bit(report, replayed, problem.horizon, options)
+
+
+def affordable_points(case: Case, options, recording: Recording) -> list[DrawPoint]:
+    """The draws, or as many as the interpreter makes in ten times the reference's seconds."""
+    problem, walk = recording.problem, recording.walk
+    if not recording.points or "interpreter" not in options.engine:
+        return recording.points
+    seconds_a_step = replay(options.rddl, case, problem, walk, [], "interpreter").seconds_a_step
+    left = int(10 * options.seconds / seconds_a_step)
+    points = []
+    for point in recording.points:
+        outcomes = {name: rows[:left] for name, rows in point.outcomes.items()}
+        points.append(DrawPoint(point.state, point.action, outcomes))
+        left -= points[-1].count()
+        if left == 0:
+            break
+    return points
 
 
 def replay_heedless(report: Report, options, refusals: Refusals, engine: str) -> Replayed | None:
