@@ -1,6 +1,6 @@
 """What it costs to compile the problems of rddlrepository: by rddlc, and then by the C++ compiler.
 
-    .venv/bin/python benchmarks/compile_cost.py                  all 586 instances; half an hour
+    .venv/bin/python benchmarks/compile_cost.py                  all 586 instances; a quarter of an hour
     .venv/bin/python benchmarks/compile_cost.py RecSim_ippc2023  some problems
     .venv/bin/python benchmarks/compile_cost.py --no-build       rddlc alone
     .venv/bin/python benchmarks/compile_cost.py --require        and fail above the limits
@@ -12,6 +12,7 @@ user and system: on an idle machine that is the wall-clock time, and on a busy o
 
 import argparse
 import json
+import multiprocessing
 import os
 import re
 import statistics
@@ -49,14 +50,15 @@ class Cost:
 
 
 def run_measured(command: list[str]) -> tuple[float, float]:
-    """Processor seconds and the largest resident size in MB; ends the program if it fails."""
+    """Processor seconds and the largest resident size in MB; RuntimeError if it fails."""
     with tempfile.TemporaryFile() as messages:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=messages)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             messages.seek(0)
-            sys.exit(f"{' '.join(command)}\n{messages.read().decode(errors='replace')}")
+            text = messages.read().decode(errors="replace")
+            raise RuntimeError(f"{' '.join(command)}\n{text}")
     # The C++ compiler's work is done by children that it has waited for, and so counts.
     return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
@@ -66,7 +68,12 @@ def code_line_count(text: str) -> int:
     return re.sub(r"= \{.*?\};", "", text, flags=re.DOTALL).count("\n")
 
 
-def cost_of(case: Case, options: argparse.Namespace, folder: Path) -> Cost:
+def cost_of(task: tuple[Case, argparse.Namespace]) -> Cost:
+    with tempfile.TemporaryDirectory() as folder:
+        return cost_in(Path(folder), *task)
+
+
+def cost_in(folder: Path, case: Case, options: argparse.Namespace) -> Cost:
     emitted, library = folder / "sim.cpp", folder / "sim.so"
     files = [str(case.domain_path), str(case.instance_path)]
     seconds, megabytes = run_measured([str(options.rddlc), *files, "-o", str(emitted)])
@@ -130,6 +137,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
     parser.add_argument("--rddlc", type=Path, default=ROOT / "build/bin/rddlc", help="our compiler")
     parser.add_argument("--cxx", default=os.environ.get("CXX", "c++"), help="the C++ compiler")
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--no-build", dest="build", action="store_false", help="run only rddlc")
     parser.add_argument("--require", action="store_true", help="fail above the limits")
     parser.add_argument("--json", type=Path, help="write the figures to this file")
@@ -142,10 +150,10 @@ def main() -> int:
     cases = [c for problem in options.problems or all_problems() for c in repository_cases(problem)]
     print(f"{'':38} {'rddlc s':>8} {'MB':>7} {'lines':>8} {'code':>8} {'C++ s':>8}")
     costs = []
-    with tempfile.TemporaryDirectory() as folder:
-        for case in cases:
-            costs.append(cost_of(case, options, Path(folder)))
-            print(row_text(costs[-1]), flush=True)
+    with multiprocessing.get_context("spawn").Pool(options.workers) as pool:
+        for cost in pool.imap(cost_of, [(case, options) for case in cases]):
+            costs.append(cost)
+            print(row_text(cost), flush=True)
     table = markdown_table(summary_rows(costs))
     over = excesses(costs)
     verdict = f"{len(costs)} instances, {len(over)} over a limit"

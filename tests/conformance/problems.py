@@ -1,8 +1,10 @@
 """Which problems are compared: rddlrepository's by name, and the project's own examples."""
 
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
+import rddlrepository
 from rddlrepository.core.manager import RDDLRepoManager
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -56,12 +58,29 @@ class Case:
 
 def repository_cases(problem: str) -> list[Case]:
     """All instances of a problem of rddlrepository, in order of their numbers."""
+    if problem in problems_without_metadata():
+        return cases_of_folder(problem, problems_without_metadata()[problem])
     info = RDDLRepoManager().get_problem(problem)
     names = sorted(map(str, info.list_instances()), key=lambda name: (len(name), name))
     return [
         Case(problem, name, Path(info.get_domain()), Path(info.get_instance(name)))
         for name in names
     ]
+
+
+@cache
+def problems_without_metadata() -> dict[str, Path]:
+    """Folders of rddlrepository that its manager does not know, under the names of `rddl list`: one
+    for each problem and competition, such as Name_p3_ippc2018."""
+    manager = RDDLRepoManager()
+    known = {Path(manager.get_problem(p).get_domain()).parent for p in manager.list_problems()}
+    archive = Path(rddlrepository.__path__[0], "archive")
+    folders = {path.parent for path in archive.rglob("domain.rddl")} - known
+    problems = {}
+    for folder in sorted(folders):
+        _, competition, *parts = folder.relative_to(archive).parts
+        problems["_".join([*parts, competition.lower()])] = folder
+    return problems
 
 
 def example_cases() -> list[Case]:
@@ -77,17 +96,21 @@ def probe_cases() -> list[Case]:
 
 def cases_in(folder: Path, names: str = "*") -> list[Case]:
     """The problems in the subfolders of these names."""
-    cases = []
-    for domain in sorted(folder.glob(f"{names}/domain.rddl")):
-        for instance in sorted(domain.parent.glob("instance*.rddl")):
-            number = instance.stem.removeprefix("instance") or "1"
-            cases.append(Case(domain.parent.name, number, domain, instance))
-    return cases
+    domains = sorted(folder.glob(f"{names}/domain.rddl"))
+    return [case for path in domains for case in cases_of_folder(path.parent.name, path.parent)]
+
+
+def cases_of_folder(problem: str, folder: Path) -> list[Case]:
+    """The instances in one folder."""
+    return [
+        Case(problem, path.stem.removeprefix("instance") or "1", folder / "domain.rddl", path)
+        for path in sorted(folder.glob("instance*.rddl"))
+    ]
 
 
 def all_problems() -> list[str]:
     """The names of all problems of rddlrepository."""
-    return sorted(map(str, RDDLRepoManager().list_problems()))
+    return sorted([*map(str, RDDLRepoManager().list_problems()), *problems_without_metadata()])
 
 
 def smallest_median_largest(cases: list[Case]) -> list[Case]:

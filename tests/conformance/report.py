@@ -9,6 +9,7 @@ BEGIN, END = "<!-- begin of the table -->", "<!-- end of the table -->"
 MOST_FAILURES = 8
 
 HEAD = ("instance", "steps", "values", "worst difference", "draws", "tests", "least p", "faults", "result")
+RULE = ("---", *("---:" for _ in HEAD[1:]))
 WIDTHS = (34, 5, 7, 16, 8, 6, 8, 6, 10)
 
 
@@ -54,11 +55,20 @@ def failure_text(report) -> str:
 
 
 def write_document(reports) -> None:
-    rows = [HEAD, ("---",) * len(HEAD), *(cells(report) for report in reports)]
-    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    """Replaces the rows of these instances and keeps the others."""
+    before, rest = DOCUMENT.read_text().split(BEGIN)
+    table, after = rest.split(END)
+    lines = [line.strip("| ").split(" | ") for line in table.splitlines() if line.startswith("|")]
+    rows = {row[0]: row for row in lines[2:]}
+    rows |= {report.case.label: cells(report) for report in reports}
+    ordered = sorted(rows.values(), key=lambda row: natural_order(row[0]))
+    text = "\n".join("| " + " | ".join(row) + " |" for row in (HEAD, RULE, *ordered))
     versions = ", ".join(f"{name} {version(name)}" for name in ("pyRDDLGym", "rddlrepository"))
-    text = DOCUMENT.read_text()
-    before, rest = text.split(BEGIN)
-    after = rest.split(END)[1]
-    DOCUMENT.write_text(f"{before}{BEGIN}\n\n{versions}:\n\n{table}\n\n{END}{after}")
-    print(f"written: {DOCUMENT}")
+    DOCUMENT.write_text(f"{before}{BEGIN}\n\n{versions}:\n\n{text}\n\n{END}{after}")
+    print(f"written: {len(reports)} of {len(rows)} rows of {DOCUMENT}")
+
+
+def natural_order(label: str) -> tuple[str, int, str]:
+    """By problem, then by the number of the instance."""
+    problem, _, instance = label.rpartition(" ")
+    return problem, int(instance) if instance.isdecimal() else 0, instance
