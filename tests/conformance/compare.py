@@ -135,9 +135,10 @@ def projections(problem: Problem, expected: Columns, found: Columns):
     if first.shape[1] < 2 or not np.isfinite(pooled).all():
         return
     deviation = pooled.std(axis=0)
+    deviation[deviation <= TOLERANCE * np.abs(pooled).max(axis=0)] = np.inf  # rounding, no chance
     for number in range(PROJECTIONS):
         weights = np.random.default_rng(number).normal(size=first.shape[1])
-        weights = weights / np.where(deviation > 0, deviation, np.inf)
+        weights = weights / deviation
         # Rounded, so that sums of the same values in two roundings stay the same.
         yield tuple(np.round((side - pooled.mean(axis=0)) @ weights, 6) for side in (first, second))
 

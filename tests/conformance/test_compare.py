@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from compare import Findings, compare_draws, compare_transitions, judge_draws
-from model import stack
+from model import REWARD, stack
 from problems import Case, example_cases
 from reference import Plan, Recording, Reference, record
 
@@ -75,6 +75,17 @@ class CompareTest(unittest.TestCase):
         # Each value by itself stays the same; they no longer come together.
         self.assert_disagrees("robot", "echo(?b)  = answers(?b);",
                               "echo(?b)  = Bernoulli(exp[-range-to(?b) / REACH]);", "joint")
+
+    def test_takes_rounding_for_no_difference(self):
+        recording = record(example("network"), PLAN)
+        problem = replace(recording.problem, random_reward=True)  # a constant where it might vary
+        for point in recording.points:
+            rounded = dict(point.outcomes)
+            rounded[REWARD] = np.nextafter(rounded[REWARD], np.inf)
+            findings = Findings()
+            compare_draws(problem, point, rounded, findings)
+            judge_draws(findings, 1e-6)
+            self.assertEqual(findings.disagreements, [])
 
     def test_a_walk_is_the_same_every_time(self):
         case = example("delivery")
