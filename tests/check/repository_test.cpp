@@ -1,31 +1,16 @@
 // Every instance of rddlrepository: accepted, and fast.
+#include "../parse/rddl_repository.hpp"
 #include "checking.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 namespace rddlc::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The folder of the installed Python package, or of RDDL_REPOSITORY.
-fs::path repository() {
-    if (const char* folder = std::getenv("RDDL_REPOSITORY")) return folder;
-    std::string text;
-    constexpr auto command =
-        "python3 -c 'import rddlrepository; print(rddlrepository.__path__[0])' 2>/dev/null";
-    if (FILE* pipe = popen(command, "r")) {
-        for (int c = fgetc(pipe); c != EOF && c != '\n'; c = fgetc(pipe))
-            text += static_cast<char>(c);
-        pclose(pipe);
-    }
-    return text;
-}
 
 void expect_accepted(const fs::path& domain, const fs::path& instance) {
     Sources sources;
@@ -41,7 +26,7 @@ void expect_accepted(const fs::path& domain, const fs::path& instance) {
 }
 
 TEST(Repository, IsAccepted) {
-    const fs::path folder = repository();
+    const fs::path folder = rddl_repository();
     if (folder.empty() || !fs::exists(folder)) GTEST_SKIP() << "no rddlrepository here";
     std::size_t instances = 0;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {

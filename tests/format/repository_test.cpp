@@ -1,7 +1,7 @@
 // Every file of rddlrepository, formatted.
+#include "../parse/rddl_repository.hpp"
 #include "formatted.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,25 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a command writes, without the line break.
-std::string output_of(const char* command) {
-    std::string text;
-    if (FILE* pipe = popen(command, "r")) {
-        for (int c = fgetc(pipe); c != EOF && c != '\n'; c = fgetc(pipe))
-            text += static_cast<char>(c);
-        pclose(pipe);
-    }
-    return text;
-}
-
-fs::path repository() {
-    if (const char* folder = std::getenv("RDDL_REPOSITORY")) return folder;
-    return output_of(
-        "python3 -c 'import rddlrepository; print(rddlrepository.__path__[0])' 2>/dev/null");
-}
-
 TEST(FormatRepository, KeepsMeaningAndComments) {
-    const fs::path folder = repository();
+    const fs::path folder = rddl_repository();
     if (folder.empty() || !fs::exists(folder))
         GTEST_SKIP() << "needs rddlrepository: pip install rddlrepository, or set RDDL_REPOSITORY";
     std::size_t files = 0;

@@ -2,11 +2,11 @@
 #include "ast/equal.hpp"
 #include "ast/print.hpp"
 #include "parsed.hpp"
+#include "rddl_repository.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 
 namespace rddlc {
@@ -14,25 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a command writes, without the line break.
-std::string output_of(const char* command) {
-    std::string text;
-    if (FILE* pipe = popen(command, "r")) {
-        for (int c = fgetc(pipe); c != EOF && c != '\n'; c = fgetc(pipe))
-            text += static_cast<char>(c);
-        pclose(pipe);
-    }
-    return text;
-}
-
-fs::path repository() {
-    if (const char* folder = std::getenv("RDDL_REPOSITORY")) return folder;
-    return output_of(
-        "python3 -c 'import rddlrepository; print(rddlrepository.__path__[0])' 2>/dev/null");
-}
-
 TEST(Repository, ParsesPrintsAndParsesAgain) {
-    const fs::path folder = repository();
+    const fs::path folder = rddl_repository();
     if (folder.empty() || !fs::exists(folder)) GTEST_SKIP() << "no rddlrepository here";
     std::size_t files = 0;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
