@@ -26,7 +26,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
 
-from problems import Case, all_problems, repository_cases  # noqa: E402
+from problems import Case, cases_of  # noqa: E402
 
 COMPILE_SECONDS, COMPILE_MEGABYTES = 1.0, 500.0
 BUILD_SECONDS, MEDIAN_BUILD_SECONDS = 10.0, 2.0
@@ -147,7 +147,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def main() -> int:
     options = parse_arguments()
-    cases = [c for problem in options.problems or all_problems() for c in repository_cases(problem)]
+    cases = cases_of(options.problems)
     print(f"{'':38} {'rddlc s':>8} {'MB':>7} {'lines':>8} {'code':>8} {'C++ s':>8}")
     costs = []
     with multiprocessing.get_context("spawn").Pool(options.workers) as pool:

@@ -113,6 +113,11 @@ def all_problems() -> list[str]:
     return sorted([*map(str, RDDLRepoManager().list_problems()), *problems_without_metadata()])
 
 
+def cases_of(problems: list[str]) -> list[Case]:
+    """All instances of these problems of rddlrepository; of all where none is named."""
+    return [case for problem in problems or all_problems() for case in repository_cases(problem)]
+
+
 def smallest_median_largest(cases: list[Case]) -> list[Case]:
     """Up to three instances of one problem, by the size of their text."""
     by_size = sorted(cases, key=lambda case: (case.instance_path.stat().st_size, case.instance))

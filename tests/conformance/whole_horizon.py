@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ours import ReplayFailure, trace
-from problems import ROOT, Case, all_problems, repository_cases
+from problems import ROOT, Case, cases_of
 
 ENGINES = ("compiled", "interpreter")
 
@@ -85,7 +85,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def main() -> int:
     options = parse_arguments()
-    cases = [c for problem in options.problems or all_problems() for c in repository_cases(problem)]
+    cases = cases_of(options.problems)
     heads = " ".join(f"{engine + ' s':>11}" for engine in ENGINES)
     print(f"{'instance':38} {'steps':>6} {'end':22} {heads}  result")
     failed = 0
