@@ -6,6 +6,7 @@
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "read_text.hpp"
 #include "sha256.hpp"
 #include "support/render.hpp"
 
@@ -19,7 +20,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -28,11 +28,6 @@ namespace rddlc::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // All headers of the runtime, by name; empty if there are none.
 std::string runtime_text() {

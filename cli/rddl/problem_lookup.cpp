@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "python_info.hpp"
+#include "read_text.hpp"
 #include "support/diagnostic.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +16,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 namespace rddlc::cli {
@@ -26,11 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* standalone = "standalone";  // the context of problems that have none
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // "instance12.rddl" -> "12", "instance.rddl" -> "1"; nothing for other files.
 std::optional<std::string> instance_of(const fs::path& file) {
