@@ -11,12 +11,14 @@
 namespace rddlc::cli {
 
 Compilation compile_problem(const ProblemFiles& files, Stage last,
-                            const std::vector<std::filesystem::path>& extern_headers) {
+                            const std::vector<std::filesystem::path>& extern_headers,
+                            const PassOptions& passes) {
     CompileOptions options;
     options.inputs = files.all();
     options.extern_headers = extern_headers;
     options.stop_after = last;
     options.standard = files.standard;
+    options.passes = passes;
     return compile(options);
 }
 
@@ -27,8 +29,9 @@ void print_diagnostics(const Compilation& compilation) {
 }
 
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
-                               const std::vector<std::filesystem::path>& extern_headers) {
-    Compilation compilation = compile_problem(files, last, extern_headers);
+                               const std::vector<std::filesystem::path>& extern_headers,
+                               const PassOptions& passes) {
+    Compilation compilation = compile_problem(files, last, extern_headers, passes);
     give_up_on_errors(compilation);
     return compilation;
 }

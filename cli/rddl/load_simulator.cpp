@@ -21,7 +21,8 @@ namespace {
 
 LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
     const ExternFiles externs = extern_files(options.externs);
-    Compilation compilation = compile_or_give_up(files, Stage::Optimise, externs.headers);
+    Compilation compilation =
+        compile_or_give_up(files, Stage::Optimise, externs.headers, options.passes);
     if (options.externs.empty())
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
     give_up_on_errors(compilation);
@@ -37,7 +38,8 @@ LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
                                   "not from '{}'",
                                   externs.shared_objects.front().string()),
                       "name the header, or use --engine=interpreter", usage_error);
-    const Compilation compilation = compile_or_give_up(files, Stage::Emit, externs.headers);
+    const Compilation compilation =
+        compile_or_give_up(files, Stage::Emit, externs.headers, options.passes);
     return {files, compiled_simulator(compilation.text, {files.name, options.ignore_cache,
                                                          options.quiet, externs.headers})};
 }

@@ -1,6 +1,7 @@
 // A problem as a simulator, whichever engine runs it.
 #pragma once
 
+#include "passes/passes.hpp"
 #include "problem_lookup.hpp"
 
 #include <rddl/simulator.h>
@@ -21,6 +22,7 @@ struct LoadOptions {
     bool quiet = false;  // say nothing about compiling
     // Of external functions: C++ headers; for the interpreter shared objects, too.
     std::vector<std::filesystem::path> externs;
+    PassOptions passes;
 };
 
 // Owns all that the simulator refers to: the loaded library, or program and sources.

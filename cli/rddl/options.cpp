@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include "driver/driver.hpp"
+
 namespace rddlc::cli {
 
 ProblemFiles ProblemArguments::files() const {
@@ -44,6 +46,20 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
         ->type_name("ENGINE");
     add_extern_option(command, options,
                       "C++ header of the external functions; the interpreter takes a .so, too");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--without",
+            [&options](const std::vector<std::string>& names) {
+                for (const std::string& name : names) {
+                    if (const auto complaint = complaint_about_pass(name))
+                        throw CLI::ValidationError(*complaint);
+                    options.passes.without.insert(name);
+                }
+            },
+            "Leave out optimisations; 'rddlc --help' lists them")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("PASS");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");
 }

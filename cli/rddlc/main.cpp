@@ -3,6 +3,7 @@
 #include "driver/driver.hpp"
 #include "driver/explain.hpp"
 #include "driver/files.hpp"
+#include "driver/statistics.hpp"
 #include "driver/version.hpp"
 #include "options.hpp"
 
@@ -42,6 +43,12 @@ ExitStatus write(std::string_view text, const Options& options) {
     return diagnosed;
 }
 
+std::string statistics(const Compilation& compilation, Statistics format) {
+    if (format == Statistics::None || !compilation.program) return "";
+    return format == Statistics::Json ? statistics_json(compilation.passes)
+                                      : statistics_text(compilation.passes);
+}
+
 ExitStatus refuse(const Options& options) {
     Diagnostics diagnostics;
     for (const std::string& option : options.not_supported_yet) {
@@ -58,7 +65,8 @@ ExitStatus run(const Options& options) {
     if (!options.not_supported_yet.empty()) return refuse(options);
 
     const Compilation compilation = compile(options.compile);
-    const ExitStatus written = write(compilation.printed, options);
+    const ExitStatus written =
+        write(compilation.printed + statistics(compilation, options.statistics), options);
     print_diagnostics(compilation.diagnostics, compilation.sources, options.render);
     if (options.verbose) print_times(compilation);
     return compilation.diagnostics.has_errors() ? diagnosed : written;

@@ -44,8 +44,18 @@ struct Arguments {
     std::string lanes = "1";
     std::string real = "double";
     std::string explained;
+    std::vector<std::string> without;
+    std::string statistics;  // "true" without a format
     bool verbose = false;
 };
+
+// For --help.
+std::string list_of_passes() {
+    std::string text = "Optimisations, in their order:\n";
+    for (const PassDescription& pass : all_passes())
+        text += fmt::format("  {:30}  {}\n", pass.name, pass.summary);
+    return text;
+}
 
 // A mistake in how rddlc was called.
 CLI::ValidationError usage(const std::string& message) {
@@ -112,11 +122,19 @@ void declare(CLI::App& program, Arguments& arguments) {
     program.add_option("--real", arguments.real, "double or float")
         ->check(CLI::IsMember({"double", "float"}))
         ->type_name("TYPE");
+    program
+        .add_option("--without", arguments.without,
+                    "leave out optimisations: PASS[,PASS...], listed below; may be repeated")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("PASS");
+    program.add_flag("--stats", arguments.statistics,
+                     "tell what each optimisation did; --stats=json as JSON");
     program.add_option("--explain", arguments.explained, "explain a diagnostic and exit")
         ->type_name("CODE");
     program.add_flag("-v,--verbose", arguments.verbose, "tell how long each stage takes");
     program.get_formatter()->column_width(34);
-    program.footer(examples);
+    program.footer(list_of_passes() + "\n" + examples);
 }
 
 // Compilers write -MD, -MF FILE and -Wx with one dash; CLI11 wants -M D or --MD.
@@ -182,6 +200,14 @@ bool use_color(const std::string& when) {
     return ::isatty(STDERR_FILENO) != 0 && (!no_color || *no_color == '\0');
 }
 
+// The last one that something to be printed needs.
+std::optional<Stage> last_wanted_stage(const Arguments& arguments, const std::set<Form>& print) {
+    std::optional<Stage> last;
+    if (!print.empty()) last = stage_of(*print.rbegin());
+    if (!arguments.statistics.empty()) last = std::max(last.value_or(Stage::Read), Stage::Optimise);
+    return last;
+}
+
 Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
     Stage last = Stage::Write;
     if (!arguments.stop_after.empty()) {
@@ -191,10 +217,9 @@ Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
     }
     if (arguments.check_only) last = std::min(last, Stage::Check);
     // Who only wants to see a form does not wait for the stages after it.
-    if (arguments.output.empty() && !print.empty()) {
-        last = std::min(last, stage_of(*print.rbegin()));
-    }
-    return last;
+    if (!arguments.output.empty()) return last;
+    const std::optional<Stage> wanted = last_wanted_stage(arguments, print);
+    return wanted ? std::min(last, *wanted) : last;
 }
 
 std::set<Form> printed_forms(const Arguments& arguments) {
@@ -204,8 +229,8 @@ std::set<Form> printed_forms(const Arguments& arguments) {
         if (!form) throw usage(fmt::format("there is no form '{}' to print", name));
         forms.insert(*form);
     }
-    const bool anything_else =
-        !arguments.output.empty() || !arguments.stop_after.empty() || arguments.check_only;
+    const bool anything_else = !arguments.output.empty() || !arguments.stop_after.empty() ||
+                               arguments.check_only || !arguments.statistics.empty();
     if (forms.empty() && !anything_else) forms.insert(Form::Cpp);
     return forms;
 }
@@ -231,6 +256,22 @@ std::vector<std::filesystem::path> extern_headers(const Arguments& arguments) {
     return headers;
 }
 
+PassOptions pass_options(const Arguments& arguments) {
+    PassOptions options;
+    for (const std::string& name : arguments.without) {
+        if (const auto complaint = complaint_about_pass(name)) throw usage(*complaint);
+        options.without.insert(name);
+    }
+    return options;
+}
+
+Statistics statistics_format(const std::string& word) {
+    if (word.empty()) return Statistics::None;
+    if (word == "true" || word == "text") return Statistics::Text;
+    if (word == "json") return Statistics::Json;
+    throw usage(fmt::format("--stats={} is not known; --stats and --stats=json are", word));
+}
+
 CompileOptions compile_options(const Arguments& arguments) {
     if (arguments.inputs.empty()) throw usage("which problem? Name DOMAIN and INSTANCE");
     CompileOptions options;
@@ -243,6 +284,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
     options.standard = *standard_named(arguments.standard);
+    options.passes = pass_options(arguments);
     return options;
 }
 
@@ -259,6 +301,7 @@ Options options_of(const Arguments& arguments) {
         }
         return options;
     }
+    options.statistics = statistics_format(arguments.statistics);
     options.compile = compile_options(arguments);
     if (arguments.lanes != "1") options.not_supported_yet.push_back("--lanes=" + arguments.lanes);
     if (arguments.real != "double") options.not_supported_yet.push_back("--real=" + arguments.real);

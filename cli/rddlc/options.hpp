@@ -13,9 +13,12 @@ namespace rddlc::cli {
 
 enum ExitStatus { success = 0, diagnosed = 1, usage_error = 2, internal_error = 70 };
 
+enum class Statistics { None, Text, Json };  // --stats
+
 struct Options {
     CompileOptions compile;
     RenderOptions render;
+    Statistics statistics = Statistics::None;
     bool verbose = false;
     std::optional<Code> explained;               // --explain
     std::vector<std::string> not_supported_yet;  // options that are valid and planned

@@ -113,8 +113,9 @@ void run_stages(Run& run) {
     if (run.ends_after(Stage::Verify)) return;
 
     // IR -> IR that computes the same values with less work.
-    result.program = run.measure(Stage::Optimise,
-                                 [&] { return verified(optimise(*std::move(result.program))); });
+    result.program = run.measure(Stage::Optimise, [&] {
+        return verified(optimise(*std::move(result.program), run.options.passes, &result.passes));
+    });
     run.show(Form::OptimisedIr, [&] { return ir::print(*result.program); });
     if (run.ends_after(Stage::Optimise)) return;
 
@@ -175,6 +176,15 @@ Compilation compile(const CompileOptions& options) {
     run_stages(run);
     run.result.diagnostics.sort_by_position();
     return std::move(run.result);
+}
+
+std::optional<std::string> complaint_about_pass(std::string_view name) {
+    std::vector<std::string> known;
+    for (const PassDescription& pass : all_passes()) known.emplace_back(pass.name);
+    if (std::ranges::find(known, name) != known.end()) return std::nullopt;
+    std::string complaint = "there is no pass '" + std::string(name) + "'";
+    if (const auto near = did_you_mean(name, known)) complaint += "; did you mean '" + *near + "'?";
+    return complaint;
 }
 
 std::string summary(const Diagnostics& diagnostics) {

@@ -3,6 +3,7 @@
 
 #include "ir/ir.hpp"
 #include "model/model.hpp"
+#include "passes/passes.hpp"
 #include "support/diagnostic.hpp"
 #include "support/source.hpp"
 #include "support/standard.hpp"
@@ -41,6 +42,7 @@ struct CompileOptions {
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;
     Standard standard = Standard::PyRddlGym;
+    PassOptions passes;
 };
 
 struct StageTime {
@@ -59,10 +61,14 @@ struct Compilation {
     std::string text;                    // the emitted C++
     std::string printed;                 // the forms asked for, in the order of the stages
     std::vector<StageTime> times;
+    std::vector<PassRun> passes;
 };
 
 // Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
 Compilation compile(const CompileOptions& options);
+
+// Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
+std::optional<std::string> complaint_about_pass(std::string_view name);
 
 // "2 errors, 1 warning"; empty if there are neither.
 std::string summary(const Diagnostics& diagnostics);

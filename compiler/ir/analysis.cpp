@@ -194,6 +194,42 @@ void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
     roots.push_back(computation.value);
 }
 
+// A call costs what it takes to read its tables and fill its output.
+double cost_of(const Program& program, const Call& call, const std::vector<Facts>& facts) {
+    double cost = 1;
+    for (NodeId operand : operands_of(call)) cost += facts[operand.index].cost;
+    for (const TableView& input : call.inputs)
+        cost += static_cast<double>(program[input.buffer].count());
+    return cost + static_cast<double>(program[call.output.buffer].count());
+}
+
+double cost_of(const Program& program, const Block& block, const std::vector<Facts>& facts) {
+    const auto cost_of_node = [&](NodeId id) {
+        return facts[id.index].cost;
+    };
+    double cost = 0;
+    for (const Statement& statement : block) {
+        cost += match(
+            statement.form, [&](const Let& let) { return cost_of_node(let.value) + 1; },
+            [&](const Store& store) {
+                double sum = cost_of_node(store.value) + 1;
+                for (NodeId index : store.indices) sum += cost_of_node(index);
+                return sum;
+            },
+            [&](const Loop& loop) {
+                const auto size = static_cast<double>(program[loop.variable].size);
+                return size * (1 + cost_of(program, loop.body, facts));
+            },
+            [&](const Call& call) { return cost_of(program, call, facts); });
+    }
+    return cost;
+}
+
+double cost_of(const Program& program, const Computation& computation,
+               const std::vector<Facts>& facts) {
+    return cost_of(program, computation.body, facts) + facts[computation.value.index].cost;
+}
+
 // Program and Definition both const, or neither.
 template <class AnyDefinition, class AnyProgram>
 std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
@@ -228,6 +264,17 @@ std::vector<Facts> all_facts(const Program& program) {
     facts.reserve(program.nodes.size());
     for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts));
     return facts;
+}
+
+double cost_of_step(const Program& program) {
+    const std::vector<Facts> facts = all_facts(program);
+    double cost = cost_of(program, program.reward, facts);
+    for (const Definition& definition : program.step)
+        cost += cost_of(program, definition.body, facts);
+    for (const auto* conditions : {&program.invariants, &program.terminations}) {
+        for (const Computation& condition : *conditions) cost += cost_of(program, condition, facts);
+    }
+    return cost;
 }
 
 bool is_cheap(const Facts& facts) {

@@ -6,9 +6,10 @@
 #pragma once
 
 #include "ir/ir.hpp"
+#include "passes/report.hpp"
 
 namespace rddlc::passes {
 
-ir::Program fold_constant_expressions(ir::Program program);
+ir::Program fold_constant_expressions(ir::Program program, Report& report);
 
 }  // namespace rddlc::passes

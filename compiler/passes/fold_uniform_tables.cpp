@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <utility>
 
 namespace rddlc::passes {
@@ -26,11 +27,12 @@ bool is_uniform_table(const ir::Buffer& buffer) {
 
 }  // namespace
 
-ir::Program fold_uniform_tables(ir::Program program) {
+ir::Program fold_uniform_tables(ir::Program program, Report& report) {
     std::vector<bool> is_uniform;
     for (const ir::Buffer& buffer : program.buffers) is_uniform.push_back(is_uniform_table(buffer));
 
-    return ir::rewrite(
+    std::set<ir::BufferId> replaced;
+    program = ir::rewrite(
         std::move(program),
         [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
             const auto* load = std::get_if<ir::Load>(&node.form);
@@ -39,8 +41,11 @@ ir::Program fold_uniform_tables(ir::Program program) {
                 return ir::is_droppable(builder.facts(index));
             };
             if (!std::ranges::all_of(load->indices, droppable)) return std::nullopt;
+            replaced.insert(load->buffer);
             return builder.constant(builder.program()[load->buffer].values.front());
         });
+    report["tables made scalars"] += static_cast<std::int64_t>(replaced.size());
+    return program;
 }
 
 }  // namespace rddlc::passes

@@ -8,9 +8,10 @@
 #pragma once
 
 #include "ir/ir.hpp"
+#include "passes/report.hpp"
 
 namespace rddlc::passes {
 
-ir::Program fold_uniform_tables(ir::Program program);
+ir::Program fold_uniform_tables(ir::Program program, Report& report);
 
 }  // namespace rddlc::passes

@@ -1,11 +1,13 @@
 #include "passes/passes.hpp"
 
+#include "ir/analysis.hpp"
 #include "ir/verify.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/share_subexpressions.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace rddlc {
@@ -13,21 +15,57 @@ namespace {
 
 struct Pass {
     const char* name;
-    ir::Program (*run)(ir::Program);
+    const char* summary;
+    ir::Program (*run)(ir::Program, passes::Report&);
 };
 
-constexpr Pass all_passes[] = {
-    {"fold_uniform_tables", passes::fold_uniform_tables},
-    {"fold_constant_expressions", passes::fold_constant_expressions},
-    {"remove_unused_buffers", passes::remove_unused_buffers},
-    {"share_subexpressions", passes::share_subexpressions},
+// A pass may stand here several times.
+constexpr Pass in_order[] = {
+    {"fold_uniform_tables", "a table of equal entries becomes a scalar",
+     passes::fold_uniform_tables},
+    {"fold_constant_expressions", "what only tables decide is evaluated now",
+     passes::fold_constant_expressions},
+    {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",
+     passes::remove_unused_buffers},
+    {"share_subexpressions", "what is used twice, or does not change in a loop, gets a name",
+     passes::share_subexpressions},
 };
+
+PassRun measured(const Pass& pass, ir::Program& program) {
+    const auto begin = std::chrono::steady_clock::now();
+    PassRun run{.name = pass.name, .report = {}, .before = {}, .after = {}, .time = {}};
+    program = pass.run(std::move(program), run.report);
+    run.time = std::chrono::steady_clock::now() - begin;
+    return run;
+}
 
 }  // namespace
 
-ir::Program optimise(ir::Program program) {
-    for (const Pass& pass : all_passes) {
-        program = pass.run(std::move(program));
+std::vector<PassDescription> all_passes() {
+    std::vector<PassDescription> passes;
+    for (const Pass& pass : in_order) {
+        const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
+        if (known == passes.end()) passes.push_back({pass.name, pass.summary});
+    }
+    return passes;
+}
+
+ProgramSize size_of(const ir::Program& program) {
+    const std::vector<bool> reachable = ir::reachable_nodes(program);
+    return {.nodes = static_cast<std::size_t>(std::ranges::count(reachable, true)),
+            .operations = ir::cost_of_step(program)};
+}
+
+ir::Program optimise(ir::Program program, const PassOptions& options, std::vector<PassRun>* runs) {
+    for (const Pass& pass : in_order) {
+        if (options.without.contains(pass.name)) continue;
+        const ProgramSize before = runs ? size_of(program) : ProgramSize{};
+        PassRun run = measured(pass, program);
+        if (runs) {
+            run.before = before;
+            run.after = size_of(program);
+            runs->push_back(std::move(run));
+        }
 #ifndef NDEBUG
         ir::expect_valid(program, pass.name);
 #endif

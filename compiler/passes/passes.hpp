@@ -1,11 +1,46 @@
-// The optimisations. Each keeps the value of every fluent bit for bit.
+// The optimisations. Each keeps the value of every fluent bit for bit, except where its header says
+// that sums of reals may be rounded differently.
 #pragma once
 
 #include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+#include <chrono>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace rddlc {
 
-// All of them, in the order that passes.cpp lists.
-ir::Program optimise(ir::Program program);
+struct PassDescription {
+    std::string_view name;
+    std::string_view summary;
+};
+// In the order in which they run first; each once.
+std::vector<PassDescription> all_passes();
+
+struct PassOptions {
+    std::set<std::string, std::less<>> without;  // names of passes that are left out
+};
+
+// How large a program is.
+struct ProgramSize {
+    std::size_t nodes;
+    double operations;  // of one step with the reward and the tests of the new state; Facts::cost
+};
+ProgramSize size_of(const ir::Program& program);
+
+// One run of one pass.
+struct PassRun {
+    std::string_view name;
+    passes::Report report;
+    ProgramSize before, after;
+    std::chrono::duration<double> time;
+};
+
+// All passes, in the order that passes.cpp lists. What they did is added to `runs`.
+ir::Program optimise(ir::Program program, const PassOptions& options = {},
+                     std::vector<PassRun>* runs = nullptr);
 
 }  // namespace rddlc

@@ -64,14 +64,20 @@ bool drop_a_definition(ir::Program& program, const std::vector<ir::Facts>& facts
 }
 
 // Removes buffers that are neither read nor written and renumbers the others.
-void drop_buffers(ir::Program& program) {
+void drop_buffers(ir::Program& program, Report& report) {
     std::vector<bool> used = used_buffers(program);
     for (const ir::Block* block : ir::blocks_of(program)) mark_written(*block, used);
     std::vector<ir::BufferId> renumbered(used.size());
     std::vector<ir::Buffer> kept;
     for (std::size_t index = 0; index < used.size(); ++index) {
         renumbered[index] = {static_cast<std::uint32_t>(kept.size())};
-        if (used[index]) kept.push_back(std::move(program.buffers[index]));
+        ir::Buffer& buffer = program.buffers[index];
+        const bool is_constant = buffer.storage == ir::Storage::Constant;
+        if (used[index]) {
+            kept.push_back(std::move(buffer));
+        } else {
+            ++report[is_constant ? "constant tables removed" : "interm-fluents removed"];
+        }
     }
     program.buffers = std::move(kept);
 
@@ -86,13 +92,13 @@ void drop_buffers(ir::Program& program) {
 
 }  // namespace
 
-ir::Program remove_unused_buffers(ir::Program program) {
+ir::Program remove_unused_buffers(ir::Program program, Report& report) {
     program = ir::collect_garbage(std::move(program));
     const std::vector<ir::Facts> facts = ir::all_facts(program);
     while (drop_a_definition(program, facts)) {
     }
     program = ir::collect_garbage(std::move(program));
-    drop_buffers(program);
+    drop_buffers(program, report);
     return program;
 }
 

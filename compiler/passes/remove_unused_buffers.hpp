@@ -9,9 +9,10 @@
 #pragma once
 
 #include "ir/ir.hpp"
+#include "passes/report.hpp"
 
 namespace rddlc::passes {
 
-ir::Program remove_unused_buffers(ir::Program program);
+ir::Program remove_unused_buffers(ir::Program program, Report& report);
 
 }  // namespace rddlc::passes

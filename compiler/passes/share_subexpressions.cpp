@@ -47,7 +47,8 @@ struct Uses {
 
 class Sharing {
   public:
-    explicit Sharing(ir::Program program) : program_(std::move(program)), builder_(program_) {}
+    Sharing(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
         share_in(program_.step);
@@ -156,6 +157,7 @@ class Sharing {
         spread(uses);
         const std::vector<ir::NodeId> shared = choose(uses, stored);
         if (shared.empty()) return {};
+        report_["values named"] += static_cast<std::int64_t>(shared.size());
         std::map<ir::NodeId, ir::NodeId> replaced;
         ir::Block lets;
         for (ir::NodeId id : shared) {
@@ -230,14 +232,15 @@ class Sharing {
     }
 
     ir::Program program_;
+    Report& report_;
     ir::Builder builder_;
     std::set<ir::VariableId> bound_;  // by the loops around the current block
 };
 
 }  // namespace
 
-ir::Program share_subexpressions(ir::Program program) {
-    return ir::collect_garbage(Sharing(std::move(program)).run());
+ir::Program share_subexpressions(ir::Program program, Report& report) {
+    return ir::collect_garbage(Sharing(std::move(program), report).run());
 }
 
 }  // namespace rddlc::passes

@@ -13,9 +13,10 @@
 #pragma once
 
 #include "ir/ir.hpp"
+#include "passes/report.hpp"
 
 namespace rddlc::passes {
 
-ir::Program share_subexpressions(ir::Program program);
+ir::Program share_subexpressions(ir::Program program, Report& report);
 
 }  // namespace rddlc::passes

@@ -142,12 +142,9 @@ Problem busy_problem() {
         .non_fluents = "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); GAIN(b2) = 0.5;"};
 }
 
-TEST(Rollout, IsTheSameBitForBitAfterOptimising) {
-    const ir::Program program = grounded(busy_problem());
-    const ir::Program optimised = optimise(program);
+// 200 steps of both.
+void expect_equal_rollouts(const ir::Program& program, const ir::Program& optimised) {
     EXPECT_TRUE(ir::verify(optimised).empty());
-    EXPECT_LT(optimised.buffers.size(), program.buffers.size());
-    EXPECT_GT(optimised.local_count, 0u);
     Rollout plain(program), fast(optimised);
     std::mt19937_64 random(3);
     for (int step = 0; step < 200; ++step) {
@@ -162,6 +159,22 @@ TEST(Rollout, IsTheSameBitForBitAfterOptimising) {
         ASSERT_FALSE(plain.fault());
     }
     EXPECT_GT(plain.state<std::int64_t>("steps"), 200);
+}
+
+TEST(Rollout, IsTheSameBitForBitAfterOptimising) {
+    const ir::Program program = grounded(busy_problem());
+    const ir::Program optimised = optimise(program);
+    EXPECT_LT(optimised.buffers.size(), program.buffers.size());
+    EXPECT_GT(optimised.local_count, 0u);
+    expect_equal_rollouts(program, optimised);
+}
+
+TEST(Rollout, IsTheSameWithoutAnyOfThePasses) {
+    const ir::Program program = grounded(busy_problem());
+    for (const PassDescription& pass : all_passes()) {
+        SCOPED_TRACE(pass.name);
+        expect_equal_rollouts(program, optimise(program, {.without = {std::string(pass.name)}}));
+    }
 }
 
 }  // namespace

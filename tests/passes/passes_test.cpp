@@ -40,10 +40,11 @@ Problem with_tables(const std::string& cpf_of_x) {
 struct Texts {
     std::string before, after;
 };
-Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program)) {
+Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program, passes::Report&)) {
     ir::Program program = grounded(with_tables(cpf_of_x));
     const std::string before = value_of_x(program);
-    return {before, value_of_x(valid(pass(std::move(program))))};
+    passes::Report report;
+    return {before, value_of_x(valid(pass(std::move(program), report)))};
 }
 
 TEST(FoldUniformTables, ReplacesLoadsByTheValue) {
@@ -89,7 +90,8 @@ TEST(FoldConstantExpressions, LeavesFaultsToTheRun) {
 TEST(RemoveUnusedBuffers, DropsTablesThatNobodyReads) {
     ir::Program program = grounded(with_tables("sum_{?o : obj} v(?o) * W(?o)"));
     EXPECT_EQ(names(program, ir::Storage::Constant), "SAME NONE W E");
-    program = valid(passes::remove_unused_buffers(std::move(program)));
+    passes::Report report;
+    program = valid(passes::remove_unused_buffers(std::move(program), report));
     EXPECT_EQ(names(program, ir::Storage::Constant), "W");
     EXPECT_EQ(value_of_x(program), "sum[o in obj](state.v[o] * W[o])");
     EXPECT_EQ(program.fluents.size(), 7u);
@@ -108,7 +110,8 @@ TEST(RemoveUnusedBuffers, DropsIntermFluentsThatNobodyReads) {
                   .cpfs = "x' = used;\nused = x + 1;\nfirst = x * 2;\nsecond = first * 2;\n"
                           "drawn = Normal(0, 1);\nrisky = Bernoulli(x);"});
     EXPECT_EQ(names(program, ir::Storage::Scratch), "used first second drawn risky");
-    program = valid(passes::remove_unused_buffers(std::move(program)));
+    passes::Report report;
+    program = valid(passes::remove_unused_buffers(std::move(program), report));
     EXPECT_EQ(names(program, ir::Storage::Scratch), "used risky");
     EXPECT_EQ(step_text(program),
               "scratch.risky = sample bernoulli@1[0](state.x)\n"

@@ -7,7 +7,8 @@ namespace rddlc {
 namespace {
 
 ir::Program shared(ir::Program program) {
-    program = passes::share_subexpressions(std::move(program));
+    passes::Report report;
+    program = passes::share_subexpressions(std::move(program), report);
     for (const std::string& complaint : ir::verify(program)) ADD_FAILURE() << complaint;
     return program;
 }

@@ -9,8 +9,9 @@ TEST_F(CommandLine, ShowsVersionAndHelp) {
     EXPECT_EQ(rddlc({"--version"}).output.substr(0, 6), "rddlc ");
     const Result help = rddlc({"--help"});
     EXPECT_EQ(help.status, 0);
-    for (const char* option : {"--print", "--stop-after", "--check", "--explain", "-MD", "-Werror",
-                               "--diagnostics-format", "--color", "--std", "-o"}) {
+    for (const char* option :
+         {"--print", "--stop-after", "--check", "--explain", "-MD", "-Werror",
+          "--diagnostics-format", "--color", "--std", "--stats", "--without", "-o"}) {
         EXPECT_NE(help.output.find(option), std::string::npos) << option;
     }
     EXPECT_EQ(help.output.find("--MD"), std::string::npos) << "spelled as compilers do";
@@ -36,6 +37,7 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
         {"domain.rddl", "instance.rddl", "-Wno-E0101"},
         {"domain.rddl", "instance.rddl", "-Wall"},
         {"domain.rddl", "instance.rddl", "-MD"},
+        {"domain.rddl", "instance.rddl", "--without=everything"},
         {"--explain", "E9999"},
         {"--explain", "nonsense"},
     };
