@@ -81,7 +81,7 @@ class Explainer {
             frame_.set(form.variable, i);
             if (!fails(form.body, wanted)) continue;
             explanation_.bindings.push_back(
-                fmt::format("?{} = {}", variable.name, object_name(variable.type, i)));
+                fmt::format("?{} = {}", variable.name, object_name(*variable.type, i)));
             return descend(form.body, wanted);
         }
     }

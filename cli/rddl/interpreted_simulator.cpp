@@ -163,7 +163,7 @@ class Description {
         for (const ir::Site& site : program_.sites) {
             std::vector<rddl::SiteVariable>& scope = scopes_.emplace_back();
             for (const ir::VariableId id : site.scope)
-                scope.push_back({program_[id].name.c_str(), &types_[program_[id].type]});
+                scope.push_back({program_[id].name.c_str(), &types_[*program_[id].type]});
             sites_of_program_.push_back({source_of(site.span), site.what.c_str(), scope});
         }
     }

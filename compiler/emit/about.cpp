@@ -312,7 +312,7 @@ class Describer {
         for (ir::VariableId id : site.scope) {
             const ir::Variable& variable = unit_.program[id];
             variables.push_back("{" + literal(std::string_view(variable.name)) + ", &types[" +
-                                std::to_string(variable.type) + "]}");
+                                std::to_string(*variable.type) + "]}");
             key += variables.back();
         }
         std::string& name = scope_tables_[key];

@@ -166,14 +166,19 @@ std::string Expressions::place(const ir::Place& place) {
 
 std::string Expressions::call_head(const ir::Node& binder) {
     if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) {
-        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">(" +
-               unit_.size_of(unit_.program[reduce->variable]);
+        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">(" + range(*reduce);
     }
     const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
     const std::string function =
         discrete.normalise ? "unnormalised_discrete_over" : "discrete_over";
     return "rddl::sample::" + function + "(" + place(discrete.place) + ", " +
            unit_.size_of(unit_.program[discrete.variable]);
+}
+
+std::string Expressions::range(const ir::Reduce& reduce) {
+    if (!reduce.bounds) return unit_.size_of(unit_.program[reduce.variable]);
+    return "rddl::IndexRange(" + index(reduce.bounds->begin).text + ", " +
+           index(reduce.bounds->end).text + ")";
 }
 
 std::string Expressions::lambda_head(ir::VariableId variable, ir::NodeId body) {
@@ -286,11 +291,12 @@ Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
             Level::Primary};
 }
 
-// Arithmetic of loop indices cannot overflow, so it needs no wrapping functions.
+// Arithmetic of objects cannot overflow, so it needs no wrapping functions.
 bool Expressions::is_plain_index(ir::NodeId id) const {
     const ir::Node& node = unit_.program[id];
     if (named_.contains(id) || std::holds_alternative<ir::Index>(node.form)) return true;
     if (std::holds_alternative<ir::Constant>(node.form)) return true;
+    if (std::holds_alternative<ir::Load>(node.form)) return unit_.facts_of(id).uniform;
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     return apply && (apply->op == Operator::Add || apply->op == Operator::Multiply) &&
            std::ranges::all_of(apply->operands,

@@ -101,6 +101,8 @@ class Expressions {
     std::string call(const std::string& function, const std::vector<ir::NodeId>& operands,
                      const std::optional<ir::Place>& place = {});
     std::string lambda_call(const ir::Node& node, ir::VariableId variable, ir::NodeId body);
+    // What an aggregation runs over: a count, or rddl::IndexRange(begin, end).
+    std::string range(const ir::Reduce& reduce);
     std::string arguments(const std::vector<ir::NodeId>& operands);
     std::string place(const ir::Place& place);
     std::string record(ir::BufferId buffer);

@@ -29,7 +29,7 @@ bool Unit::is_lazy(const ir::Select& select) const {
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {
-    return count_of(variable.type, variable.size);
+    return variable.type ? count_of(*variable.type, variable.size) : std::to_string(variable.size);
 }
 
 std::string Unit::count_of(std::uint32_t type, std::int64_t size) const {

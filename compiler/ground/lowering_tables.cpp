@@ -75,7 +75,7 @@ ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
     double count = 1;
     for (ir::VariableId variable : dimensions) {
         buffer.shape.push_back(program_[variable].size);
-        buffer.types.push_back(program_[variable].type);
+        buffer.types.push_back(*program_[variable].type);
         count *= static_cast<double>(program_[variable].size);
     }
     if (count > most_elements) {

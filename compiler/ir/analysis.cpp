@@ -120,7 +120,18 @@ class Collector {
         if (a && b) facts_.range = join(*a, *b);
     }
 
-    void describe(Scalar, const Reduce& reduce) { bind(reduce.variable, reduce.body); }
+    void describe(Scalar, const Reduce& reduce) {
+        const std::int64_t size = program_[reduce.variable].size;
+        bind(reduce.variable, reduce.body,
+             reduce.bounds ? length_of(*reduce.bounds, size) : static_cast<double>(size));
+    }
+
+    // On average, where the bounds are neighbours in a table of where rows begin.
+    double length_of(const Bounds& bounds, std::int64_t size) const {
+        const auto* end = std::get_if<Load>(&program_[bounds.end].form);
+        const std::int64_t rows = end ? program_[end->buffer].count() - 1 : 1;
+        return static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(rows, 1));
+    }
 
     void describe(Scalar, const Sample& sample) {
         std::vector<std::optional<Range>> ranges;
@@ -135,7 +146,8 @@ class Collector {
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
-        bind(discrete.variable, discrete.weight);
+        bind(discrete.variable, discrete.weight,
+             static_cast<double>(program_[discrete.variable].size));
         draw(true);
         facts_.cost += 20;
     }
@@ -145,10 +157,11 @@ class Collector {
         facts_.uniform = false;
     }
 
-    void bind(VariableId variable, NodeId body) {
+    // The body's own cost is in there already, once.
+    void bind(VariableId variable, NodeId body, double repetitions) {
         std::erase(facts_.free_variables, variable);
-        const auto size = static_cast<double>(std::max<std::int64_t>(program_[variable].size, 1));
-        facts_.cost += known_[body.index].cost * (size - 1) + size;
+        const double times = std::max(repetitions, 1.0);
+        facts_.cost += known_[body.index].cost * (times - 1) + times;
     }
 
     void draw(bool may_fault) {
@@ -296,7 +309,12 @@ std::vector<NodeId> operands_of(const Node& node) {
         [](const Select& select) {
             return std::vector{select.condition, select.then_value, select.else_value};
         },
-        [](const Reduce& reduce) { return std::vector{reduce.body}; },
+        [](const Reduce& reduce) {
+            std::vector operands{reduce.body};
+            if (reduce.bounds)
+                operands.insert(operands.end(), {reduce.bounds->begin, reduce.bounds->end});
+            return operands;
+        },
         [&](const Sample& sample) { return with_place(sample.place, sample.parameters); },
         [&](const Discrete& discrete) { return with_place(discrete.place, discrete.weights); },
         [&](const DiscreteOver& discrete) { return with_place(discrete.place, {discrete.weight}); },

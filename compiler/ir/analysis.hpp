@@ -40,7 +40,8 @@ inline bool is_droppable(const Facts& facts) {
     return !facts.may_fault && !facts.random;
 }
 
-// The nodes that a node uses directly, place included, in evaluation order.
+// The nodes that a node uses directly, place included, in evaluation order; the body of a binder
+// first.
 std::vector<NodeId> operands_of(const Node& node);
 // The place of a node that draws or may fault.
 std::optional<Place> place_of(const Node& node);

@@ -64,6 +64,7 @@ class Key {
         add(static_cast<std::uint64_t>(form.op));
         add(form.variable);
         add(form.body);
+        if (form.bounds) add(std::vector{form.bounds->begin, form.bounds->end});
     }
     void add(const Sample& form) {
         add(static_cast<std::uint64_t>(form.distribution));
@@ -200,12 +201,14 @@ NodeId Builder::select(NodeId condition, NodeId then_value, NodeId else_value) {
     return intern({program_[then_value].type, Select{condition, then_value, else_value}});
 }
 
-NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body) {
+NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
+                       std::optional<Bounds> bounds) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
-    if (size == 0) {
+    if (size == 0 || (bounds && bounds->begin == bounds->end)) {
         if (const auto value = fold_empty(op, type)) return constant(*value);
     }
+    if (bounds) return intern({type, Reduce{op, variable, body, bounds}});
     if (const auto* form = std::get_if<Constant>(&program_[body].form)) {
         if (const auto value = fold(op, size, form->value)) return constant(*value);
     }
@@ -213,7 +216,7 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body) {
     if (fixed && is_idempotent(op)) return body;
     if (size == 1 && !is_argument(op)) return body;
     if (fixed && is_argument(op) && is_droppable(facts(body))) return constant(std::int64_t{0});
-    return intern({type, Reduce{op, variable, body}});
+    return intern({type, Reduce{op, variable, body, {}}});
 }
 
 NodeId Builder::sample(Scalar type, Distribution distribution, Place place,
@@ -244,7 +247,7 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Select& form) {
             return select(form.condition, form.then_value, form.else_value);
         },
-        [&](const Reduce& form) { return reduce(form.op, form.variable, form.body); },
+        [&](const Reduce& form) { return reduce(form.op, form.variable, form.body, form.bounds); },
         [&](const Sample& form) {
             return sample(node.type, form.distribution, form.place, form.parameters);
         },

@@ -35,7 +35,8 @@ class Builder {
     NodeId apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place = {});
     NodeId select(NodeId condition, NodeId then_value, NodeId else_value);
     // Over an empty variable only for reductions that have a value there.
-    NodeId reduce(Reduction op, VariableId variable, NodeId body);
+    NodeId reduce(Reduction op, VariableId variable, NodeId body,
+                  std::optional<Bounds> bounds = {});
     NodeId sample(Scalar type, Distribution distribution, Place place,
                   std::vector<NodeId> parameters);
     NodeId discrete(bool normalise, Place place, std::vector<NodeId> weights);

@@ -7,7 +7,6 @@
 #include "support/match.hpp"
 
 #include <rddl/distributions.hpp>
-#include <rddl/reductions.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -310,9 +309,16 @@ double Evaluator::apply<double>(const Apply& form, Frame& frame) const {
     return apply_real(form.op, left, right, place(form.place, frame), frame.context_);
 }
 
+rddl::IndexRange Evaluator::range(const Reduce& form, Frame& frame) const {
+    if (!form.bounds) return (*program_)[form.variable].size;
+    return {value<std::int64_t>(form.bounds->begin, frame),
+            value<std::int64_t>(form.bounds->end, frame)};
+}
+
 template <class T>
 T Evaluator::reduce(const Reduce& form, Frame& frame) const {
-    const std::int64_t size = (*program_)[form.variable].size;
+    const rddl::IndexRange over = range(form, frame);
+    const std::int64_t size = over.end;
     const auto body = [&]<class Body>(Body) {
         return [&](rddl::Index i) {
             frame.set(form.variable, i);
@@ -320,14 +326,14 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
         };
     };
     if constexpr (std::is_same_v<T, bool>) {
-        if (form.op == Reduction::ForAll) return rddl::for_all<bool>(size, body(bool{}));
-        return rddl::exists<bool>(size, body(bool{}));
+        if (form.op == Reduction::ForAll) return rddl::for_all<bool>(over, body(bool{}));
+        return rddl::exists<bool>(over, body(bool{}));
     } else {
         switch (form.op) {
             case Reduction::Sum:
-                return rddl::sum<T>(size, body(T{}));
+                return rddl::sum<T>(over, body(T{}));
             case Reduction::Product:
-                return rddl::product<T>(size, body(T{}));
+                return rddl::product<T>(over, body(T{}));
             case Reduction::Minimum:
                 return rddl::minimum_over<T>(size, body(T{}));
             case Reduction::Maximum:

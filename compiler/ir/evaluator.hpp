@@ -7,6 +7,8 @@
 #include "ir/ir.hpp"
 #include "ir/kernels.hpp"
 
+#include <rddl/reductions.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -93,6 +95,7 @@ class Evaluator {
     bool apply_to_bools(const Apply& form, Frame& frame) const;
     template <class T>
     T convert_operand(const Convert& form, Frame& frame) const;
+    rddl::IndexRange range(const Reduce& form, Frame& frame) const;
     template <class T>
     T reduce(const Reduce& form, Frame& frame) const;
     template <class T>

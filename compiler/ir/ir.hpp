@@ -41,7 +41,7 @@ using Value = std::variant<bool, std::int64_t, double>;
 // A loop index, running over [0, size). Named as in the RDDL text, without "?".
 struct Variable {
     std::string name;
-    std::uint32_t type;  // index into Program::types
+    std::optional<std::uint32_t> type;  // index into Program::types; absent: entries of a table
     std::int64_t size;
 };
 
@@ -61,8 +61,9 @@ struct Buffer {
     std::string name;  // the RDDL name of the fluent, or a name made by a pass
     Storage storage;
     Scalar scalar;
-    std::vector<std::int64_t> shape;      // empty: one value
-    std::vector<std::uint32_t> types;     // one per dimension, index into Program::types
+    std::vector<std::int64_t> shape;  // empty: one value
+    // One per dimension, index into Program::types; empty for a table over something else.
+    std::vector<std::uint32_t> types;
     std::optional<std::uint32_t> fluent;  // index into Program::fluents; absent: the policy's own
     // Constant: the table; State, Memory: initial; Action: defaults.
     std::vector<Value> values;
@@ -120,13 +121,19 @@ struct Select {
     NodeId condition, then_value, else_value;
     bool operator==(const Select&) const = default;
 };
+// The part [begin, end) of a variable's range. Both are Int, and the same in all lanes.
+struct Bounds {
+    NodeId begin, end;
+    bool operator==(const Bounds&) const = default;
+};
 // Over one variable; several variables are nested reductions, outermost first. Average does not
 // occur (it is a sum divided by a constant). ArgMin and ArgMax give Int; Minimum, Maximum and
-// both Arg forms are never empty.
+// both Arg forms are never empty, so they have no bounds.
 struct Reduce {
     Reduction op;
     VariableId variable;
     NodeId body;
+    std::optional<Bounds> bounds;  // absent: all of the range
     bool operator==(const Reduce&) const = default;
 };
 // KronDelta and DiracDelta do not occur (they are their argument).

@@ -168,6 +168,8 @@ class Printer {
             std::vector<std::string_view> names;
             for (std::uint32_t type : buffer.types) names.push_back(program_.types[type].name);
             text += fmt::format("[{}]", fmt::join(names, ", "));
+        } else if (!buffer.shape.empty()) {
+            text += fmt::format("[{}]", fmt::join(buffer.shape, ", "));
         }
         text += fmt::format(": {}", name_of(buffer.scalar));
         if (!buffer.values.empty()) text += " = " + values(buffer.values);
@@ -286,9 +288,14 @@ class Printer {
         return fmt::format("{}", fmt::join(texts, ", "));
     }
 
-    std::string binding(VariableId variable) const {
-        return fmt::format("{} in {}", program_[variable].name,
-                           program_.types[program_[variable].type].name);
+    std::string binding(VariableId id, const std::optional<Bounds>& bounds = {}) const {
+        const Variable& variable = program_[id];
+        if (bounds) {
+            return fmt::format("{} in {} .. {}", variable.name, expression(bounds->begin),
+                               expression(bounds->end));
+        }
+        if (!variable.type) return fmt::format("{} in 0 .. {}", variable.name, variable.size);
+        return fmt::format("{} in {}", variable.name, program_.types[*variable.type].name);
     }
 
     std::string element(BufferId id, const std::vector<NodeId>& indices) const {
@@ -338,8 +345,8 @@ class Printer {
         return fmt::format("select({})", list({form.condition, form.then_value, form.else_value}));
     }
     std::string text(const Reduce& form, Scalar, Precedence) const {
-        return fmt::format("{}[{}]({})", rddlc::name_of(form.op), binding(form.variable),
-                           expression(form.body));
+        return fmt::format("{}[{}]({})", rddlc::name_of(form.op),
+                           binding(form.variable, form.bounds), expression(form.body));
     }
     std::string text(const Sample& form, Scalar, Precedence) const {
         return fmt::format("sample {}{}({})", lower_case(rddlc::name_of(form.distribution)),

@@ -47,7 +47,12 @@ void change_operands(Node& node, const Change& change) {
             change(select.then_value);
             change(select.else_value);
         },
-        [&](Reduce& reduce) { change(reduce.body); },
+        [&](Reduce& reduce) {
+            change(reduce.body);
+            if (!reduce.bounds) return;
+            change(reduce.bounds->begin);
+            change(reduce.bounds->end);
+        },
         [&](Sample& sample) {
             change_all(sample.parameters, change);
             change(sample.place.index);

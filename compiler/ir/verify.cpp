@@ -47,8 +47,9 @@ class Verifier {
 
     void buffers() {
         for (const Buffer& buffer : program_.buffers) {
-            require(buffer.shape.size() == buffer.types.size(), "'{}' has {} axes of {} types",
-                    buffer.name, buffer.shape.size(), buffer.types.size());
+            require(buffer.types.empty() || buffer.shape.size() == buffer.types.size(),
+                    "'{}' has {} axes of {} types", buffer.name, buffer.shape.size(),
+                    buffer.types.size());
             values(buffer);
         }
         for (const Buffer& buffer : program_.buffers) {
@@ -267,7 +268,8 @@ class Verifier {
     }
     bool fits(const Reduce& form, Scalar result) const {
         const Scalar body = type(form.body);
-        const bool empty = program_[form.variable].size == 0;
+        if (form.bounds && !are_uniform_ints(*form.bounds)) return false;
+        const bool empty = program_[form.variable].size == 0 || form.bounds;
         switch (form.op) {
             case Reduction::ForAll:
             case Reduction::Exists:
@@ -285,6 +287,10 @@ class Verifier {
                 return false;
         }
         return false;
+    }
+    bool are_uniform_ints(const Bounds& bounds) const {
+        return type(bounds.begin) == Scalar::Int && type(bounds.end) == Scalar::Int &&
+               facts_[bounds.begin.index].uniform && facts_[bounds.end.index].uniform;
     }
     bool fits(const Sample& form, Scalar result) const {
         if (form.parameters.size() != static_cast<std::size_t>(arity_of(form.distribution))) {

@@ -1,4 +1,5 @@
-// Aggregations over the objects 0 .. n-1 of one variable; several variables are nested calls.
+// Aggregations over the objects 0 .. n-1 of one variable, or the entries begin .. end-1 of a table;
+// several variables are nested calls.
 //
 // The body is called once an object, in order, never short-circuited, so that the result of a
 // floating sum is fixed and a fault in any element is found. The first template parameter is the
@@ -11,6 +12,14 @@
 #include <cstdint>
 
 namespace rddl {
+
+// What an aggregation runs over: [begin, end), or all of n objects.
+struct IndexRange {
+    constexpr IndexRange(Index n) : begin(0), end(n) {}
+    constexpr IndexRange(Index first, Index last) : begin(first), end(last) {}
+
+    Index begin, end;
+};
 
 namespace detail {
 
@@ -55,16 +64,16 @@ constexpr Int arg_best(Index n, Body& body, Wins wins) {
 }  // namespace detail
 
 template <class T, class Body>
-constexpr T sum(Index n, Body&& body) {
+constexpr T sum(IndexRange range, Body&& body) {
     T total{0};
-    for (Index i = 0; i < n; ++i) total = detail::plus(total, body(i));
+    for (Index i = range.begin; i < range.end; ++i) total = detail::plus(total, body(i));
     return total;
 }
 
 template <class T, class Body>
-constexpr T product(Index n, Body&& body) {
+constexpr T product(IndexRange range, Body&& body) {
     T total{1};
-    for (Index i = 0; i < n; ++i) total = detail::times(total, body(i));
+    for (Index i = range.begin; i < range.end; ++i) total = detail::times(total, body(i));
     return total;
 }
 
@@ -83,16 +92,16 @@ constexpr T maximum_over(Index n, Body&& body) {
 }
 
 template <class Bool, class Body>
-constexpr Bool for_all(Index n, Body&& body) {
+constexpr Bool for_all(IndexRange range, Body&& body) {
     Bool all{true};
-    for (Index i = 0; i < n; ++i) all = Bool(all & body(i));
+    for (Index i = range.begin; i < range.end; ++i) all = Bool(all & body(i));
     return all;
 }
 
 template <class Bool, class Body>
-constexpr Bool exists(Index n, Body&& body) {
+constexpr Bool exists(IndexRange range, Body&& body) {
     Bool any{false};
-    for (Index i = 0; i < n; ++i) any = Bool(any | body(i));
+    for (Index i = range.begin; i < range.end; ++i) any = Bool(any | body(i));
     return any;
 }
 

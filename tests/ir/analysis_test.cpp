@@ -59,6 +59,23 @@ TEST_F(AnalysisTest, CostsMultiplyInLoops) {
     EXPECT_GE(facts(sum).cost, 3 * facts(body).cost);
 }
 
+TEST_F(AnalysisTest, RowsOfATableHaveAverageLength) {
+    w.program.variables.push_back({"entry", {}, 30});
+    const VariableId entry{4};
+    const BufferId rows =
+        w.add("ROW", Storage::Constant, Scalar::Int, false,
+              {std::int64_t{0}, std::int64_t{7}, std::int64_t{15}, std::int64_t{30}});
+    w.program.buffers[rows.index].shape = {4};
+    Builder& b = w.builder();
+    const Bounds row{b.load(rows, {b.index(w.c)}),
+                     b.load(rows, {w.apply(Operator::Add, b.index(w.c), w.integer(1))})};
+    const NodeId body = w.apply(Operator::Multiply, b.index(entry), w.load(w.count));
+    const NodeId sum = b.reduce(Reduction::Sum, entry, body, row);
+    EXPECT_EQ(facts(sum).free_variables, std::vector{w.c});
+    EXPECT_LT(facts(sum).cost, 20 * facts(body).cost);
+    EXPECT_GE(facts(sum).cost, 10 * facts(body).cost);
+}
+
 TEST_F(AnalysisTest, OnlyWhatIsEvaluatedIsReachable) {
     add_step(w);
     const NodeId unused = w.apply(Operator::Cos, w.load(w.level));

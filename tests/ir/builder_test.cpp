@@ -147,6 +147,17 @@ TEST_F(BuilderTest, FoldsReductionsOverConstants) {
     EXPECT_EQ(w.builder().reduce(Reduction::Exists, w.d, up()), up());
 }
 
+TEST_F(BuilderTest, KeepsReductionsOverAPart) {
+    const NodeId up = w.load(w.count);
+    const Bounds bounds{w.builder().index(w.d), w.integer(2)};
+    EXPECT_EQ(text(w.builder().reduce(Reduction::Sum, w.c, up, bounds)),
+              "sum[c in d .. 2](state.count)");
+    EXPECT_EQ(text(w.builder().reduce(Reduction::Sum, w.c, w.integer(1), bounds)),
+              "sum[c in d .. 2](1)");
+    EXPECT_EQ(text(w.builder().reduce(Reduction::Sum, w.c, up, Bounds{bounds.end, bounds.end})),
+              "0");
+}
+
 TEST_F(BuilderTest, FoldsReductionsOverOneOrNoObject) {
     EXPECT_EQ(w.builder().index(w.only), w.integer(0));
     EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.only, level()), level());

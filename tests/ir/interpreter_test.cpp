@@ -131,6 +131,16 @@ TEST_F(InterpreterTest, EvaluatesReductions) {
               9);
 }
 
+TEST_F(InterpreterTest, ReducesOverAPartOfTheRange) {
+    Builder& b = w.builder();
+    const Bounds last_two{w.integer(1), w.integer(3)};
+    const NodeId place = b.index(w.c);
+    EXPECT_EQ(int_value(b.reduce(Reduction::Sum, w.c, place, last_two)), 1 + 2);
+    EXPECT_EQ(int_value(b.reduce(Reduction::Product, w.c, place, last_two)), 1 * 2);
+    const Bounds none{w.integer(2), w.integer(1)};
+    EXPECT_EQ(int_value(b.reduce(Reduction::Product, w.c, place, none)), 1);
+}
+
 TEST_F(InterpreterTest, NestsReductions) {
     Builder& b = w.builder();
     const NodeId product =

@@ -51,6 +51,18 @@ TEST_F(VerifyTest, FindsTypesThatDoNotFit) {
     EXPECT_EQ(complaint(), "types do not fit in '1.0 + 1'");
 }
 
+TEST_F(VerifyTest, FindsBoundsThatDifferBetweenLanes) {
+    const Bounds bounds{w.integer(0), w.load(w.count)};
+    store_of_level().value = w.builder().reduce(Reduction::Sum, w.d, w.load(w.level), bounds);
+    EXPECT_EQ(complaint(), "types do not fit in 'sum[d in 0 .. state.count](state.level)'");
+}
+
+TEST_F(VerifyTest, FindsExtremesThatMayBeEmpty) {
+    const Bounds bounds{w.integer(0), w.integer(2)};
+    store_of_level().value = w.builder().reduce(Reduction::Minimum, w.d, w.load(w.level), bounds);
+    EXPECT_EQ(complaint(), "types do not fit in 'min[d in 0 .. 2](state.level)'");
+}
+
 TEST_F(VerifyTest, FindsValuesStoredToAnotherType) {
     store_of_level().value = w.integer(3);
     EXPECT_EQ(complaint(), "the type stored to 'level' is wrong");

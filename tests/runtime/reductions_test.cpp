@@ -28,6 +28,17 @@ TEST(Sums, GoFromTheFirstObjectToTheLast) {
     EXPECT_EQ(product<double>(4, [](Index i) { return 0.5 * static_cast<double>(i + 1); }), 1.5);
 }
 
+TEST(Aggregations, GoOverAPart) {
+    const auto index = [](Index i) {
+        return i;
+    };
+    EXPECT_EQ(sum<Int>(IndexRange(2, 5), index), 2 + 3 + 4);
+    EXPECT_EQ(product<Int>(IndexRange(2, 5), index), 2 * 3 * 4);
+    EXPECT_EQ(product<Int>(IndexRange(2, 2), index), 1);
+    EXPECT_TRUE(for_all<bool>(IndexRange(1, 3), [](Index i) { return i > 0; }));
+    EXPECT_FALSE(exists<bool>(IndexRange(1, 3), [](Index i) { return i == 3; }));
+}
+
 TEST(Sums, OfIntsWrapAround) {
     const Int big = std::numeric_limits<Int>::max();
     EXPECT_EQ(sum<Int>(2, [&](Index) { return big; }), -2);
