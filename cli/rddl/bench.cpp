@@ -1,15 +1,11 @@
-// rddl bench: how many steps a second, for one environment and for batches.
+// rddl bench: what a problem costs to compile, how fast it steps, and how fast others step it.
 #include "batch.hpp"
+#include "bench_report.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
-#include "random_policy.hpp"
-#include "statistics.hpp"
-#include "table.hpp"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -21,148 +17,133 @@ struct BenchOptions {
     ProblemArguments problem;
     LoadOptions load;
     double seconds = 1;
-    std::int64_t batch = 1024;
+    std::vector<std::int64_t> batches;  // none: one of a size that suits the problem
     int threads = 0;
+    std::vector<std::string> against;
+    std::string python;
     bool json = false;
 };
 
-struct Measurement {
-    std::int64_t environments = 0;
-    int threads = 0;
-    std::int64_t steps = 0;  // of all environments
-    double seconds = 0;
-
-    double steps_per_second() const { return static_cast<double>(steps) / seconds; }
-};
-
-// Random actions drawn beforehand, so that only stepping is measured: `sets` records for each
-// environment, used in turn.
-class PreparedActions {
-  public:
-    PreparedActions(const rddl_problem& problem, std::int64_t environments)
-        : set_size_(static_cast<std::size_t>(environments * problem.action_size)),
-          actions_(sets * set_size_) {
-        RandomPolicy policy(problem, 0);
-        for (std::size_t set = 0; set < sets; ++set)
-            for (std::int64_t i = 0; i < environments; ++i)
-                policy.act(i, static_cast<std::int64_t>(set),
-                           actions_.data() + set * set_size_ + i * problem.action_size);
-    }
-    const std::byte* next() { return actions_.data() + (turn_++ % sets) * set_size_; }
-
-  private:
-    static constexpr std::size_t sets = 8;
-
-    std::size_t set_size_;
-    std::vector<std::byte> actions_;
-    std::size_t turn_ = 0;
-};
-
-// Steps, with resets where episodes end, until the time is over.
-Measurement measure(const rddl_simulator& simulator, std::int64_t environments, int threads,
-                    double seconds) {
-    using Clock = std::chrono::steady_clock;
-    const Batch batch =
-        create_batch(simulator, {environments, 0, 0, threads, RDDL_AUTORESET_SAME_STEP, -1});
-    PreparedActions actions(*simulator.problem, environments);
-    std::vector<double> rewards(static_cast<std::size_t>(environments));
-    std::vector<std::uint8_t> terminated(rewards.size()), truncated(rewards.size());
-    const rddl_transition out{nullptr,          rewards.data(), terminated.data(),
-                              truncated.data(), nullptr,        nullptr};
-    const auto step = [&] {
-        simulator.step(batch.get(), actions.next(), &out);
-    };
-
-    step();  // warms caches and threads
-    Measurement result{environments, threads, 0, 0};
-    const auto begin = Clock::now();
-    std::int64_t calls = 1;  // between looks at the clock: enough for the looks not to count
-    do {
-        const auto lap = Clock::now();
-        for (std::int64_t i = 0; i < calls; ++i) step();
-        result.steps += calls * environments;
-        const auto now = Clock::now();
-        result.seconds = std::chrono::duration<double>(now - begin).count();
-        if (now - lap < std::chrono::milliseconds(5)) calls *= 2;
-    } while (result.seconds < seconds && !is_interrupted());
-    return result;
+// 1,024 environments, or fewer if their records are so large that they would mostly wait for
+// memory.
+std::int64_t suitable_batch(const rddl_problem& problem) {
+    constexpr std::int64_t most_bytes = 32 << 20;
+    const std::int64_t bytes = problem.state_size + problem.action_size + 1;
+    return std::clamp<std::int64_t>(most_bytes / bytes, 16, 1024);
 }
 
-std::vector<Measurement> measure_all(const rddl_simulator& simulator, const BenchOptions& options) {
-    const int most = options.threads > 0
-                         ? options.threads
-                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    std::vector<Measurement> all{measure(simulator, 1, 1, options.seconds)};
-    for (int threads = 1; threads <= most && !is_interrupted(); threads *= 2) {
-        all.push_back(measure(simulator, options.batch, threads, options.seconds));
-        if (threads < most && threads * 2 > most && !is_interrupted())
-            all.push_back(measure(simulator, options.batch, most, options.seconds));
+// 1, 2, 4, ... and the most that are wanted.
+std::vector<int> thread_counts(int wanted) {
+    const int most =
+        wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    std::vector<int> counts;
+    for (int threads = 1; threads < most; threads *= 2) counts.push_back(threads);
+    counts.push_back(most);
+    return counts;
+}
+
+double first_step_seconds(const rddl_simulator& simulator) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Batch batch = create_batch(simulator, course_options(1));
+    const rddl_transition nothing{};
+    simulator.step(batch.get(), simulator.problem->default_action, &nothing);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::vector<Measurement> measure_all(const rddl_simulator& simulator,
+                                     const std::vector<std::int64_t>& batches,
+                                     const BenchOptions& options) {
+    std::vector<Measurement> all{
+        measure(simulator, draw_course(simulator, 1, options.seconds), 1, options.seconds)};
+    for (const std::int64_t batch : batches) {
+        if (is_interrupted()) break;
+        const RandomCourse course = draw_course(simulator, batch, options.seconds);
+        for (const int threads : thread_counts(options.threads))
+            if (!is_interrupted())
+                all.push_back(measure(simulator, course, threads, options.seconds));
     }
     return all;
 }
 
-void print_table(const rddl_problem& problem, const BenchOptions& options,
-                 const std::vector<Measurement>& all) {
-    fmt::print("{} ({}), {}: random actions drawn beforehand, resets included\n\n",
-               problem.instance, problem.domain, name_of(options.load.engine));
-    Table table({{"environments", Align::Right},
-                 {"threads", Align::Right},
-                 {"steps/s", Align::Right},
-                 {"one step", Align::Right},
-                 {"speed-up", Align::Right}});
-    for (const Measurement& m : all)
-        table.add_row({grouped(m.environments), std::to_string(m.threads),
-                       rate_text(m.steps_per_second()), seconds_text(1 / m.steps_per_second()),
-                       fmt::format("{:.2f}", m.steps_per_second() / all[0].steps_per_second())});
-    fmt::print("{}", table.text());
-}
-
-void print_json(const LoadedProblem& problem, const BenchOptions& options,
-                const std::vector<Measurement>& all) {
-    nlohmann::ordered_json measurements = nlohmann::ordered_json::array();
-    for (const Measurement& m : all)
-        measurements.push_back({{"environments", m.environments},
-                                {"threads", m.threads},
-                                {"steps", m.steps},
-                                {"seconds", m.seconds},
-                                {"steps_per_second", m.steps_per_second()}});
-    const nlohmann::ordered_json out{{"problem", problem.files.name},
-                                     {"engine", name_of(options.load.engine)},
-                                     {"measurements", measurements}};
-    fmt::print("{}\n", out.dump(2));
+// pyRDDLGym knows no threads; the others run once with one core and once with all that are wanted.
+std::vector<PeerFigures> measure_peers(const ProblemFiles& files, const BenchOptions& options) {
+    std::vector<PeerFigures> all;
+    for (const std::string& name : options.against) {
+        PeerOptions peer{options.python, options.seconds, 1};
+        PeerFigures figures = measure_peer(name, files, peer);
+        peer.cores = thread_counts(options.threads).back();
+        if (knows_threads(name) && peer.cores > 1) {
+            const PeerFigures more = measure_peer(name, files, peer);
+            figures.measurements.insert(figures.measurements.end(), more.measurements.begin(),
+                                        more.measurements.end());
+        }
+        all.push_back(std::move(figures));
+    }
+    return all;
 }
 
 ExitStatus bench(const BenchOptions& options) {
-    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
-    const std::vector<Measurement> all = measure_all(*problem.simulator, options);
-    if (options.json)
-        print_json(problem, options, all);
-    else
-        print_table(*problem.simulator->problem, options, all);
+    const ProblemFiles files = options.problem.files();
+    LoadOptions load = options.load;
+    load.ignore_cache |= !options.against.empty();  // the others compile anew, too
+    const LoadedProblem problem = load_problem(files, load);
+    const rddl_simulator& simulator = *problem.simulator;
+
+    BenchReport report;
+    report.problem = files.name;
+    report.engine = load.engine;
+    report.costs = problem.costs;
+    const double first_step = problem.costs.load_seconds + first_step_seconds(simulator);
+    if (load.engine == Engine::Interpreter || problem.costs.build_seconds)
+        report.first_step_seconds = first_step;
+    report.peers = measure_peers(files, options);
+
+    std::vector<std::int64_t> batches = options.batches;
+    if (batches.empty()) batches.push_back(suitable_batch(*simulator.problem));
+    report.memory_per_environment =
+        memory_per_environment(simulator, *std::max_element(batches.begin(), batches.end()));
+    report.measurements = measure_all(simulator, batches, options);
+    options.json ? print_json(report) : print_table(report);
     return is_interrupted() ? interrupted : success;
+}
+
+void add_peer_options(CLI::App& app, BenchOptions& options) {
+    app.add_option("--against", options.against,
+                   "Measure others in the same run: pyrddlgym, jax (pyRDDLGym-jax)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(peer_names()).description(""))
+        ->type_name("PEER,...");
+    app.add_option("--python", options.python,
+                   "Python that has them (that of $VIRTUAL_ENV, else python3)")
+        ->type_name("PYTHON");
 }
 
 }  // namespace
 
 Command add_bench_command(CLI::App& program) {
-    CLI::App* const app = program.add_subcommand("bench", "Measure steps per second");
+    CLI::App* const app =
+        program.add_subcommand("bench", "Measure compile time, size, memory and steps per second");
     app->footer(
         "Examples:\n"
         "  rddl bench domain.rddl instance.rddl\n"
-        "  rddl bench SysAdmin_MDP_ippc2011 1 --batch 4096 --seconds 3 --json");
+        "  rddl bench SysAdmin_MDP_ippc2011 1 --batch 64,1024,16384 --seconds 3 --json\n"
+        "  rddl bench MountainCar_ippc2023 1 --against=pyrddlgym,jax --python venv/bin/python");
     const auto options = std::make_shared<BenchOptions>();
     add_problem_arguments(*app, options->problem);
     app->add_option("--seconds", options->seconds, "Time for each measurement (1)")
         ->check(CLI::Range(0.01, 3600.0).description(""))
         ->type_name("SECONDS");
-    app->add_option("--batch", options->batch, "Environments in the batches (1024)")
+    app->add_option("--batch", options->batches,
+                    "Environments in the batches (1024; fewer for large problems)")
+        ->delimiter(',')
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24).description(""))
-        ->type_name("B");
+        ->type_name("B,...");
     app->add_option("--threads", options->threads, "Most threads to try (one per core)")
         ->check(CLI::Range(1, 4096).description(""))
         ->type_name("T");
     add_engine_options(*app, options->load);
-    app->add_flag("--json", options->json, "Print the measurements as JSON");
+    add_peer_options(*app, *options);
+    app->add_flag("--json", options->json, "Print the figures as JSON");
     return {app, [options] {
                 return bench(*options);
             }};

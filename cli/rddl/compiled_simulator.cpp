@@ -31,16 +31,17 @@ std::shared_ptr<const rddl_simulator> load(const fs::path& object) {
 
 }  // namespace
 
-std::shared_ptr<const rddl_simulator> compiled_simulator(const std::string& text,
-                                                         const CacheOptions& options) {
-    if (auto simulator = load(cached_object(text, options))) return simulator;
+CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options) {
+    CachedObject object = cached_object(text, options);
+    if (auto simulator = load(object.path)) return {simulator, object};
     // Compiled by something that has changed since.
     CacheOptions anew = options;
     anew.ignore_cache = true;
-    const fs::path object = cached_object(text, anew);
-    if (auto simulator = load(object)) return simulator;
+    object = cached_object(text, anew);
+    if (auto simulator = load(object.path)) return {simulator, object};
     const char* const why = dlerror();
-    throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}", object.string(),
+    throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}",
+                              object.path.string(),
                               why ? why : "it is not a simulator of this version"));
 }
 

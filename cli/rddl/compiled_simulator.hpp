@@ -10,8 +10,12 @@
 
 namespace rddlc::cli {
 
-// The pointer keeps the library loaded. Fails if there is no C++ compiler.
-std::shared_ptr<const rddl_simulator> compiled_simulator(const std::string& text,
-                                                         const CacheOptions& options);
+struct CompiledSimulator {
+    std::shared_ptr<const rddl_simulator> simulator;  // keeps the library loaded
+    CachedObject object;
+};
+
+// Fails if there is no C++ compiler.
+CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options);
 
 }  // namespace rddlc::cli

@@ -31,9 +31,10 @@ std::shared_ptr<void> load_headers(const ir::Program& program, const std::vector
                                    const ProblemFiles& files, const LoadOptions& options) {
     std::vector<std::string> included;
     for (const fs::path& header : headers) included.push_back(header.string());
-    return load(cached_object(
+    const CachedObject object = cached_object(
         emit_external_library(program, included),
-        {"the external functions of " + files.name, options.ignore_cache, options.quiet, headers}));
+        {"the external functions of " + files.name, options.ignore_cache, options.quiet, headers});
+    return load(object.path);
 }
 
 std::vector<ir::Call> external_calls(const ir::Program& program) {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace rddlc::cli {
@@ -19,16 +21,31 @@ std::string_view name_of(Engine engine) {
 
 namespace {
 
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
 LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
     const ExternFiles externs = extern_files(options.externs);
+    const Stopwatch watch;
+    LoadCosts costs;
     Compilation compilation =
         compile_or_give_up(files, Stage::Optimise, externs.headers, options.passes);
+    costs.compile_seconds = watch.seconds();
     if (options.externs.empty())
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
     give_up_on_errors(compilation);
     ExternalLibrary library = external_library(*compilation.program, files, options);
-    return {files, interpreted_simulator(*std::move(compilation.program),
-                                         std::move(compilation.sources), std::move(library))};
+    Simulator simulator = interpreted_simulator(*std::move(compilation.program),
+                                                std::move(compilation.sources), std::move(library));
+    costs.load_seconds = watch.seconds();
+    return {files, std::move(simulator), costs};
 }
 
 LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
@@ -38,10 +55,21 @@ LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
                                   "not from '{}'",
                                   externs.shared_objects.front().string()),
                       "name the header, or use --engine=interpreter", usage_error);
+    const Stopwatch watch;
+    LoadCosts costs;
     const Compilation compilation =
         compile_or_give_up(files, Stage::Emit, externs.headers, options.passes);
-    return {files, compiled_simulator(compilation.text, {files.name, options.ignore_cache,
-                                                         options.quiet, externs.headers})};
+    costs.compile_seconds = watch.seconds();
+    const std::string& text = compilation.text;
+    costs.emitted_lines = std::count(text.begin(), text.end(), '\n');
+    costs.emitted_bytes = static_cast<std::int64_t>(text.size());
+    const CompiledSimulator compiled = compiled_simulator(
+        text, {files.name, options.ignore_cache, options.quiet, externs.headers});
+    costs.build_seconds = compiled.object.build_seconds;
+    costs.object_bytes =
+        static_cast<std::int64_t>(std::filesystem::file_size(compiled.object.path));
+    costs.load_seconds = watch.seconds();
+    return {files, compiled.simulator, costs};
 }
 
 }  // namespace

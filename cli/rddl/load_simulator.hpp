@@ -6,8 +6,10 @@
 
 #include <rddl/simulator.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -28,9 +30,20 @@ struct LoadOptions {
 // Owns all that the simulator refers to: the loaded library, or program and sources.
 using Simulator = std::shared_ptr<const rddl_simulator>;
 
+// What it took to get from the files to the simulator.
+struct LoadCosts {
+    double compile_seconds = 0;  // by rddlc: to the emitted text, or to what is interpreted
+    std::optional<double> build_seconds;  // by the C++ compiler; nothing without it, or if it was
+                                          // spared since the object was in the cache
+    double load_seconds = 0;              // all in all
+    std::int64_t emitted_lines = 0, emitted_bytes = 0;  // 0 with the interpreter, and so
+    std::int64_t object_bytes = 0;                      // is this
+};
+
 struct LoadedProblem {
     ProblemFiles files;
     Simulator simulator;
+    LoadCosts costs;
 };
 
 // Prints the diagnostics and throws Diagnosed if there are errors; fails without a C++ compiler.

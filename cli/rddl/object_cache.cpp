@@ -103,9 +103,11 @@ class CompilingMessage {
     CompilingMessage(const std::string& problem, bool shown) : shown_(shown && is_terminal(2)) {
         if (shown_) fmt::print(stderr, "compiling {} ...", problem);
     }
-    void done() const {
+    // The seconds that it took.
+    double done() const {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
         if (shown_) fmt::print(stderr, " ({})\n", duration_text(elapsed.count()));
+        return elapsed.count();
     }
 
   private:
@@ -163,13 +165,12 @@ fs::path cache_folder() {
         "there is no place for compiled simulators: neither XDG_CACHE_HOME nor HOME is set");
 }
 
-fs::path cached_object(const std::string& text, const CacheOptions& options) {
+CachedObject cached_object(const std::string& text, const CacheOptions& options) {
     const fs::path target = cache_folder() / (content_key(text, options) + ".so");
-    if (!options.ignore_cache && is_sealed(target)) return target;
+    if (!options.ignore_cache && is_sealed(target)) return {target, std::nullopt};
     const CompilingMessage message(options.what, !options.quiet);
     build(text, target, options);
-    message.done();
-    return target;
+    return {target, message.done()};
 }
 
 }  // namespace rddlc::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,13 @@ struct CacheOptions {
     std::vector<std::filesystem::path> extern_headers = {};
 };
 
+struct CachedObject {
+    std::filesystem::path path;
+    std::optional<double> build_seconds;  // nothing if it was there already
+};
+
 // Fails if there is no C++ compiler; throws Diagnosed if it refuses the user's headers.
-std::filesystem::path cached_object(const std::string& text, const CacheOptions& options);
+CachedObject cached_object(const std::string& text, const CacheOptions& options);
 
 std::filesystem::path cache_folder();
 

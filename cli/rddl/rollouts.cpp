@@ -4,7 +4,7 @@
 #include "faults.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
-#include "random_policy.hpp"
+#include "random_actions.hpp"
 #include "trace.hpp"
 
 #include <rddl/random.hpp>
@@ -55,8 +55,8 @@ class Turns {
 // Consecutive episodes stepped together by one thread.
 class EpisodeBatch {
   public:
-    EpisodeBatch(const rddl_simulator& simulator, const RolloutOptions& options, std::int64_t first,
-                 std::int64_t count)
+    EpisodeBatch(const rddl_simulator& simulator, const RolloutOptions& options,
+                 RandomPolicy& policy, std::int64_t first, std::int64_t count)
         : simulator_(simulator),
           problem_(*simulator.problem),
           options_(options),
@@ -68,7 +68,7 @@ class EpisodeBatch {
           rewards_(episodes_.size()),
           causes_(episodes_.size()),
           violated_(episodes_.size(), -1),
-          searches_(episodes_.size()),
+          random_actions_(simulator, policy, count),
           action_size_(static_cast<std::size_t>(problem_.action_size)),
           actions_(episodes_.size() * action_size_) {
         for (std::size_t i = 0; i < episodes_.size(); ++i) set_default_action(i);
@@ -83,15 +83,12 @@ class EpisodeBatch {
     }
 
     // Of the next step; those that violate a precondition are treated as the options say.
-    void choose_actions(RandomPolicy& policy) {
+    void choose_actions() {
         const bool random = options_.policy == Policy::Random;
-        if (random) draw_actions(policy);
+        if (random) draw_actions();
         if (options_.policy == Policy::Rddl) ask_policy_block();
         if (problem_.precondition_count == 0) return;
-        if (random)
-            make_legal(policy);
-        else if (options_.preconditions != Preconditions::Ignore)
-            ask_preconditions();
+        if (!random && options_.preconditions != Preconditions::Ignore) ask_preconditions();
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (is_illegal(i)) treat_illegal_action(i);
     }
@@ -142,9 +139,13 @@ class EpisodeBatch {
                     action(i));
     }
 
-    void draw_actions(RandomPolicy& policy) {
+    void draw_actions() {
+        random_actions_.draw(
+            batch_.get(), actions_.data(), [&](std::size_t i) { return !episodes_[i].finished; },
+            [&](std::size_t i) { return number_of(i); },
+            [&](std::size_t i) { return episodes_[i].length; });
         for (std::size_t i = 0; i < episodes_.size(); ++i)
-            if (!episodes_[i].finished) policy.act(number_of(i), episodes_[i].length, action(i));
+            violated_[i] = random_actions_.violated(i);
     }
 
     // Where it faults, the episode is over, and the action does not matter.
@@ -152,20 +153,6 @@ class EpisodeBatch {
         simulator_.policy_act(batch_.get(), actions_.data());
         simulator_.get_causes(batch_.get(), 0, static_cast<std::int64_t>(causes_.size()),
                               causes_.data());
-    }
-
-    // Where that is possible. All environments make their tries side by side, since the simulator
-    // is asked about all of them at once.
-    void make_legal(RandomPolicy& policy) {
-        std::fill(searches_.begin(), searches_.end(), RandomPolicy::Search{});
-        for (bool searching = true; searching;) {
-            ask_preconditions();
-            searching = false;
-            for (std::size_t i = 0; i < episodes_.size(); ++i)
-                if (is_illegal(i))
-                    searching |= policy.try_another(number_of(i), episodes_[i].length, searches_[i],
-                                                    action(i));
-        }
     }
 
     void ask_preconditions() {
@@ -229,7 +216,7 @@ class EpisodeBatch {
     std::vector<double> rewards_;
     std::vector<std::uint8_t> causes_;
     std::vector<std::int32_t> violated_;  // the precondition, by the action chosen last; or -1
-    std::vector<RandomPolicy::Search> searches_;
+    RandomActions random_actions_;
     std::size_t action_size_;
     std::vector<std::byte> actions_;
     std::optional<EpisodeViolation> first_illegal_action_, first_broken_invariant_;
@@ -289,12 +276,12 @@ class Rollout {
     void run_batch(std::int64_t number, RandomPolicy& policy) {
         const std::int64_t first = number * options_.batch;
         const std::int64_t count = std::min(options_.batch, options_.episodes - first);
-        EpisodeBatch batch(simulator_, options_, first, count);
+        EpisodeBatch batch(simulator_, options_, policy, first, count);
         std::optional<TraceLines> lines;
         if (trace_format_) lines.emplace(simulator_, *trace_format_, count);
         std::int64_t steps = 0;
         for (; batch.running() && !is_interrupted(); ++steps) {
-            batch.choose_actions(policy);
+            batch.choose_actions();
             lines ? batch.step(*lines) : batch.step();
             if (steps_per_episode_ > 0) progress_.advance(count);
         }

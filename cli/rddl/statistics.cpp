@@ -37,6 +37,7 @@ std::string rate_text(double per_second) {
 }
 
 std::string seconds_text(double seconds) {
+    if (seconds < 1e-6) return fmt::format("{:.3g} ns", seconds * 1e9);
     if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
     if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
     return fmt::format("{:.2f} s", seconds);

@@ -330,21 +330,6 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
     EXPECT_NE(outcome.err.find("rddl: interrupted after "), std::string::npos) << outcome.err;
 }
 
-TEST_F(Program, MeasuresSpeed) {
-    const json bench = run_json(
-        std::string(
-            "bench domain.rddl instance.rddl --seconds 0.02 --batch 16 --threads 3 --json") +
-        interpreted);
-    std::vector<int> threads;
-    for (const json& m : bench["measurements"]) {
-        threads.push_back(m["threads"]);
-        EXPECT_GT(m["steps_per_second"], 0);
-    }
-    EXPECT_EQ(threads, (std::vector<int>{1, 1, 2, 3}));
-    EXPECT_EQ(bench["measurements"][0]["environments"], 1);
-    EXPECT_EQ(bench["measurements"][1]["environments"], 16);
-}
-
 // ---------------------------------------------------------------------------------------- cache
 
 std::vector<std::filesystem::path> shared_objects(const std::filesystem::path& cache) {

@@ -1,0 +1,29 @@
+// What `rddl bench` found out, for people and for programs.
+#pragma once
+
+#include "load_simulator.hpp"
+#include "measurement.hpp"
+#include "peers.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc::cli {
+
+struct BenchReport {
+    std::string problem;
+    Engine engine = Engine::Compiled;
+    LoadCosts costs;
+    std::optional<double> first_step_seconds;      // from the files; nothing if the simulator was
+                                                   // taken from the cache
+    std::optional<double> memory_per_environment;  // bytes, in the largest batch
+    std::vector<Measurement> measurements;         // one environment, then batches
+    std::vector<PeerFigures> peers;
+};
+
+void print_table(const BenchReport& report);
+void print_json(const BenchReport& report);
+
+}  // namespace rddlc::cli
