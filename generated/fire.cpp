@@ -31,12 +31,6 @@ inline constexpr rddl::Index ypos_count = 5;  // y1, y2, y3, y4, y5
 
 // ---------------------------------------------------------------------------------- tables
 
-// X, domain.rddl:18
-inline constexpr std::array<std::int64_t, xpos_count> X = {1, 2, 3, 4, 5};
-
-// Y, domain.rddl:19
-inline constexpr std::array<std::int64_t, ypos_count> Y = {1, 2, 3, 4, 5};
-
 // HOUSE, domain.rddl:22
 // clang-format off
 inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> HOUSE = {{
@@ -67,6 +61,50 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
+}};
+// clang-format on
+
+// risk-table, domain.rddl:53
+// clang-format off
+inline constexpr std::array<std::array<std::int64_t, xpos_count>, xpos_count> risk_table = {{
+    {0, 1, 2, 3, 4},
+    {1, 0, 1, 2, 3},
+    {2, 1, 0, 1, 2},
+    {3, 2, 1, 0, 1},
+    {4, 3, 2, 1, 0},
+}};
+// clang-format on
+
+// risk-table-2, domain.rddl:53
+// clang-format off
+inline constexpr std::array<std::array<std::int64_t, ypos_count>, ypos_count> risk_table_2 = {{
+    {0, 1, 2, 3, 4},
+    {1, 0, 1, 2, 3},
+    {2, 1, 0, 1, 2},
+    {3, 2, 1, 0, 1},
+    {4, 3, 2, 1, 0},
+}};
+// clang-format on
+
+// risk-table-3, domain.rddl:53
+// clang-format off
+inline constexpr std::array<std::array<bool, xpos_count>, xpos_count> risk_table_3 = {{
+    {0, 0, 0, 0, 0},
+    {1, 0, 0, 0, 0},
+    {0, 1, 0, 0, 0},
+    {0, 0, 1, 0, 0},
+    {0, 0, 0, 1, 0},
+}};
+// clang-format on
+
+// risk-table-4, domain.rddl:53
+// clang-format off
+inline constexpr std::array<std::array<bool, ypos_count>, ypos_count> risk_table_4 = {{
+    {1, 0, 0, 0, 0},
+    {0, 1, 0, 0, 0},
+    {0, 0, 1, 0, 0},
+    {0, 0, 0, 1, 0},
+    {0, 0, 0, 0, 1},
 }};
 // clang-format on
 
@@ -120,7 +158,7 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
         bare(state, action, next, context);
-        risk(state, scratch, context);
+        risk(state, scratch);
         ignites(state, action, scratch, context);
         burning(state, action, scratch, next);
     }
@@ -143,29 +181,19 @@ struct Simulator {
 
     // risk(?c, ?r)  (domain.rddl:53)
     template <class L>
-    static void risk(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void risk(const State<L>& state, Scratch<L>& scratch) {
         using Bool = typename L::Bool;
-        using Int = typename L::Int;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
                 const Real product = rddl::product<Real>(xpos_count, [&](rddl::Index n) {
                     return rddl::product<Real>(ypos_count, [&](rddl::Index m) {
-                        const Int number = rddl::absolute(rddl::wrap_sub(X[n], X[c]));
-                        const Int number_2 =
-                            rddl::wrap_add(number, rddl::absolute(rddl::wrap_sub(Y[m], Y[r])));
-                        const Bool condition = number_2 == 1;
+                        const Bool condition =
+                            rddl::wrap_add(risk_table[n][c], risk_table_2[m][r]) == 1;
                         const Bool condition_2 = condition && state.burning[n][m];
-                        return rddl::branch(
-                            context, condition_2,
-                            [&] {
-                                const Bool condition_3 = rddl::wrap_sub(X[c], X[n]) == 1 &&
-                                                         rddl::wrap_sub(Y[r], Y[m]) == 0;
-                                const Real term = rddl::to_real(condition_3);
-                                const Real term_2 = 0.2 * term;
-                                return 0.88 - term_2;
-                            },
-                            [&] { return 1.0; });
+                        const Real term =
+                            0.88 - 0.2 * rddl::to_real(risk_table_3[c][n] && risk_table_4[r][m]);
+                        return rddl::select(condition_2, term, 1.0);
                     });
                 });
                 scratch.risk[c][r] = 1.0 - 0.9995 * product;

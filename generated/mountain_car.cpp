@@ -37,13 +37,6 @@ inline constexpr std::array<double, segment_count> LEFT_X = {
 };
 // clang-format on
 
-// LEFT-Y, domain.rddl:22
-// clang-format off
-inline constexpr std::array<double, segment_count> LEFT_Y = {
-    0.443, -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932
-};
-// clang-format on
-
 // RIGHT-X, domain.rddl:23
 // clang-format off
 inline constexpr std::array<double, segment_count> RIGHT_X = {
@@ -51,10 +44,19 @@ inline constexpr std::array<double, segment_count> RIGHT_X = {
 };
 // clang-format on
 
-// RIGHT-Y, domain.rddl:24
+// slope-table, domain.rddl:52
 // clang-format off
-inline constexpr std::array<double, segment_count> RIGHT_Y = {
-    -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932, 0.974
+inline constexpr std::array<double, segment_count> slope_table = {
+    -0.584, -0.534, -0.29899999999999993, 0.041999999999999926, 0.3670000000000001, 0.565, 0.565,
+    0.3670000000000001, 0.041999999999999926
+};
+// clang-format on
+
+// slope-table-2, domain.rddl:52
+// clang-format off
+inline constexpr std::array<double, segment_count> slope_table_2 = {
+    0.19999999999999996, 0.19999999999999996, 0.20000000000000007, 0.19999999999999996, 0.2, 0.2,
+    0.2, 0.2, 0.19999999999999996
 };
 // clang-format on
 
@@ -119,7 +121,7 @@ struct Simulator {
         using Real = typename L::Real;
         scratch.slope = rddl::sum<Real>(segment_count, [&](rddl::Index s) {
             return rddl::to_real(LEFT_X[s] <= state.position && state.position < RIGHT_X[s]) *
-                   (RIGHT_Y[s] - LEFT_Y[s]) / (RIGHT_X[s] - LEFT_X[s]);
+                   slope_table[s] / slope_table_2[s];
         });
     }
 

@@ -47,6 +47,9 @@ inline constexpr std::array<std::array<bool, computer_count>, computer_count> LI
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
+// support-table, domain.rddl:35
+inline constexpr std::array<double, computer_count> support_table = {2, 2, 2, 2, 2, 2, 2, 2};
+
 // --------------------------------------------------------------------------------- records
 
 template <class L>
@@ -104,10 +107,7 @@ struct Simulator {
             const Int total = rddl::sum<Int>(computer_count, [&](rddl::Index d) {
                 return rddl::to_int(LINK[d][c] && state.running[d]);
             });
-            const Int total_2 = rddl::sum<Int>(
-                computer_count, [&](rddl::Index d) { return rddl::to_int(LINK[d][c]); });
-            scratch.support[c] =
-                rddl::to_real(rddl::wrap_add(1, total)) / rddl::to_real(rddl::wrap_add(1, total_2));
+            scratch.support[c] = rddl::to_real(rddl::wrap_add(1, total)) / support_table[c];
         }
     }
 

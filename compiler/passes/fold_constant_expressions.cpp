@@ -1,7 +1,7 @@
 #include "passes/fold_constant_expressions.hpp"
 
-#include "ir/evaluator.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/constant_values.hpp"
 
 #include <utility>
 
@@ -16,26 +16,6 @@ bool is_known(const ir::Node& node, const ir::Facts& facts) {
            !std::holds_alternative<ir::Constant>(node.form);
 }
 
-std::optional<ir::Value> evaluate(const ir::Program& program, const ir::Evaluator& evaluator,
-                                  ir::NodeId id) {
-    ir::Context context;
-    ir::Evaluator::Frame frame(evaluator, {}, context);
-    ir::Value value;
-    switch (program[id].type) {
-        case ir::Scalar::Bool:
-            value = evaluator.value<bool>(id, frame);
-            break;
-        case ir::Scalar::Int:
-            value = evaluator.value<std::int64_t>(id, frame);
-            break;
-        case ir::Scalar::Real:
-            value = evaluator.value<double>(id, frame);
-            break;
-    }
-    if (context.fault) return std::nullopt;
-    return value;
-}
-
 // By NodeId::index. Only the outermost known expressions matter: what is inside goes with them.
 std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
     std::vector<std::optional<ir::Value>> values(program.nodes.size());
@@ -47,7 +27,8 @@ std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
         if (!wanted[index]) continue;
         const ir::Node& node = program.nodes[index];
         if (is_known(node, facts[index])) {
-            values[index] = evaluate(program, evaluator, ir::NodeId{index});
+            const auto value = constant_values(evaluator, program, ir::NodeId{index}, {});
+            if (value) values[index] = value->front();
         }
         if (values[index]) continue;
         for (ir::NodeId operand : ir::operands_of(node)) wanted[operand.index] = true;

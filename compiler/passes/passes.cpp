@@ -6,6 +6,8 @@
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/share_subexpressions.hpp"
+#include "passes/tabulate_constant_fluents.hpp"
+#include "passes/tabulate_constants.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -21,10 +23,14 @@ struct Pass {
 
 // A pass may stand here several times.
 constexpr Pass in_order[] = {
+    {"tabulate_constant_fluents", "interm-fluents that the instance fixes become tables",
+     passes::tabulate_constant_fluents},
     {"fold_uniform_tables", "a table of equal entries becomes a scalar",
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"tabulate_constants", "what tables and loop variables decide becomes a table",
+     passes::tabulate_constants},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",
      passes::remove_unused_buffers},
     {"share_subexpressions", "what is used twice, or does not change in a loop, gets a name",

@@ -4,48 +4,10 @@
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/remove_unused_buffers.hpp"
-#include "problem.hpp"
-
-#include <gtest/gtest.h>
+#include "texts.hpp"
 
 namespace rddlc {
 namespace {
-
-std::string names(const ir::Program& program, ir::Storage storage) {
-    std::string text;
-    for (const ir::Buffer& buffer : program.buffers) {
-        if (buffer.storage == storage) text += (text.empty() ? "" : " ") + buffer.name;
-    }
-    return text;
-}
-
-ir::Program valid(ir::Program program) {
-    for (const std::string& complaint : ir::verify(program)) ADD_FAILURE() << complaint;
-    return program;
-}
-
-Problem with_tables(const std::string& cpf_of_x) {
-    return {.pvariables =
-                "SAME(obj) : { non-fluent, real, default = 1.5 };\n"
-                "NONE(obj, obj) : { non-fluent, bool, default = false };\n"
-                "W(obj) : { non-fluent, real, default = 1.0 };\n"
-                "E(obj) : { non-fluent, int, default = -1 };\n"
-                "x : { state-fluent, real, default = 0.0 };\n"
-                "v(obj) : { state-fluent, real, default = 0.0 };\n"
-                "p(obj) : { state-fluent, bool, default = false };",
-            .cpfs = "x' = " + cpf_of_x + ";\nv'(?o) = v(?o);\np'(?o) = p(?o);",
-            .non_fluents = "W(b2) = 4.0; E(b3) = 2;"};
-}
-
-struct Texts {
-    std::string before, after;
-};
-Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program, passes::Report&)) {
-    ir::Program program = grounded(with_tables(cpf_of_x));
-    const std::string before = value_of_x(program);
-    passes::Report report;
-    return {before, value_of_x(valid(pass(std::move(program), report)))};
-}
 
 TEST(FoldUniformTables, ReplacesLoadsByTheValue) {
     const Texts x = of_x("sum_{?o : obj} v(?o) * SAME(?o) * W(?o)", passes::fold_uniform_tables);

@@ -1,0 +1,53 @@
+// What the tests of the passes share: small problems, and the text before and after.
+#pragma once
+
+#include "passes/report.hpp"
+#include "problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+namespace rddlc {
+
+// The buffers of a storage.
+inline std::string names(const ir::Program& program, ir::Storage storage) {
+    std::string text;
+    for (const ir::Buffer& buffer : program.buffers) {
+        if (buffer.storage == storage) text += (text.empty() ? "" : " ") + buffer.name;
+    }
+    return text;
+}
+
+inline ir::Program valid(ir::Program program) {
+    for (const std::string& complaint : ir::verify(program)) ADD_FAILURE() << complaint;
+    return program;
+}
+
+// With objects b1 to b3 of type "obj".
+inline Problem with_tables(const std::string& cpf_of_x) {
+    return {.pvariables =
+                "SAME(obj) : { non-fluent, real, default = 1.5 };\n"
+                "NONE(obj, obj) : { non-fluent, bool, default = false };\n"
+                "W(obj) : { non-fluent, real, default = 1.0 };\n"
+                "E(obj) : { non-fluent, int, default = -1 };\n"
+                "x : { state-fluent, real, default = 0.0 };\n"
+                "v(obj) : { state-fluent, real, default = 0.0 };\n"
+                "p(obj) : { state-fluent, bool, default = false };",
+            .cpfs = "x' = " + cpf_of_x + ";\nv'(?o) = v(?o);\np'(?o) = p(?o);",
+            .non_fluents = "W(b2) = 4.0; E(b3) = 2;"};
+}
+
+// The right-hand side of the CPF of x, before and after a pass.
+struct Texts {
+    std::string before, after;
+};
+inline Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program, passes::Report&)) {
+    ir::Program program = grounded(with_tables(cpf_of_x));
+    const std::string before = value_of_x(program);
+    passes::Report report;
+    return {before, value_of_x(valid(pass(std::move(program), report)))};
+}
+
+}  // namespace rddlc
