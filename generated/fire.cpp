@@ -64,48 +64,45 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
 }};
 // clang-format on
 
-// risk-table, domain.rddl:53
+// risk-rows, domain.rddl:53
 // clang-format off
-inline constexpr std::array<std::array<std::int64_t, xpos_count>, xpos_count> risk_table = {{
-    {0, 1, 2, 3, 4},
-    {1, 0, 1, 2, 3},
-    {2, 1, 0, 1, 2},
-    {3, 2, 1, 0, 1},
-    {4, 3, 2, 1, 0},
-}};
+inline constexpr std::array<std::int64_t, 26> risk_rows = {
+    0, 2, 5, 8, 11, 13, 16, 20, 24, 28, 31, 34, 38, 42, 46, 49, 52, 56, 60, 64, 67, 69, 72, 75, 78,
+    80
+};
 // clang-format on
 
-// risk-table-2, domain.rddl:53
+// risk-n, domain.rddl:53
 // clang-format off
-inline constexpr std::array<std::array<std::int64_t, ypos_count>, ypos_count> risk_table_2 = {{
-    {0, 1, 2, 3, 4},
-    {1, 0, 1, 2, 3},
-    {2, 1, 0, 1, 2},
-    {3, 2, 1, 0, 1},
-    {4, 3, 2, 1, 0},
-}};
+inline constexpr std::array<std::int64_t, 80> risk_n = {
+    0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 2, 1,
+    2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 3, 2, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4,
+    2, 3, 4, 3, 4, 3, 4, 4, 3, 4, 4, 3, 4, 4, 3, 4
+};
 // clang-format on
 
-// risk-table-3, domain.rddl:53
+// risk-m, domain.rddl:53
 // clang-format off
-inline constexpr std::array<std::array<bool, xpos_count>, xpos_count> risk_table_3 = {{
-    {0, 0, 0, 0, 0},
-    {1, 0, 0, 0, 0},
-    {0, 1, 0, 0, 0},
-    {0, 0, 1, 0, 0},
-    {0, 0, 0, 1, 0},
-}};
+inline constexpr std::array<std::int64_t, 80> risk_m = {
+    1, 0, 0, 2, 1, 1, 3, 2, 2, 4, 3, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0,
+    1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3,
+    4, 3, 4, 0, 1, 1, 0, 2, 2, 1, 3, 3, 2, 4, 4, 3
+};
 // clang-format on
 
-// risk-table-4, domain.rddl:53
+// risk-entries, domain.rddl:53
 // clang-format off
-inline constexpr std::array<std::array<bool, ypos_count>, ypos_count> risk_table_4 = {{
-    {1, 0, 0, 0, 0},
-    {0, 1, 0, 0, 0},
-    {0, 0, 1, 0, 0},
-    {0, 0, 0, 1, 0},
-    {0, 0, 0, 0, 1},
-}};
+inline constexpr std::array<double, 80> risk_entries = {
+    0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88,
+    0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
+    0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
+    0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
+    0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
+    0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
+    0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
+    0.6799999999999999, 0.88, 0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
+    0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88
+};
 // clang-format on
 
 // --------------------------------------------------------------------------------- records
@@ -182,20 +179,14 @@ struct Simulator {
     // risk(?c, ?r)  (domain.rddl:53)
     template <class L>
     static void risk(const State<L>& state, Scratch<L>& scratch) {
-        using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
-                const Real product = rddl::product<Real>(xpos_count, [&](rddl::Index n) {
-                    return rddl::product<Real>(ypos_count, [&](rddl::Index m) {
-                        const Bool condition =
-                            rddl::wrap_add(risk_table[n][c], risk_table_2[m][r]) == 1;
-                        const Bool condition_2 = condition && state.burning[n][m];
-                        const Real term =
-                            0.88 - 0.2 * rddl::to_real(risk_table_3[c][n] && risk_table_4[r][m]);
-                        return rddl::select(condition_2, term, 1.0);
+                const Real product =
+                    rddl::product<Real>(rddl::row(risk_rows, c * 5 + r), [&](rddl::Index entry) {
+                        return rddl::select(state.burning[risk_n[entry]][risk_m[entry]],
+                                            risk_entries[entry], 1.0);
                     });
-                });
                 scratch.risk[c][r] = 1.0 - 0.9995 * product;
             }
         }

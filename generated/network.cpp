@@ -30,25 +30,11 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 
 // ---------------------------------------------------------------------------------- tables
 
-// LINK, domain.rddl:16
-// clang-format off
-inline constexpr std::array<std::array<bool, computer_count>, computer_count> LINK = {{
-    {0, 1, 0, 0, 0, 0, 0, 0},
-    {0, 0, 1, 0, 0, 0, 0, 0},
-    {0, 0, 0, 1, 0, 0, 0, 0},
-    {0, 0, 0, 0, 1, 0, 0, 0},
-    {0, 0, 0, 0, 0, 1, 0, 0},
-    {0, 0, 0, 0, 0, 0, 1, 0},
-    {0, 0, 0, 0, 0, 0, 0, 1},
-    {1, 0, 0, 0, 0, 0, 0, 0},
-}};
-// clang-format on
-
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
-// support-table, domain.rddl:35
-inline constexpr std::array<double, computer_count> support_table = {2, 2, 2, 2, 2, 2, 2, 2};
+// LINK-d, domain.rddl:16
+inline constexpr std::array<std::int64_t, 8> LINK_d = {7, 0, 1, 2, 3, 4, 5, 6};
 
 // --------------------------------------------------------------------------------- records
 
@@ -102,12 +88,9 @@ struct Simulator {
     // support(?c)  (domain.rddl:35)
     template <class L>
     static void support(const State<L>& state, Scratch<L>& scratch) {
-        using Int = typename L::Int;
         for (rddl::Index c = 0; c < computer_count; ++c) {
-            const Int total = rddl::sum<Int>(computer_count, [&](rddl::Index d) {
-                return rddl::to_int(LINK[d][c] && state.running[d]);
-            });
-            scratch.support[c] = rddl::to_real(rddl::wrap_add(1, total)) / support_table[c];
+            scratch.support[c] =
+                rddl::to_real(rddl::wrap_add(1, rddl::to_int(state.running[LINK_d[c]]))) / 2.0;
         }
     }
 

@@ -30,16 +30,6 @@ inline constexpr rddl::Index basin_count = 4;  // north, lake, east, valley
 
 // ---------------------------------------------------------------------------------- tables
 
-// FLOWS-TO, domain.rddl:18
-// clang-format off
-inline constexpr std::array<std::array<bool, basin_count>, basin_count> FLOWS_TO = {{
-    {0, 1, 0, 0},
-    {0, 0, 0, 1},
-    {0, 0, 0, 1},
-    {0, 0, 0, 0},
-}};
-// clang-format on
-
 // CAPACITY, domain.rddl:21
 inline constexpr std::array<double, basin_count> CAPACITY = {100, 200, 100, 150};
 
@@ -57,6 +47,12 @@ inline constexpr std::array<double, basin_count> RAIN_SCALE = {6, 10, 15, 10};
 
 // water, domain.rddl:36
 inline constexpr std::array<double, basin_count> initial_water = {50, 120, 50, 60};
+
+// FLOWS-TO-rows, domain.rddl:18
+inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows = {0, 0, 1, 1, 3};
+
+// FLOWS-TO-up, domain.rddl:18
+inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up = {0, 1, 2};
 
 // --------------------------------------------------------------------------------- records
 
@@ -118,9 +114,9 @@ struct Simulator {
     static void inflow(const Action<L>& action, Scratch<L>& scratch) {
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            scratch.inflow[b] = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
-                return rddl::to_real(FLOWS_TO[up][b]) * action.release[up];
-            });
+            scratch.inflow[b] = rddl::sum<Real>(
+                rddl::row(FLOWS_TO_rows, b),
+                [&](rddl::Index entry) { return action.release[FLOWS_TO_up[entry]]; });
         }
     }
 

@@ -101,8 +101,9 @@ class Expressions {
     std::string call(const std::string& function, const std::vector<ir::NodeId>& operands,
                      const std::optional<ir::Place>& place = {});
     std::string lambda_call(const ir::Node& node, ir::VariableId variable, ir::NodeId body);
-    // What an aggregation runs over: a count, or rddl::IndexRange(begin, end).
+    // What an aggregation runs over: a count, a row of a table, or rddl::IndexRange(begin, end).
     std::string range(const ir::Reduce& reduce);
+    std::optional<std::string> row_of(const ir::Bounds& bounds);
     std::string arguments(const std::vector<ir::NodeId>& operands);
     std::string place(const ir::Place& place);
     std::string record(ir::BufferId buffer);

@@ -42,6 +42,10 @@ std::vector<std::string_view> chain_operators(const ir::Node& node) {
             return {"&&"};
         case Operator::Or:
             return {"||"};
+        case Operator::Equal:
+            return {"=="};
+        case Operator::NotEqual:
+            return {"!="};
         default:
             return {};
     }
@@ -287,11 +291,12 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     } else {
         line(function);
         ++level_;
+        const bool on_one_line = fits(arguments.size() + lambda.size() + 3);
+        if (has_whole || !on_one_line) line(arguments);
         if (has_whole) {
-            line(arguments);
             line(whole);
         } else {
-            line(arguments + " " + lambda + " {");
+            line((on_one_line ? arguments + " " : "") + lambda + " {");
             write_lambda_body(body);
             line("});");
         }

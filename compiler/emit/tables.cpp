@@ -2,11 +2,11 @@
 
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
+#include "ir/fold.hpp"
 #include "ir/layout.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace rddlc::cpp {
@@ -216,15 +216,9 @@ bool is_zero(const ir::Value& value) {
         [](double v) { return v == 0 && !std::signbit(v); });
 }
 
-// Bit by bit: 0 and -0 differ, nan equals itself.
 bool are_equal(std::span<const ir::Value> values) {
-    const auto equal = [](const ir::Value& a, const ir::Value& b) {
-        const auto* real_a = std::get_if<double>(&a);
-        const auto* real_b = std::get_if<double>(&b);
-        if (!real_a || !real_b) return a == b;
-        return std::bit_cast<std::uint64_t>(*real_a) == std::bit_cast<std::uint64_t>(*real_b);
-    };
-    return std::ranges::all_of(values, [&](const ir::Value& v) { return equal(v, values[0]); });
+    return std::ranges::all_of(values,
+                               [&](const ir::Value& v) { return ir::identical(v, values[0]); });
 }
 
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,

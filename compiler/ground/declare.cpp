@@ -36,7 +36,7 @@ ir::BufferId add_buffer(ir::Program& program, ir::Buffer buffer) {
     return {static_cast<std::uint32_t>(program.buffers.size() - 1)};
 }
 
-ir::Buffer buffer_of(const model::Model& model, model::FluentId id) {
+ir::Buffer buffer_of(const model::Model& model, const Finiteness& finiteness, model::FluentId id) {
     const model::Fluent& fluent = model.fluents[id];
     const bool of_policy = model.is_of_policy(id);
     ir::Buffer buffer{
@@ -47,7 +47,8 @@ ir::Buffer buffer_of(const model::Model& model, model::FluentId id) {
         .types = fluent.parameters,
         .fluent = of_policy ? std::nullopt : std::optional(id),
         .values = fluent.values,
-        .span = fluent.span};
+        .span = fluent.span,
+        .finite = finiteness.is_finite(id)};
     for (model::TypeId type : fluent.parameters) {
         buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
     }
@@ -90,7 +91,7 @@ ir::Scalar scalar_of(model::ValueType type) {
     return ir::Scalar::Int;
 }
 
-Declarations declare(const model::Model& model) {
+Declarations declare(const model::Model& model, const Finiteness& finiteness) {
     Declarations result;
     ir::Program& program = result.program;
     program.domain_name = model.domain_name;
@@ -103,9 +104,9 @@ Declarations declare(const model::Model& model) {
     }
     for (model::FluentId id = 0; id < model.fluents.size(); ++id) {
         const model::Fluent& fluent = model.fluents[id];
-        FluentBuffers buffers{add_buffer(program, buffer_of(model, id)), std::nullopt};
+        FluentBuffers buffers{add_buffer(program, buffer_of(model, finiteness, id)), std::nullopt};
         if (fluent.role == Role::State) {
-            buffers.next = add_buffer(program, next_of(buffer_of(model, id)));
+            buffers.next = add_buffer(program, next_of(buffer_of(model, finiteness, id)));
         }
         if (!model.is_of_policy(id))
             program.fluents.push_back(description_of(fluent, buffers.current));

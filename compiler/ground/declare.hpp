@@ -1,6 +1,7 @@
 // Types, fluents and their buffers: everything of the program that is not computed.
 #pragma once
 
+#include "ground/finiteness.hpp"
 #include "ir/ir.hpp"
 #include "model/model.hpp"
 
@@ -20,7 +21,7 @@ struct Declarations {
     std::vector<FluentBuffers> buffers;  // by model::FluentId
 };
 
-Declarations declare(const model::Model& model);
+Declarations declare(const model::Model& model, const Finiteness& finiteness);
 
 ir::Scalar scalar_of(model::ValueType type);
 

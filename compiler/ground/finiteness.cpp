@@ -1,6 +1,7 @@
 #include "ground/finiteness.hpp"
 
 #include "ground/walk.hpp"
+#include "ir/range.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -16,28 +17,6 @@ double as_real(const model::Value& value) {
 bool has_finite_values(const model::Fluent& fluent) {
     return std::ranges::all_of(fluent.values,
                                [](const model::Value& v) { return std::isfinite(as_real(v)); });
-}
-
-// Finite operands give a finite result.
-bool keeps_finite(Operator op) {
-    switch (op) {
-        case Operator::Divide:
-        case Operator::FloorModuloReal:
-        case Operator::Power:
-        case Operator::Exp:
-        case Operator::Ln:
-        case Operator::Sqrt:
-        case Operator::Acos:
-        case Operator::Asin:
-        case Operator::Cosh:
-        case Operator::Sinh:
-        case Operator::Log:
-        case Operator::LnGamma:
-        case Operator::Gamma:
-            return false;
-        default:
-            return true;
-    }
 }
 
 bool is_small_whole_number(const model::Expr& expr) {
@@ -102,7 +81,7 @@ bool Finiteness::is_finite(const model::Apply& form) const {
     if (!std::ranges::all_of(form.operands, finite)) return false;
     if (form.op == Operator::Divide) return is_never_zero(form.operands.back());
     if (form.op == Operator::Power) return is_small_whole_number(form.operands.back());
-    return keeps_finite(form.op);
+    return ir::keeps_finite(form.op);
 }
 
 bool Finiteness::is_finite(const model::Aggregate& form) const {

@@ -16,6 +16,7 @@ class Finiteness {
     explicit Finiteness(const model::Model& model);
 
     bool is_finite(const model::Expr& expr) const;
+    bool is_finite(model::FluentId fluent) const { return fluent_is_finite_[fluent]; }
 
   private:
     // Marks fluents whose CPF may make them inf or nan; false if there are no more.

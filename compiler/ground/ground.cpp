@@ -55,9 +55,9 @@ void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
 
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics) {
     const std::size_t errors_before = diagnostics.error_count();
-    grounding::Declarations declarations = grounding::declare(model);
-    ir::Program& program = declarations.program;
     const grounding::Finiteness finiteness(model);
+    grounding::Declarations declarations = grounding::declare(model, finiteness);
+    ir::Program& program = declarations.program;
     {
         ir::Builder builder(program);
         grounding::Lowering lowering(model, declarations.buffers, finiteness, program, builder,

@@ -71,7 +71,8 @@ ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
                       .types = {},
                       .fluent = {},
                       .values = {},
-                      .span = expr.span};
+                      .span = expr.span,
+                      .finite = scalar != ir::Scalar::Real};
     double count = 1;
     for (ir::VariableId variable : dimensions) {
         buffer.shape.push_back(program_[variable].size);

@@ -66,6 +66,7 @@ class Collector {
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
+        facts_.finite |= node.type != Scalar::Real;
         return std::move(facts_);
     }
 
@@ -74,6 +75,7 @@ class Collector {
         facts_.may_fault |= operand.may_fault;
         facts_.random |= operand.random;
         facts_.uniform &= operand.uniform;
+        facts_.finite &= operand.finite;
         facts_.cost += operand.cost;
         std::vector<VariableId> merged;
         std::set_union(facts_.free_variables.begin(), facts_.free_variables.end(),
@@ -82,7 +84,10 @@ class Collector {
         facts_.free_variables = std::move(merged);
     }
 
-    void describe(Scalar, const Constant& constant) { facts_.range = range_of({constant.value}); }
+    void describe(Scalar, const Constant& constant) {
+        facts_.range = range_of({constant.value});
+        facts_.finite = std::isfinite(as_real(constant.value));
+    }
 
     void describe(Scalar, const Index& index) {
         facts_.free_variables = {index.variable};
@@ -94,11 +99,13 @@ class Collector {
         facts_.cost += 1;
         const Buffer& buffer = program_[load.buffer];
         facts_.uniform &= buffer.storage == Storage::Constant;
+        facts_.finite = buffer.finite;
         if (buffer.storage == Storage::Constant) facts_.range = table_range(load.buffer);
     }
 
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
+        facts_.finite = false;
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
     }
 
@@ -111,6 +118,8 @@ class Collector {
         if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
         if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
+        const bool divides = apply.op == Operator::Divide && is_never_zero(ranges.back());
+        facts_.finite &= divides || keeps_finite(apply.op);
     }
 
     void describe(Scalar, const Select& select) {
@@ -175,6 +184,10 @@ class Collector {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();
         return operands[0] && operands[0]->lower > 0;
+    }
+
+    static bool is_never_zero(const std::optional<Range>& range) {
+        return range && (range->lower > 0 || range->upper < 0);
     }
 
     std::optional<Range> range(NodeId id) const { return known_[id.index].range; }

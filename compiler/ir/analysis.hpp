@@ -18,6 +18,8 @@ struct Facts {
     // Depends on constants and loop indices only: equal in all lanes, known to the compiler. So an
     // index that is uniform may be spelled array[i]; any other needs at(array, i).
     bool uniform = true;
+    // Never inf or nan, as long as no sum or product overflows and actions are finite.
+    bool finite = true;
     // Roughly the number of simple operations of one evaluation, loops multiplied out.
     double cost = 0;
     std::optional<Range> range;  // within which its value lies for certain; none: anything, or nan

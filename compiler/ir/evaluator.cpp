@@ -406,6 +406,23 @@ std::int64_t Evaluator::draw(const DiscreteOver& form, Frame& frame) const {
                : rddl::sample::discrete_over(frame.context_, here, size, weight);
 }
 
+std::optional<Value> Evaluator::value_unless_fault(NodeId id, Frame& frame) const {
+    Value result;
+    switch ((*program_)[id].type) {
+        case Scalar::Bool:
+            result = value<bool>(id, frame);
+            break;
+        case Scalar::Int:
+            result = value<std::int64_t>(id, frame);
+            break;
+        case Scalar::Real:
+            result = value<double>(id, frame);
+            break;
+    }
+    if (frame.context_.fault) return std::nullopt;
+    return result;
+}
+
 template bool Evaluator::value<bool>(NodeId, Frame&) const;
 template std::int64_t Evaluator::value<std::int64_t>(NodeId, Frame&) const;
 template double Evaluator::value<double>(NodeId, Frame&) const;

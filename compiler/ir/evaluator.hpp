@@ -69,6 +69,8 @@ class Evaluator {
     // T is the C++ type of the node's type: bool, int64_t or double.
     template <class T>
     T value(NodeId id, Frame& frame) const;
+    // Of any type; none if a fault has been recorded.
+    std::optional<Value> value_unless_fault(NodeId id, Frame& frame) const;
 
   private:
     // Where a buffer's first element lies.

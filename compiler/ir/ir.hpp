@@ -68,6 +68,8 @@ struct Buffer {
     // Constant: the table; State, Memory: initial; Action: defaults.
     std::vector<Value> values;
     Span span;
+    // No element is ever inf or nan, as long as no sum or product overflows and actions are finite.
+    bool finite = true;
 
     std::int64_t count() const;
 };

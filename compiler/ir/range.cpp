@@ -67,6 +67,27 @@ std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>>
     }
 }
 
+bool keeps_finite(Operator op) {
+    switch (op) {
+        case Operator::Divide:
+        case Operator::FloorModuloReal:
+        case Operator::Power:
+        case Operator::Exp:
+        case Operator::Ln:
+        case Operator::Sqrt:
+        case Operator::Acos:
+        case Operator::Asin:
+        case Operator::Cosh:
+        case Operator::Sinh:
+        case Operator::Log:
+        case Operator::LnGamma:
+        case Operator::Gamma:
+            return false;
+        default:
+            return true;
+    }
+}
+
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters) {
     for (const std::optional<Range>& parameter : parameters) {
         if (!parameter || !is_finite(*parameter)) return false;

@@ -20,6 +20,9 @@ Range join(Range a, Range b);
 // The range of `op` on reals, where it is known.
 std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>> operands);
 
+// Finite operands give a finite result, unless it overflows.
+bool keeps_finite(Operator op);
+
 // True if parameters from these ranges are always in the distribution's domain: it cannot fault.
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters);
 

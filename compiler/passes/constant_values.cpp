@@ -1,22 +1,6 @@
 #include "passes/constant_values.hpp"
 
 namespace rddlc::passes {
-namespace {
-
-ir::Value value_of(const ir::Evaluator& evaluator, ir::Scalar type, ir::NodeId id,
-                   ir::Evaluator::Frame& frame) {
-    switch (type) {
-        case ir::Scalar::Bool:
-            return evaluator.value<bool>(id, frame);
-        case ir::Scalar::Int:
-            return evaluator.value<std::int64_t>(id, frame);
-        case ir::Scalar::Real:
-            break;
-    }
-    return evaluator.value<double>(id, frame);
-}
-
-}  // namespace
 
 std::optional<std::vector<ir::Value>> constant_values(
     const ir::Evaluator& evaluator, const ir::Program& program, ir::NodeId id,
@@ -33,8 +17,9 @@ std::optional<std::vector<ir::Value>> constant_values(
             frame.set(*variable, rest % program[*variable].size);
             rest /= program[*variable].size;
         }
-        values.push_back(value_of(evaluator, program[id].type, id, frame));
-        if (context.fault) return std::nullopt;
+        const std::optional<ir::Value> value = evaluator.value_unless_fault(id, frame);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
     }
     return values;
 }

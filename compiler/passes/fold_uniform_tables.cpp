@@ -1,27 +1,19 @@
 #include "passes/fold_uniform_tables.hpp"
 
+#include "ir/fold.hpp"
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <set>
 #include <utility>
 
 namespace rddlc::passes {
 namespace {
 
-// Reals by their bits: nan equals itself, and zeros have a sign.
-bool same(const ir::Value& a, const ir::Value& b) {
-    const auto* x = std::get_if<double>(&a);
-    const auto* y = std::get_if<double>(&b);
-    if (!x || !y) return a == b;
-    return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(*y);
-}
-
 bool is_uniform_table(const ir::Buffer& buffer) {
     return buffer.storage == ir::Storage::Constant && !buffer.values.empty() &&
            std::ranges::all_of(buffer.values, [&](const ir::Value& value) {
-               return same(value, buffer.values.front());
+               return ir::identical(value, buffer.values.front());
            });
 }
 

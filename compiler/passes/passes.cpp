@@ -4,6 +4,7 @@
 #include "ir/verify.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
+#include "passes/make_aggregations_sparse.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/share_subexpressions.hpp"
 #include "passes/tabulate_constant_fluents.hpp"
@@ -29,6 +30,8 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
+     passes::make_aggregations_sparse},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",

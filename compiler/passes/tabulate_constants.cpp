@@ -54,17 +54,28 @@ class Tabulation {
         if (seen_[id.index]) return;
         seen_[id.index] = true;
         if (is_worth_it(id) && tabulate(id, name, span)) return;
+        const auto* reduce = std::get_if<ir::Reduce>(&program_[id].form);
+        if (reduce) return visit(reduce->body, name, span);  // its bounds stay next to each other
         for (ir::NodeId operand : ir::operands_of(program_[id])) visit(operand, name, span);
     }
 
     bool is_worth_it(ir::NodeId id) const {
         const ir::Facts& facts = facts_[id.index];
         if (!facts.uniform || facts.free_variables.empty() || facts.cost < 2) return false;
+        if (is_element(id)) return false;
         const double entries = entries_over(facts.free_variables);
         if (entries * facts.cost > affordable_cost) return false;
         const std::int64_t largest = largest_table_in(id);
         return largest > 0 && entries <= std::max(static_cast<double>(largest),
                                                   (facts.cost - 2) * entries_for_an_operation);
+    }
+
+    // Of a table already: the indices are no more than arithmetic.
+    bool is_element(ir::NodeId id) const {
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        return load && std::ranges::none_of(load->indices, [&](ir::NodeId index) {
+                   return largest_table_in(index) > 0;
+               });
     }
 
     double entries_over(const std::vector<ir::VariableId>& variables) const {

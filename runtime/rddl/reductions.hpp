@@ -9,6 +9,7 @@
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace rddl {
@@ -20,6 +21,13 @@ struct IndexRange {
 
     Index begin, end;
 };
+
+// The entries of a row, given where each row begins and, at the end, how many entries there are.
+template <class Table>
+constexpr IndexRange row(const Table& begins, Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    return {begins[at], begins[at + 1]};
+}
 
 namespace detail {
 

@@ -34,6 +34,9 @@ TEST(Aggregations, GoOverAPart) {
     };
     EXPECT_EQ(sum<Int>(IndexRange(2, 5), index), 2 + 3 + 4);
     EXPECT_EQ(product<Int>(IndexRange(2, 5), index), 2 * 3 * 4);
+    const std::array<Int, 4> begins{0, 2, 5, 5};
+    EXPECT_EQ(sum<Int>(row(begins, 1), index), 2 + 3 + 4);
+    EXPECT_EQ(sum<Int>(row(begins, 2), index), 0);
     EXPECT_EQ(product<Int>(IndexRange(2, 2), index), 1);
     EXPECT_TRUE(for_all<bool>(IndexRange(1, 3), [](Index i) { return i > 0; }));
     EXPECT_FALSE(exists<bool>(IndexRange(1, 3), [](Index i) { return i == 3; }));
