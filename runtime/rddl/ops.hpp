@@ -6,6 +6,8 @@
 
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
+#include <rddl/math.hpp>
+#include <rddl/real.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -21,9 +23,6 @@ constexpr bool select(bool condition, bool a, bool b) {
     return condition ? a : b;
 }
 constexpr std::int64_t select(bool condition, std::int64_t a, std::int64_t b) {
-    return condition ? a : b;
-}
-constexpr double select(bool condition, double a, double b) {
     return condition ? a : b;
 }
 
@@ -118,9 +117,6 @@ constexpr bool is_nan(double a) {
 constexpr std::int64_t absolute(std::int64_t a) {
     return a < 0 ? wrap_neg(a) : a;
 }
-inline double absolute(double a) {
-    return std::fabs(a);
-}
 
 constexpr std::int64_t sign(std::int64_t a) {
     return to_int(a > 0) - to_int(a < 0);
@@ -143,7 +139,7 @@ constexpr double maximum(double a, double b) {
     return a >= b || is_nan(a) ? a : b;
 }
 
-// -------------------------------------------------------------------------- real functions
+// -------------------------------------------------- real functions beside those of math.hpp
 
 // To int; halves go to the even neighbour.
 inline std::int64_t round(double a) {
@@ -154,78 +150,6 @@ inline std::int64_t floor(double a) {
 }
 inline std::int64_t ceil(double a) {
     return truncate_to_int(std::ceil(a));
-}
-
-// Has the sign of the divisor, unlike C's; by 0 gives nan.
-inline double floor_mod(double a, double b) {
-    const double remainder = std::fmod(a, b);
-    if (remainder == 0) return std::copysign(0.0, b);
-    return (remainder < 0) != (b < 0) ? remainder + b : remainder;
-}
-
-// Hides a constant from the C++ compiler, which replaces some calls with constant operands (by
-// exp2, sqrt, or the value) and then differs in the last digit from the call that the interpreter
-// makes.
-inline double opaque(double a) {
-    const volatile double hidden = a;
-    return hidden;
-}
-
-inline double exp(double a) {
-    return std::exp(a);
-}
-inline double ln(double a) {
-    return std::log(a);
-}
-inline double log(double a, double base) {
-    return std::log(a) / std::log(opaque(base));
-}
-inline double sqrt(double a) {
-    return std::sqrt(a);
-}
-inline double cos(double a) {
-    return std::cos(a);
-}
-inline double sin(double a) {
-    return std::sin(a);
-}
-inline double tan(double a) {
-    return std::tan(a);
-}
-inline double acos(double a) {
-    return std::acos(a);
-}
-inline double asin(double a) {
-    return std::asin(a);
-}
-inline double atan(double a) {
-    return std::atan(a);
-}
-inline double cosh(double a) {
-    return std::cosh(a);
-}
-inline double sinh(double a) {
-    return std::sinh(a);
-}
-inline double tanh(double a) {
-    return std::tanh(a);
-}
-inline double hypot(double a, double b) {
-    return std::hypot(a, b);
-}
-// The angle of the point (x, y), in [-pi, pi]; 0 for the origin.
-inline double atan2(double y, double x) {
-    return std::atan2(y, x);
-}
-inline double exp_minus_one(double a) {
-    return std::expm1(a);
-}  // this and the next: for kernels
-inline double ln_one_plus(double a) {
-    return std::log1p(a);
-}
-inline double power(double base, double exponent) {
-    if (exponent == 2.0) return base * base;  // by far the most frequent, and exact to rounding
-    return std::pow(opaque(base), opaque(exponent));
 }
 
 // Both fault unless a > 0.

@@ -19,7 +19,7 @@ inline std::int64_t binomial_by_inversion(Draws& draws, std::int64_t n, double p
     const double odds = p / (1.0 - p);
     const std::int64_t last = minimum(n, std::int64_t{110});
     double rest = draws.uniform();
-    double probability = std::exp(to_real(n) * std::log1p(-p));
+    double probability = exp(to_real(n) * ln_one_plus(-p));
     std::int64_t k = 0;
     while (rest >= probability && k < last) {
         rest -= probability;
@@ -33,7 +33,7 @@ inline std::int64_t binomial_by_inversion(Draws& draws, std::int64_t n, double p
 // and Simulation 46 (1993), 101-110: algorithm BTRS; p <= 1/2, n p >= 10.
 inline std::int64_t binomial_by_rejection(Draws& draws, std::int64_t trials, double p) {
     const double n = to_real(trials);
-    const double deviation = std::sqrt(n * p * (1.0 - p));
+    const double deviation = sqrt(n * p * (1.0 - p));
     const double b = 1.15 + 2.53 * deviation;
     const double a = -0.0873 + 0.0248 * b + 0.01 * p;
     const double alpha = (2.83 + 5.1 / b) * deviation;
@@ -42,12 +42,12 @@ inline std::int64_t binomial_by_rejection(Draws& draws, std::int64_t trials, dou
     for (int attempt = 0; attempt < rejection_limit; ++attempt) {
         const double u = draws.open_uniform() - 0.5;
         const double v = draws.open_uniform();
-        const double distance = 0.5 - std::fabs(u);
+        const double distance = 0.5 - absolute(u);
         const double k = std::floor((2.0 * a / distance + b) * u + n * p + 0.5);
         if (k < 0 || k > n) continue;
         const bool quick = distance >= 0.07 && v <= quick_limit;
         const double height = v * alpha / (a / (distance * distance) + b);
-        if (quick || std::log(height) <= ln_binomial_probability(k, n, p) - ln_mode_probability)
+        if (quick || ln(height) <= ln_binomial_probability(k, n, p) - ln_mode_probability)
             return minimum(truncate_to_int(k), trials);
     }
     return truncate_to_int(n * p);

@@ -5,9 +5,9 @@
 #include <rddl/distributions/continuous.hpp>
 #include <rddl/distributions/normal_quantile.hpp>
 #include <rddl/lane.hpp>
+#include <rddl/ops.hpp>
 #include <rddl/random.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace rddl {
@@ -19,7 +19,7 @@ namespace detail {
 inline double standard_gamma_from_one(Draws& draws, double shape) {
     if (shape > std::numeric_limits<double>::max()) return shape;
     const double d = shape - 1.0 / 3.0;
-    const double c = 1.0 / std::sqrt(9.0 * d);
+    const double c = 1.0 / sqrt(9.0 * d);
     for (int attempt = 0; attempt < rejection_limit; ++attempt) {
         const double x = normal_quantile(draws.open_uniform());
         const double u = draws.open_uniform();
@@ -28,7 +28,7 @@ inline double standard_gamma_from_one(Draws& draws, double shape) {
         const double v = root * root * root;
         const double square = x * x;
         if (u < 1.0 - 0.0331 * square * square) return d * v;
-        if (std::log(u) < 0.5 * square + d * (1.0 - v + std::log(v))) return d * v;
+        if (ln(u) < 0.5 * square + d * (1.0 - v + ln(v))) return d * v;
     }
     return d;
 }
@@ -38,14 +38,14 @@ inline double standard_gamma_from_one(Draws& draws, double shape) {
 // The logarithm of a gamma draw of scale 1: below shape 1, a draw may be less than any double.
 // A draw of shape + 1 times U^(1 / shape) has the given shape (Marsaglia and Tsang, section 6).
 inline double ln_standard_gamma(Draws& draws, double shape) {
-    if (shape >= 1.0) return std::log(detail::standard_gamma_from_one(draws, shape));
-    const double boost = std::log(draws.open_uniform()) / shape;
-    return boost + std::log(detail::standard_gamma_from_one(draws, shape + 1.0));
+    if (shape >= 1.0) return ln(detail::standard_gamma_from_one(draws, shape));
+    const double boost = ln(draws.open_uniform()) / shape;
+    return boost + ln(detail::standard_gamma_from_one(draws, shape + 1.0));
 }
 
 inline double standard_gamma(Draws& draws, double shape) {
     if (shape >= 1.0) return detail::standard_gamma_from_one(draws, shape);
-    const double boost = std::exp(std::log(draws.open_uniform()) / shape);
+    const double boost = exp(ln(draws.open_uniform()) / shape);
     return boost * detail::standard_gamma_from_one(draws, shape + 1.0);
 }
 
@@ -54,8 +54,8 @@ inline double standard_student(Draws& draws, double degrees) {
     const double normal = normal_quantile(draws.open_uniform());
     if (degrees > std::numeric_limits<double>::max()) return normal;
     const double shape = 0.5 * degrees;
-    const double ln_ratio = std::log(shape) - ln_standard_gamma(draws, shape);
-    return normal * std::exp(0.5 * ln_ratio);
+    const double ln_ratio = ln(shape) - ln_standard_gamma(draws, shape);
+    return normal * exp(0.5 * ln_ratio);
 }
 
 namespace sample {
@@ -88,7 +88,7 @@ typename L::Real beta(Context<L>& context, Place place, typename L::Real a, type
     const auto kernel = [](Draws& draws, double shape_x, double shape_y) {
         const double ln_x = ln_standard_gamma(draws, shape_x);
         const double ln_y = ln_standard_gamma(draws, shape_y);
-        return 1.0 / (1.0 + std::exp(ln_y - ln_x));
+        return 1.0 / (1.0 + exp(ln_y - ln_x));
     };
     return draw_in_each_lane(context, place, a_is_valid && b_is_valid, kernel, a, b);
 }

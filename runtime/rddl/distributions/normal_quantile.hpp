@@ -3,21 +3,22 @@
 // about 1e-16.
 #pragma once
 
-#include <cmath>
+#include <rddl/math.hpp>
+#include <rddl/real.hpp>
 
 namespace rddl {
 
 namespace detail {
 
-template <int n>
-constexpr double polynomial(const double (&coefficients)[n], double x) {
-    double value = coefficients[n - 1];
-    for (int i = n - 2; i >= 0; --i) value = value * x + coefficients[i];
-    return value;
-}
+template <class R>
+struct Fraction {
+    R dividend;
+    R divisor;
+};
 
 // Within 0.425 of the median, for q = p - 1/2.
-constexpr double normal_quantile_centre(double q) {
+template <class R>
+Fraction<R> normal_quantile_centre(R q) {
     constexpr double numerator[] = {3.3871328727963666080e0, 1.3314166789178437745e2,
                                     1.9715909503065514427e3, 1.3731693765509461125e4,
                                     4.5921953931549871457e4, 6.7265770927008700853e4,
@@ -30,12 +31,13 @@ constexpr double normal_quantile_centre(double q) {
                                       3.9307895800092710610e4,
                                       2.8729085735721942674e4,
                                       5.2264952788528545610e3};
-    const double r = 0.180625 - q * q;
-    return q * polynomial(numerator, r) / polynomial(denominator, r);
+    const R r = 0.180625 - q * q;
+    return {q * polynomial(numerator, r), polynomial(denominator, r)};
 }
 
 // For r = sqrt(-ln(tail probability)) up to 5, and beyond.
-constexpr double normal_quantile_tail(double r) {
+template <class R>
+Fraction<R> normal_quantile_tail(R r) {
     constexpr double numerator[] = {1.42343711074968357734e0,  4.63033784615654529590e0,
                                     5.76949722146069140550e0,  3.64784832476320460504e0,
                                     1.27045825245236838258e0,  2.41780725177450611770e-1,
@@ -48,9 +50,10 @@ constexpr double normal_quantile_tail(double r) {
                                       1.51986665636164571966e-2,
                                       5.47593808499534494600e-4,
                                       1.05075007164441684324e-9};
-    return polynomial(numerator, r - 1.6) / polynomial(denominator, r - 1.6);
+    return {polynomial(numerator, r - 1.6), polynomial(denominator, r - 1.6)};
 }
-constexpr double normal_quantile_far_tail(double r) {
+template <class R>
+Fraction<R> normal_quantile_far_tail(R r) {
     constexpr double numerator[] = {6.65790464350110377720e0,  5.46378491116411436990e0,
                                     1.78482653991729133580e0,  2.96560571828504891230e-1,
                                     2.65321895265761230930e-2, 1.24266094738807843860e-3,
@@ -63,19 +66,35 @@ constexpr double normal_quantile_far_tail(double r) {
                                       1.84631831751005468180e-5,
                                       1.42151175831644588870e-7,
                                       2.04426310338993978564e-15};
-    return polynomial(numerator, r - 5.0) / polynomial(denominator, r - 5.0);
+    return {polynomial(numerator, r - 5.0), polynomial(denominator, r - 5.0)};
+}
+
+template <class R, class Mask>
+Fraction<R> select_fraction(Mask mask, const Fraction<R>& a, const Fraction<R>& b) {
+    return {select(mask, a.dividend, b.dividend), select(mask, a.divisor, b.divisor)};
+}
+
+// Farther from the median.
+template <class R>
+Fraction<R> normal_quantile_outside(R p, R q) {
+    const R r = sqrt(-ln(select(q < 0.0, p, 1.0 - p)));
+    const auto far = r > 5.0;  // once in 4e10 draws
+    Fraction<R> tail = normal_quantile_tail(r);
+    if (any(far)) tail = select_fraction(far, normal_quantile_far_tail(r), tail);
+    return {with_sign_of(q, tail.dividend), tail.divisor};
 }
 
 }  // namespace detail
 
 // p in (0, 1).
-inline double normal_quantile(double p) {
-    const double q = p - 0.5;
-    if (std::fabs(q) <= 0.425) return detail::normal_quantile_centre(q);
-    const double r = std::sqrt(-std::log(q < 0 ? p : 1.0 - p));
-    const double tail =
-        r <= 5.0 ? detail::normal_quantile_tail(r) : detail::normal_quantile_far_tail(r);
-    return q < 0 ? -tail : tail;
+template <RealLanes R>
+R normal_quantile(R p) {
+    const R q = p - 0.5;
+    const auto central = absolute(q) <= 0.425;
+    detail::Fraction<R> result = detail::normal_quantile_centre(q);
+    if (any(!central))
+        result = select_fraction(central, result, detail::normal_quantile_outside(p, q));
+    return result.dividend / result.divisor;
 }
 
 }  // namespace rddl

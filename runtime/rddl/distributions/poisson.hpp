@@ -21,7 +21,7 @@ namespace detail {
 // Walks up the distribution function; rate < 10, so that ending at 100 loses 1e-60.
 inline std::int64_t poisson_by_inversion(Draws& draws, double rate) {
     double rest = draws.uniform();
-    double probability = std::exp(-rate);
+    double probability = exp(-rate);
     std::int64_t k = 0;
     while (rest >= probability && k < 100) {
         rest -= probability;
@@ -34,18 +34,18 @@ inline std::int64_t poisson_by_inversion(Draws& draws, double rate) {
 // W. Hoermann, "The transformed rejection method for generating Poisson random variables",
 // Insurance: Mathematics and Economics 12 (1993), 39-45: algorithm PTRS; rate >= 10.
 inline std::int64_t poisson_by_rejection(Draws& draws, double rate) {
-    const double b = 0.931 + 2.53 * std::sqrt(rate);
+    const double b = 0.931 + 2.53 * sqrt(rate);
     const double a = -0.059 + 0.02483 * b;
     const double inverse_alpha = 1.1239 + 1.1328 / (b - 3.4);
     const double quick_limit = 0.9277 - 3.6224 / (b - 2.0);
     for (int attempt = 0; attempt < rejection_limit; ++attempt) {
         const double u = draws.open_uniform() - 0.5;
         const double v = draws.open_uniform();
-        const double distance = 0.5 - std::fabs(u);
+        const double distance = 0.5 - absolute(u);
         const double k = std::floor((2.0 * a / distance + b) * u + rate + 0.43);
         if (distance >= 0.07 && v <= quick_limit) return truncate_to_int(k);
         if (k < 0 || (distance < 0.013 && v > distance)) continue;
-        const double height = std::log(v * inverse_alpha / (a / (distance * distance) + b));
+        const double height = ln(v * inverse_alpha / (a / (distance * distance) + b));
         if (height <= ln_poisson_probability(k, rate)) return truncate_to_int(k);
     }
     return truncate_to_int(rate);

@@ -3,7 +3,9 @@
 // and the deviance, instead of differences of huge logarithms.
 #pragma once
 
-#include <cmath>
+#include <rddl/math.hpp>
+#include <rddl/real.hpp>
+
 #include <cstddef>
 #include <numbers>
 
@@ -37,7 +39,7 @@ inline double stirling_error(double n) {
 // x ln(x / mean) + mean - x, for x > 0.
 inline double deviance(double x, double mean) {
     const double difference = x - mean;
-    if (std::fabs(difference) >= 0.1 * (x + mean)) return x * std::log(x / mean) - difference;
+    if (absolute(difference) >= 0.1 * (x + mean)) return x * ln(x / mean) - difference;
     const double v = difference / (x + mean);
     double total = difference * v;
     double power = 2.0 * x * v;
@@ -56,17 +58,17 @@ inline double deviance(double x, double mean) {
 inline double ln_poisson_probability(double k, double rate) {
     if (k == 0) return -rate;
     return -detail::stirling_error(k) - detail::deviance(k, rate) -
-           0.5 * std::log(2.0 * std::numbers::pi * k);
+           0.5 * ln(2.0 * std::numbers::pi * k);
 }
 
 // 0 < p < 1, k an integer in [0, n].
 inline double ln_binomial_probability(double k, double n, double p) {
-    if (k == 0) return n * std::log1p(-p);
-    if (k == n) return n * std::log(p);
+    if (k == 0) return n * ln_one_plus(-p);
+    if (k == n) return n * ln(p);
     const double errors =
         detail::stirling_error(n) - detail::stirling_error(k) - detail::stirling_error(n - k);
     const double deviances = detail::deviance(k, n * p) + detail::deviance(n - k, n * (1.0 - p));
-    return errors - deviances - 0.5 * std::log(2.0 * std::numbers::pi * k * ((n - k) / n));
+    return errors - deviances - 0.5 * ln(2.0 * std::numbers::pi * k * ((n - k) / n));
 }
 
 }  // namespace rddl
