@@ -185,6 +185,7 @@ class Rewriting {
         Nest nest = nest_of(reduce);
         const std::optional<Relation> found = exceptions_.of(nest.body, *neutral);
         if (!found) return std::nullopt;
+        if (found->tuples.empty()) return builder_.constant(*neutral);
         Scope scope = scope_for(*found, nest, outer);
         // Objects that no table tells apart are left to loops inside.
         for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();

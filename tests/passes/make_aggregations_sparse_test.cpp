@@ -70,6 +70,10 @@ TEST(MakeAggregationsSparse, TakesTheEntryOfRowsThatHaveOne) {
               "state.q[NEXT-u[o]]))");
 }
 
+TEST(MakeAggregationsSparse, KnowsThatNoObjectCounts) {
+    EXPECT_EQ(sparse("forall_{?o : obj} [p(?o) | COST(?o) >= 0]"), "1.0");
+}
+
 TEST(MakeAggregationsSparse, CountsEqualTerms) {
     EXPECT_EQ(sparse("sum_{?o : obj} v(?o) * (exists_{?u : obj} [LINK(?o, ?u) ^ p(?o) ^ q(?o)])"),
               "sum[o in obj](state.v[o] * real(LINK-rows[o] < LINK-rows[o + 1] && "
