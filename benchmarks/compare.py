@@ -1,151 +1,155 @@
-"""Steps per second of the real pyRDDLGym and of our compiled simulator, side by side.
+"""Steps per second of the real pyRDDLGym and of our compiled simulators, side by side.
 
-    .venv/bin/python benchmarks/compare.py                    the problems of the conformance tests
-    .venv/bin/python benchmarks/compare.py --require 100      and fail below that ratio
-    .venv/bin/python benchmarks/compare.py --json out.json    the figures for other programs
-    .venv/bin/python benchmarks/compare.py --write            and docs/benchmarks.md
+    .venv/bin/python benchmarks/compare.py                       all problems; half an hour
+    .venv/bin/python benchmarks/compare.py SysAdmin_MDP_ippc2011 some problems
+    .venv/bin/python benchmarks/compare.py --require             and fail below the limits
+    .venv/bin/python benchmarks/compare.py --write               and docs/benchmarks.md
 
-Both sides step one environment in one thread under uniformly random actions, of which as many
-entries differ from the default as max-nondef-actions allows. The actions are drawn beforehand;
-resets, where an episode ends, are part of the time. The two take turns, so that whatever else the
-machine does hits both; the ratio is that of the medians.
+Of each problem of rddlrepository the smallest and the largest instance, by the size of their text.
+All play random legal actions that are drawn beforehand; resets, where an episode ends, are part of the
+time. pyRDDLGym steps one environment in its vectorised form, its quicker one; ours is `rddl bench` with
+one thread: a single environment, and a batch. They take turns, and nothing runs beside pyRDDLGym; the
+ratios are those of the medians.
+
+What is measured is kept in a file (--results), a line for each instance, so that a run that was
+interrupted goes on where it was; --fresh begins anew.
+
+Limits: geometric means of the ratios of at least 3,000 in a batch and 1,000 for a single environment,
+and no instance below 50 in a batch.
 """
 
 import argparse
+import gc
 import json
 import logging
+import math
 import platform
 import statistics
 import subprocess
 import sys
-import time
 import warnings
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-import pyRDDLGym
 
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
+sys.path.insert(0, str(ROOT / "benchmarks/peers"))
 
-from problems import CORE, Case, repository_cases, smallest_median_largest  # noqa: E402
+from problems import Case, all_problems, repository_cases, smallest_median_largest  # noqa: E402
+from vectorized_environment import VectorizedEnvironment  # noqa: E402
 
-PREPARED_ACTIONS = 64
-
-
-class ReferenceRunner:
-    """pyRDDLGym in its quicker, vectorised form."""
-
-    def __init__(self, case: Case):
-        warnings.simplefilter("ignore")
-        logging.disable(logging.WARNING)
-        np.seterr(all="ignore")
-        domain, instance = str(case.domain_path), str(case.instance_path)
-        self.env = pyRDDLGym.make(domain, instance, vectorized=True)
-        self.shapes = {name: np.shape(v) for name, v in self.env.sampler.noop_actions.items()}
-        self.defaults = self.env.sampler.noop_actions
-        self.env.action_space.seed(1)
-        self.random = np.random.default_rng(1)
-        self.env.reset(seed=1)
-
-        self.actions = [self._random_action() for _ in range(PREPARED_ACTIONS)]
-
-    def steps_per_second(self, seconds: float) -> float:
-        steps, begin = 0, time.perf_counter()
-        while (elapsed := time.perf_counter() - begin) < seconds:
-            _, _, terminated, truncated, _ = self.env.step(self.actions[steps % PREPARED_ACTIONS])
-            if terminated or truncated:
-                self.env.reset()
-            steps += 1
-        return steps / elapsed
-
-    def _random_action(self) -> dict:
-        # A parameterless real is sampled with shape (1,), which step() refuses.
-        sample = self.env.action_space.sample()
-        action = {name: np.reshape(value, self.shapes[name]) for name, value in sample.items()}
-        return self._limited(action)
-
-    def _limited(self, action: dict) -> dict:
-        changed = [
-            (name, index)
-            for name, value in action.items()
-            for index in zip(*np.nonzero(np.atleast_1d(value != self.defaults[name])))
-        ]
-        excess = len(changed) - int(self.env.max_allowed_actions)
-        if excess > 0:
-            action = {name: np.atleast_1d(value).copy() for name, value in action.items()}
-            for place in self.random.choice(len(changed), size=excess, replace=False):
-                name, index = changed[place]
-                action[name][index] = np.atleast_1d(self.defaults[name])[index]
-            action = {name: value.reshape(self.shapes[name]) for name, value in action.items()}
-        return action
-
-
-def our_steps_per_second(rddl: Path, case: Case, seconds: float) -> float:
-    command = [rddl, "bench", case.domain_path, case.instance_path, "--engine=compiled", "--json"]
-    command += ["--seconds", seconds, "--batch", 1, "--threads", 1]
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"{case.label}: rddl bench failed: {result.stderr.strip()}")
-    return json.loads(result.stdout)["measurements"][0]["steps_per_second"]
+BATCH_MEAN, SINGLE_MEAN, LEAST = 3000.0, 1000.0, 50.0
 
 
 @dataclass
 class Comparison:
-    case: Case
-    reference: list[float]  # steps per second, one a round
-    ours: list[float]
+    """Of one instance: steps per second, one figure a round."""
+
+    problem: str
+    instance: str
+    pyrddlgym: list[float]
+    single: list[float]
+    batch: list[float]
 
     @property
-    def ratio(self) -> float:
-        return statistics.median(self.ours) / statistics.median(self.reference)
+    def label(self) -> str:
+        return f"{self.problem} {self.instance}"
 
-    def as_json(self) -> dict:
-        return {
-            "problem": self.case.problem,
-            "instance": self.case.instance,
-            "pyrddlgym_steps_per_second": self.reference,
-            "rddlc_steps_per_second": self.ours,
-            "ratio": self.ratio,
-        }
+    @property
+    def single_ratio(self) -> float:
+        return statistics.median(self.single) / statistics.median(self.pyrddlgym)
+
+    @property
+    def batch_ratio(self) -> float:
+        return statistics.median(self.batch) / statistics.median(self.pyrddlgym)
+
+
+def our_speeds(rddl: Path, case: Case, seconds: float) -> tuple[float, float]:
+    """Of a single environment and of a batch."""
+    command = [rddl, "bench", case.domain_path, case.instance_path, "--json", "--threads", 1]
+    result = subprocess.run([*map(str, command), "--seconds", str(seconds)], capture_output=True, text=True)
+    if result.returncode != 0:
+        raise RuntimeError(f"rddl bench failed: {result.stderr.strip()}")
+    single, *batches = [m["steps_per_second"] for m in json.loads(result.stdout)["measurements"]]
+    return single, max(batches)
 
 
 def compare(case: Case, options: argparse.Namespace) -> Comparison:
-    reference = ReferenceRunner(case)
-    our_steps_per_second(options.rddl, case, 0.01)  # compiles
-    comparison = Comparison(case, [], [])
+    our_speeds(options.rddl, case, 0.01)  # compiles
+    reference = VectorizedEnvironment(str(case.domain_path), str(case.instance_path), options.seconds)
+    comparison = Comparison(case.problem, case.instance, [], [], [])
     for _ in range(options.rounds):
-        comparison.reference.append(reference.steps_per_second(options.seconds))
-        comparison.ours.append(our_steps_per_second(options.rddl, case, options.seconds))
+        figures = reference.measure(options.seconds)
+        comparison.pyrddlgym.append(figures["steps"] / figures["seconds"])
+        single, batch = our_speeds(options.rddl, case, options.seconds)
+        comparison.single.append(single)
+        comparison.batch.append(batch)
     return comparison
 
 
-def row_text(comparison: Comparison) -> str:
-    def spread(rates: list[float]) -> str:
-        low, median, high = min(rates), statistics.median(rates), max(rates)
-        return f"{low:>11,.0f} {median:>11,.0f} {high:>11,.0f}"
-
-    name = comparison.case.label.ljust(30)
-    return f"{name} {spread(comparison.reference)} {spread(comparison.ours)} {comparison.ratio:>8,.0f}"
+def smallest_and_largest(problem: str) -> list[Case]:
+    picked = smallest_median_largest(repository_cases(problem))
+    return picked if len(picked) == 1 else [picked[0], picked[-1]]
 
 
-def table_head() -> str:
-    columns = " ".join(f"{word:>11}" for word in ("min", "median", "max"))
-    width = len(columns)
-    titles = f"{'steps/s':30} {'pyRDDLGym':^{width}} {'rddlc, one thread':^{width}}"
-    return f"{titles}\n{'':30} {columns} {columns} {'ratio':>8}"
+class Results:
+    """The comparisons in a file; those of this run are added at once."""
+
+    def __init__(self, path: Path, fresh: bool):
+        self.path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if fresh:
+            path.unlink(missing_ok=True)
+        lines = path.read_text().splitlines() if path.exists() else []
+        self.by_label = {c.label: c for c in (Comparison(**json.loads(line)) for line in lines)}
+
+    def add(self, comparison: Comparison) -> None:
+        self.by_label[comparison.label] = comparison
+        with self.path.open("a") as file:
+            file.write(json.dumps(asdict(comparison)) + "\n")
 
 
-def markdown(comparisons: list[Comparison]) -> str:
-    rows = [("instance", "pyRDDLGym", "rddlc", "ratio")]
-    for comparison in comparisons:
-        medians = (statistics.median(comparison.reference), statistics.median(comparison.ours))
-        figures = (*medians, comparison.ratio)
-        rows.append((comparison.case.label, *(f"{figure:,.0f}" for figure in figures)))
-    return markdown_table(rows)
+def geometric_mean(values: list[float]) -> float:
+    return math.exp(statistics.fmean(map(math.log, values)))
+
+
+def columns(comparison: Comparison) -> tuple[str, ...]:
+    """As in the table of the document."""
+    speeds = (comparison.pyrddlgym, comparison.single, comparison.batch)
+    numbers = [*map(statistics.median, speeds), comparison.single_ratio, comparison.batch_ratio]
+    return (comparison.label, *(f"{number:,.0f}" for number in numbers))
+
+
+TITLES = ("instance", "pyRDDLGym", "one environment", "batch", "ratio, one", "ratio, batch")
+
+
+def row_text(row: tuple[str, ...]) -> str:
+    return row[0].ljust(38) + "".join(f"  {cell:>15}" for cell in row[1:])
+
+
+def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
+    rows = [("ratio", "geometric mean", "median", "least", "of")]
+    for name, ratio in (("one environment", "single_ratio"), ("batch", "batch_ratio")):
+        ordered = sorted(comparisons, key=lambda comparison: getattr(comparison, ratio))
+        ratios = [getattr(comparison, ratio) for comparison in ordered]
+        figures = (geometric_mean(ratios), statistics.median(ratios), ratios[0])
+        rows.append((name, *(f"{figure:,.0f}" for figure in figures), ordered[0].label))
+    return rows
+
+
+def shortfalls(comparisons: list[Comparison]) -> list[str]:
+    """What is below its limit, a line each."""
+    lines = []
+    for name, ratio, limit in (("batch", "batch_ratio", BATCH_MEAN), ("one environment", "single_ratio", SINGLE_MEAN)):
+        mean = geometric_mean([getattr(comparison, ratio) for comparison in comparisons])
+        if mean < limit:
+            lines.append(f"{name}: the geometric mean {mean:,.0f} is below {limit:,.0f}")
+    below = [comparison for comparison in comparisons if comparison.batch_ratio < LEAST]
+    return lines + [f"{c.label}: the ratio {c.batch_ratio:.0f} is below {LEAST:.0f}" for c in below]
 
 
 def versions_text() -> str:
@@ -153,46 +157,61 @@ def versions_text() -> str:
     return f"{machine_text()}; Python {platform.python_version()}, {packages}"
 
 
+def write_document(comparisons: list[Comparison], about: str) -> None:
+    summary = markdown_table(summary_rows(comparisons))
+    write_section("comparison", f"{about}; {len(comparisons)} instances:\n\n{summary}")
+    write_section("comparison by problem", markdown_table([TITLES, *map(columns, comparisons)]))
+
+
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
-    parser.add_argument("--all-instances", action="store_true", help="not only the median one")
+    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository (all)")
     parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
-    parser.add_argument("--seconds", type=float, default=1.0, help="of each measurement")
-    parser.add_argument("--rounds", type=int, default=5, help="turns of each side")
-    parser.add_argument("--require", type=float, help="fail below this ratio")
-    parser.add_argument("--json", type=Path, help="write the figures to this file")
+    parser.add_argument("--seconds", type=float, default=0.3, help="of each measurement")
+    parser.add_argument("--rounds", type=int, default=3, help="turns of each side")
+    default = ROOT / "build/benchmarks/compare.jsonl"
+    parser.add_argument("--results", type=Path, default=default, help="file that keeps the figures")
+    parser.add_argument("--fresh", action="store_true", help="measure again what the file has")
+    parser.add_argument("--require", action="store_true", help="fail below the limits")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     return parser.parse_args()
 
 
-def chosen_cases(options: argparse.Namespace) -> list[Case]:
-    cases = []
-    for problem in options.problems or CORE:
-        of_problem = repository_cases(problem)
-        picked = smallest_median_largest(of_problem)
-        cases += of_problem if options.all_instances else [picked[len(picked) // 2]]
-    return cases
+def measure_missing(cases: list[Case], results: Results, options: argparse.Namespace) -> list[str]:
+    """Those that failed, a line each."""
+    failures = []
+    for case in cases:
+        if case.label not in results.by_label:
+            try:
+                results.add(compare(case, options))
+            except Exception as error:  # of ours or of theirs: the others are measured nevertheless
+                failures.append(f"{case.label}: {type(error).__name__}: {error}")
+                print(failures[-1], flush=True)
+                continue
+            gc.collect()
+        print(row_text(columns(results.by_label[case.label])), flush=True)
+    return failures
 
 
 def main() -> int:
     options = parse_arguments()
-    rounds = f"{options.rounds} rounds of {options.seconds:g} s"
-    print(f"{versions_text()}; {rounds}\n")
-    print(table_head())
-    comparisons = []
-    for case in chosen_cases(options):
-        comparisons.append(compare(case, options))
-        print(row_text(comparisons[-1]), flush=True)
-    if options.json:
-        figures = [comparison.as_json() for comparison in comparisons]
-        options.json.write_text(json.dumps(figures, indent=2) + "\n")
+    warnings.simplefilter("ignore")
+    logging.disable(logging.WARNING)
+    np.seterr(all="ignore")
+    about = f"{versions_text()}; {options.rounds} rounds of {options.seconds:g} s"
+    print(f"{about}\n\n{row_text(TITLES)}")
+    cases = [case for problem in options.problems or all_problems() for case in smallest_and_largest(problem)]
+    results = Results(options.results, options.fresh)
+    failures = measure_missing(cases, results, options)
+    comparisons = [results.by_label[case.label] for case in cases if case.label in results.by_label]
+    if not comparisons:
+        return 1
+    print("", *map(row_text, summary_rows(comparisons)), sep="\n")
+    short = shortfalls(comparisons)
+    print(*short, sep="\n")
     if options.write:
-        write_section("comparison", f"{versions_text()}; {rounds}:\n\n{markdown(comparisons)}")
-    slow = [c for c in comparisons if options.require and c.ratio < options.require]
-    for comparison in slow:
-        print(f"{comparison.case.label}: ratio {comparison.ratio:.0f} is below {options.require:g}")
-    return 1 if slow else 0
+        write_document(comparisons, about)
+    return 1 if failures or (options.require and short) else 0
 
 
 if __name__ == "__main__":

@@ -24,10 +24,9 @@ struct BenchOptions {
     bool json = false;
 };
 
-// 1,024 environments, or fewer if their records are so large that they would mostly wait for
-// memory.
+// 1,024 environments, or fewer if their records would not fit into a processor's cache.
 std::int64_t suitable_batch(const rddl_problem& problem) {
-    constexpr std::int64_t most_bytes = 32 << 20;
+    constexpr std::int64_t most_bytes = 8 << 20;
     const std::int64_t bytes = problem.state_size + problem.action_size + 1;
     return std::clamp<std::int64_t>(most_bytes / bytes, 16, 1024);
 }

@@ -1,0 +1,155 @@
+"""Tests of the programs in benchmarks/.
+
+    test_benchmarks.py RDDL
+"""
+
+import contextlib
+import io
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest.mock import patch
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+import compare  # noqa: E402
+import compare_jax  # noqa: E402
+import document  # noqa: E402
+import pyRDDLGym  # noqa: E402
+from random_actions import RandomActions, draw_course  # noqa: E402
+
+RDDL = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/bin/rddl")
+PROBLEM = "Pendulum_gym"
+
+
+def run_program(main, *arguments: object) -> tuple[int, str]:
+    """Exit status and what it printed."""
+    printed = io.StringIO()
+    with patch.object(sys, "argv", ["program", *map(str, arguments)]), contextlib.redirect_stdout(printed):
+        status = main()
+    return status, printed.getvalue()
+
+
+def case_of(problem: str) -> compare.Case:
+    return compare.repository_cases(problem)[0]
+
+
+class Compare(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = Path(folder.name) / "results" / "compare.jsonl"
+
+    def run_compare(self, *arguments: object) -> tuple[int, str]:
+        options = ["--seconds", 0.02, "--rounds", 1, "--results", self.results]
+        return run_program(compare.main, PROBLEM, *options, *arguments)
+
+    def test_measures_and_goes_on(self):
+        status, text = self.run_compare("--rddl", RDDL)
+        self.assertEqual(status, 0, text)
+        self.assertIn("geometric mean", text)
+        # What the file has is not measured again: no program is needed.
+        again, same_text = self.run_compare("--rddl", "/nowhere/rddl")
+        self.assertEqual((again, same_text), (status, text))
+        status, text = self.run_compare("--rddl", "/nowhere/rddl", "--fresh")
+        self.assertEqual(status, 1)
+        self.assertIn(f"{PROBLEM} 0: ", text)
+
+    def test_limits(self):
+        slow = compare.Comparison("p", "1", [10.0, 30.0, 20.0], [2e4], [800.0])
+        fast = compare.Comparison("p", "2", [1.0], [1e6], [1e9])
+        self.assertEqual(slow.single_ratio, 1000)
+        self.assertEqual(slow.batch_ratio, 40)
+        self.assertEqual(compare.shortfalls([fast]), [])
+        self.assertEqual(compare.shortfalls([slow, fast]), ["p 1: the ratio 40 is below 50"])
+        self.assertEqual(compare.shortfalls([slow])[0], "batch: the geometric mean 40 is below 3,000")
+
+    def test_takes_the_smallest_and_the_largest_instance(self):
+        cases = compare.smallest_and_largest("SysAdmin_MDP_ippc2011")
+        sizes = [c.instance_path.stat().st_size for c in compare.repository_cases("SysAdmin_MDP_ippc2011")]
+        self.assertEqual([c.instance_path.stat().st_size for c in cases], [min(sizes), max(sizes)])
+        self.assertEqual(len(compare.smallest_and_largest(PROBLEM)), 1)
+
+
+class CompareJax(unittest.TestCase):
+    def comparison(self, ours: float, first_step: float) -> compare_jax.Comparison:
+        return compare_jax.Comparison("p 1", "3.1", {1: ours, 2: 2 * ours}, {1: 10.0, 2: 10.0}, first_step, 1.0, 0.5)
+
+    def test_limits(self):
+        self.assertEqual(compare_jax.shortfalls([self.comparison(100, 1.4)]), [])
+        late_and_slow = compare_jax.shortfalls([self.comparison(90, 1.6)])
+        self.assertEqual(
+            late_and_slow,
+            ["with 1 threads: the geometric mean 9.0 is below 10", "p 1: the first step is not sooner"],
+        )
+
+    def test_takes_the_best_batch_of_each_number_of_threads(self):
+        measurements = [
+            {"threads": 1, "steps_per_second": 5.0},
+            {"threads": 2, "steps_per_second": 7.0},
+            {"threads": 1, "steps_per_second": 6.0},
+        ]
+        self.assertEqual(compare_jax.best_by_threads(measurements), {1: 6.0, 2: 7.0})
+
+    def test_says_what_is_missing(self):
+        status, text = run_program(compare_jax.main, PROBLEM, "--rddl", RDDL, "--jax-python", "/nowhere/python")
+        self.assertEqual(status, 1)
+        self.assertIn("cannot run '/nowhere/python'", text)
+
+
+class LegalActions(unittest.TestCase):
+    """Of pyRDDLGym, as the peers' programs draw them."""
+
+    def environment(self, problem: str):
+        case = case_of(problem)
+        env = pyRDDLGym.make(str(case.domain_path), str(case.instance_path), vectorized=True)
+        env.reset(seed=0)
+        return env
+
+    def is_legal(self, env, action: dict) -> bool:
+        prepared = env.sampler.prepare_actions_for_sim(action)
+        env.sampler.check_default_action_count(prepared, env.enforce_count_non_bool)
+        return env.sampler.check_action_preconditions(prepared, silent=True)
+
+    def test_are_legal_and_differ(self):
+        env = self.environment("WildlifePreserve_p4_ippc2018")
+        actions = RandomActions(env)
+        drawn = [actions.draw() for _ in range(20)]
+        self.assertTrue(all(self.is_legal(env, action) for action in drawn))
+        self.assertGreater(len({str(action) for action in drawn}), 1)
+
+    def test_a_course_can_be_played_again(self):
+        env = self.environment("SysAdmin_MDP_ippc2011")
+        course = draw_course(env, 0.2)
+
+        def rewards() -> list[float]:
+            env.reset(seed=0)
+            all_rewards = []
+            for action in course[: env.horizon]:
+                self.assertTrue(self.is_legal(env, action))
+                all_rewards.append(env.step(action)[1])
+            return all_rewards
+
+        self.assertEqual(rewards(), rewards())
+
+
+class Document(unittest.TestCase):
+    def test_replaces_a_section(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            page.write_text("a\n<!-- begin of x -->\nold\n<!-- end of x -->\nb\n")
+            with patch.object(document, "DOCUMENT", page), contextlib.redirect_stdout(io.StringIO()):
+                document.write_section("x", "new")
+            self.assertEqual(page.read_text(), "a\n<!-- begin of x -->\n\nnew\n\n<!-- end of x -->\nb\n")
+
+    def test_sections_of_the_page_exist(self):
+        text = document.DOCUMENT.read_text()
+        for name in ("comparison", "comparison by problem", "jax", "compile cost"):
+            self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
+            self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
