@@ -54,6 +54,10 @@ show("cos", lambda z: (mp.cos(mp.sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2, 0
 end = mp.tan(mp.pi / 8) ** 2 * margin
 show("atan", lambda z: (mp.atan(mp.sqrt(z)) / mp.sqrt(z) - 1) / z, lambda z: z, 0, end, 11)
 
+# asin s = s + s z p(z) with z = s^2, up to 1/2.
+end = mp.mpf(1) / 4 * margin
+show("asin", lambda z: (mp.asin(mp.sqrt(z)) / mp.sqrt(z) - 1) / z, lambda z: z, 0, end, 13)
+
 
 def show_constant(name, value, bits):
     """A sum of doubles, each but the last with as many bits as given."""
@@ -68,5 +72,6 @@ show_constant("ln 2", mp.log(2), [42, 53])
 show_constant("pi / 2", mp.pi / 2, [33, 33, 33, 53])
 show_constant("1 / ln 2", 1 / mp.log(2), [53])
 show_constant("2 / pi", 2 / mp.pi, [53])
+show_constant("pi / 2", mp.pi / 2, [53, 53])
+show_constant("pi / 4", mp.pi / 4, [53, 53])
 show_constant("atan(1/2)", mp.atan(mp.mpf(1) / 2), [53, 53])
-show_constant("atan(1)", mp.atan(1), [53, 53])

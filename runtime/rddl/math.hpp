@@ -9,8 +9,10 @@
 #pragma once
 
 #include <rddl/math/exponential.hpp>
-#include <rddl/math/inverse_tangent.hpp>
-#include <rddl/math/lane_by_lane.hpp>
+#include <rddl/math/hyperbolic.hpp>
+#include <rddl/math/hypot.hpp>
+#include <rddl/math/inverse_trigonometric.hpp>
 #include <rddl/math/logarithm.hpp>
 #include <rddl/math/power.hpp>
+#include <rddl/math/remainder.hpp>
 #include <rddl/math/trigonometric.hpp>

@@ -1,4 +1,4 @@
-// exp, exp - 1 and tanh.
+// exp and exp - 1.
 #pragma once
 
 #include <rddl/math/parts.hpp>
@@ -78,17 +78,6 @@ R exp_minus_one(R a) {
     const R one = detail::power_of_two(-detail::clamp(e.exponent, -1000.0, 1000.0));
     const R result = detail::value(e, 1.0 - one);
     return select(absolute(a) < 0x1p-54, a, result);
-}
-
-// (e^2a - 1) / (e^2a + 1), both divided by 2^k.
-template <RealLanes R>
-R tanh(R a) {
-    const R magnitude = absolute(a);
-    const R bounded = detail::clamp(2.0 * magnitude, 0.0, 44.0);  // beyond, it rounds to 1
-    const auto e = detail::exponential(bounded, R{0.0});
-    const R one = detail::power_of_two(-e.exponent);
-    const R result = detail::quotient(detail::shifted(e, -one), detail::shifted(e, one));
-    return select(magnitude < 0x1p-28, a, detail::with_sign_of(a, result));
 }
 
 }  // namespace rddl

@@ -46,6 +46,14 @@ Pair<R> multiply_exactly(R a, R b) {
     return {high, ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
+// What sqrt(square) is more than `root`, its rounded value.
+template <class R>
+R lost_by_root(R square, R root) {
+    const Pair<R> again = multiply_exactly(root, root);
+    const R remainder = (square - again.high) - again.low;
+    return remainder / select(root == 0.0, R{1.0}, 2.0 * root);
+}
+
 // Of sums whose first part is the greater one; rounded nearly as if by one division.
 template <class R>
 R quotient(Pair<R> dividend, Pair<R> divisor) {
