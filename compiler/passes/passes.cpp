@@ -2,8 +2,10 @@
 
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
+#include "passes/factor_aggregations.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
+#include "passes/hoist_aggregations.hpp"
 #include "passes/make_aggregations_sparse.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/share_subexpressions.hpp"
@@ -30,6 +32,10 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"factor_aggregations", "aggregations leave out factors that they do not change",
+     passes::factor_aggregations},
+    {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
+     passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
      passes::make_aggregations_sparse},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
