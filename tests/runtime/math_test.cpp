@@ -2,6 +2,7 @@
 // and against themselves in packs.
 #include "plain_pack.hpp"
 
+#include <rddl/distributions/normal_quantile.hpp>
 #include <rddl/math.hpp>
 
 #include <gtest/gtest.h>
@@ -281,6 +282,20 @@ TEST(Packs, GiveTheBitsOfSingleReals) {
     Random random(4);
     const std::vector<double> arguments = many_arguments(random);
     for (const Function& f : functions) expect_same_bits(f, arguments);
+}
+
+TEST(Packs, GiveTheBitsOfSingleNormalQuantiles) {
+    Random random(8);
+    std::vector<double> probabilities = {0x1p-53, 1e-12, 0.075, 0.5, 0.925, 1 - 0x1p-53, 1e-9, 0.9};
+    for (int i = 0; i < 40'000; ++i)
+        probabilities.push_back((static_cast<double>(random() >> 12) + 0.5) * 0x1p-52);
+    for (std::size_t i = 0; i < probabilities.size(); i += plain::width) {
+        const Pack values = normal_quantile(pack_of(probabilities, i));
+        for (std::size_t lane = 0; lane < plain::width; ++lane) {
+            const double p = probabilities[i + lane];
+            ASSERT_TRUE(same_bits(values.lanes[lane], normal_quantile(p))) << p;
+        }
+    }
 }
 
 TEST(Packs, GiveTheBitsOfSingleRealsForTwoArguments) {
