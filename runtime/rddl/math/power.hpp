@@ -12,7 +12,7 @@ namespace rddl {
 
 namespace detail {
 
-// s = f / (2 + f) for 1 + f = significand: 16 bits, and the rest up to 2^-67 of s.
+// s = f / (2 + f) for 1 + f = significand: 16 bits, and the rest up to 2^-66 of s.
 template <class R>
 Pair<R> half_angle(R significand) {
     const R f = significand - 1.0;
