@@ -17,6 +17,8 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import compare  # noqa: E402
 import compare_jax  # noqa: E402
 import document  # noqa: E402
+import growth  # noqa: E402
+import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
 from random_actions import RandomActions, draw_course  # noqa: E402
 
@@ -135,6 +137,34 @@ class LegalActions(unittest.TestCase):
         self.assertEqual(rewards(), rewards())
 
 
+class Growth(unittest.TestCase):
+    def point(self, objects: int, seconds: float) -> growth.Point:
+        return growth.Point("fire", objects, 8 * objects, seconds, 0.0, 0)
+
+    def test_limit(self):
+        self.assertEqual(growth.excesses([self.point(10, 1.0), self.point(100, 19.0)]), [])
+        self.assertEqual(
+            growth.excesses([self.point(10, 1.0), self.point(100, 21.0)]),
+            ["fire: 10 times the objects cost 21.0 times the time"],
+        )
+
+    def test_measures_and_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = Path(folder, "growth.json")
+            options = ["--sizes", 10, "--seconds", 0.01, "--rddl", RDDL, "--results", results]
+            status, text = run_program(growth.main, "fire", *options)
+            self.assertEqual(status, 0, text)
+            status, text = run_program(plots.main, "--results", folder, "--images", folder)
+            self.assertEqual(status, 0, text)
+            self.assertTrue(Path(folder, "growth.png").read_bytes().startswith(b"\x89PNG"))
+            self.assertIn("there is no", text)  # of the other plots' figures
+
+    def test_tables_are_sparse(self):
+        for generate in growth.GENERATORS.values():
+            few, many = generate(100).entries, generate(1000).entries
+            self.assertLess(many, 12 * few)
+
+
 class Document(unittest.TestCase):
     def test_replaces_a_section(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -146,7 +176,7 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_page_exist(self):
         text = document.DOCUMENT.read_text()
-        for name in ("comparison", "comparison by problem", "jax", "compile cost"):
+        for name in ("comparison", "comparison by problem", "jax", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 
