@@ -42,7 +42,6 @@ struct Action {
 // What the CPFs tell each other within a step.
 template <class L>
 struct Scratch {
-    typename L::Real force;     // domain.rddl:31
     typename L::Real friction;  // domain.rddl:32
     typename L::Real drive;     // domain.rddl:33
     typename L::Real turn;      // domain.rddl:34
@@ -81,14 +80,13 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
         angle(state, next);
-        force(action, scratch);
         friction(state, scratch);
         position(state, next);
-        drive(state, scratch, context);
+        drive(state, action, scratch, context);
         turn(state, scratch);
         angle_change(state, scratch, next);
         pressure(state, scratch, context);
-        speed_up(state, scratch, context);
+        speed_up(state, action, scratch, context);
         velocity(state, scratch, next);
     }
 
@@ -96,12 +94,6 @@ struct Simulator {
     template <class L>
     static void angle(const State<L>& state, State<L>& next) {
         next.angle = state.angle + 0.02 * state.angle_change;
-    }
-
-    // force  (domain.rddl:43)
-    template <class L>
-    static void force(const Action<L>& action, Scratch<L>& scratch) {
-        scratch.force = rddl::select(action.push_right, 10.0, -10.0);
     }
 
     // friction  (domain.rddl:47)
@@ -118,7 +110,8 @@ struct Simulator {
 
     // drive  (domain.rddl:49)
     template <class L>
-    static void drive(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                      rddl::Context<L>& context) {
         using Real = typename L::Real;
         const Real term = 0.05 * rddl::power(state.angle_change, 2.0);
         const Real term_2 = rddl::branch(
@@ -129,7 +122,7 @@ struct Simulator {
                     [&] { return scratch.friction * rddl::cos(state.angle); });
                 return term * (rddl::sin(state.angle) + term_3);
             });
-        scratch.drive = (scratch.force + term_2) / 1.1;
+        scratch.drive = (rddl::select(action.push_right, 10.0, -10.0) + term_2) / 1.1;
     }
 
     // turn  (domain.rddl:55)
@@ -171,7 +164,8 @@ struct Simulator {
 
     // speed-up  (domain.rddl:68)
     template <class L>
-    static void speed_up(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                         rddl::Context<L>& context) {
         using Real = typename L::Real;
         const Real term = rddl::power(state.angle_change, 2.0);
         const Real term_2 = rddl::branch(
@@ -180,8 +174,9 @@ struct Simulator {
         const Real term_3 = rddl::branch(
             context, scratch.turn == 0.0, [&] { return scratch.turn; },
             [&] { return scratch.turn * rddl::cos(state.angle); });
-        scratch.speed_up =
-            (scratch.force + 0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure) / 1.1;
+        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
+                            0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure;
+        scratch.speed_up = term_4 / 1.1;
     }
 
     // velocity'  (domain.rddl:75)

@@ -33,8 +33,13 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
+<<<<<<< HEAD
 // LINK-d, domain.rddl:16
 inline constexpr std::array<std::int64_t, 8> LINK_d = {7, 0, 1, 2, 3, 4, 5, 6};
+=======
+// running-table, domain.rddl:40
+inline constexpr std::array<double, computer_count> running_table = {2, 2, 2, 2, 2, 2, 2, 2};
+>>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
 
 // --------------------------------------------------------------------------------- records
 
@@ -50,9 +55,7 @@ struct Action {
 
 // What the CPFs tell each other within a step.
 template <class L>
-struct Scratch {
-    std::array<typename L::Real, computer_count> support;  // domain.rddl:26
-};
+struct Scratch {};
 
 template <class L>
 struct Observation {};
@@ -79,8 +82,9 @@ struct Simulator {
 
     // All CPFs, each after those that it depends on.
     template <class L>
-    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& /*scratch*/,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+<<<<<<< HEAD
         support(state, scratch);
         running(state, action, scratch, next, context);
     }
@@ -92,18 +96,26 @@ struct Simulator {
             scratch.support[c] =
                 rddl::to_real(rddl::wrap_add(1, rddl::to_int(state.running[LINK_d[c]]))) / 2.0;
         }
+=======
+        running(state, action, next, context);
+>>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
     }
 
     // running'(?c)  (domain.rddl:40)
     template <class L>
-    static void running(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
-                        State<L>& next, rddl::Context<L>& context) {
+    static void running(const State<L>& state, const Action<L>& action, State<L>& next,
+                        rddl::Context<L>& context) {
+        using Int = typename L::Int;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
             next.running[c] = rddl::branch(
                 context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
                 [&] {
-                    const Real term = 0.45 + 0.5 * scratch.support[c];
+                    const Int total = rddl::sum<Int>(computer_count, [&](rddl::Index d) {
+                        return rddl::to_int(LINK[d][c] && state.running[d]);
+                    });
+                    const Real term =
+                        0.45 + 0.5 * (rddl::to_real(rddl::wrap_add(1, total)) / running_table[c]);
                     return rddl::sample::bernoulli(context, {0, c}, term);
                 },
                 [&] {

@@ -69,8 +69,6 @@ struct Action {
 // What the CPFs tell each other within a step.
 template <class L>
 struct Scratch {
-    std::array<typename L::Real, basin_count> rain;     // domain.rddl:38
-    std::array<typename L::Real, basin_count> inflow;   // domain.rddl:39
     std::array<typename L::Real, basin_count> balance;  // domain.rddl:40
     std::array<typename L::Real, basin_count> spill;    // domain.rddl:41
 };
@@ -102,18 +100,19 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        inflow(action, scratch);
-        rain(scratch, context);
-        balance(state, action, scratch);
+        balance(state, action, scratch, context);
         spill(scratch);
         water(scratch, next);
     }
 
-    // inflow(?b)  (domain.rddl:54)
+    // balance(?b)  (domain.rddl:56)
     template <class L>
-    static void inflow(const Action<L>& action, Scratch<L>& scratch) {
+    static void balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                        rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
+<<<<<<< HEAD
             scratch.inflow[b] = rddl::sum<Real>(
                 rddl::row(FLOWS_TO_rows, b),
                 [&](rddl::Index entry) { return action.release[FLOWS_TO_up[entry]]; });
@@ -125,22 +124,19 @@ struct Simulator {
     static void rain(Scratch<L>& scratch, rddl::Context<L>& context) {
         using Bool = typename L::Bool;
         for (rddl::Index b = 0; b < basin_count; ++b) {
+=======
+>>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
             const Bool draw = rddl::sample::bernoulli(context, {0, b}, RAIN_CHANCE[b]);
-            scratch.rain[b] = rddl::branch(
+            const Real term = rddl::branch(
                 context, draw,
                 [&] {
                     return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE[b]);
                 },
                 [&] { return 0.0; });
-        }
-    }
-
-    // balance(?b)  (domain.rddl:56)
-    template <class L>
-    static void balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
-        for (rddl::Index b = 0; b < basin_count; ++b) {
-            scratch.balance[b] =
-                0.98 * state.water[b] + scratch.rain[b] + scratch.inflow[b] - action.release[b];
+            const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
+                return rddl::to_real(FLOWS_TO[up][b]) * action.release[up];
+            });
+            scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
         }
     }
 

@@ -128,6 +128,13 @@ Program rewrite(Program program, const Replace& replace) {
     return program;
 }
 
+NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known) {
+    if (const auto found = known.find(id); found != known.end()) return found->second;
+    Node node = builder.program()[id];
+    change_operands(node, [&](NodeId& operand) { operand = replace_in(builder, operand, known); });
+    return known[id] = builder.rebuild(node);
+}
+
 Program collect_garbage(Program program) {
     const auto is_clean = [&] {
         const std::vector<bool> reachable = reachable_nodes(program);

@@ -6,6 +6,7 @@
 #include "ir/ir.hpp"
 
 #include <functional>
+#include <map>
 #include <optional>
 
 namespace rddlc::ir {
@@ -16,6 +17,9 @@ using Replace = std::function<std::optional<NodeId>(Builder&, NodeId, const Node
 
 // The program with every reachable node replaced, operands first.
 Program rewrite(Program program, const Replace& replace);
+// A node with others in place of those below it (or of itself) that are keys of `known`; what it
+// finds out is added there.
+NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // Drops unreachable nodes.
 Program collect_garbage(Program program);
 

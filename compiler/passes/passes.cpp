@@ -5,6 +5,7 @@
 #include "passes/factor_aggregations.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
+#include "passes/fuse_interm_fluents.hpp"
 #include "passes/hoist_aggregations.hpp"
 #include "passes/make_aggregations_sparse.hpp"
 #include "passes/remove_unused_buffers.hpp"
@@ -32,6 +33,9 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"fuse_interm_fluents",
+     "interm-fluents read once, or cheap ones, are computed where they are read",
+     passes::fuse_interm_fluents},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",

@@ -161,12 +161,12 @@ class Sharing {
         std::map<ir::NodeId, ir::NodeId> replaced;
         ir::Block lets;
         for (ir::NodeId id : shared) {
-            const ir::NodeId value = rebuild(id, replaced);
+            const ir::NodeId value = ir::replace_in(builder_, id, replaced);
             const ir::LocalId local{program_.local_count++};
             lets.push_back({ir::Let{local, value}});
             replaced[id] = builder_.local(local, program_[id].type);
         }
-        change_roots([&](ir::NodeId& root) { root = rebuild(root, replaced); });
+        change_roots([&](ir::NodeId& root) { root = ir::replace_in(builder_, root, replaced); });
         return lets;
     }
 
@@ -220,15 +220,6 @@ class Sharing {
     // An index made of loop indices and constants stays one: it is the same in all lanes.
     bool is_plain_index(ir::NodeId id) const {
         return program_[id].type == ir::Scalar::Int && builder_.facts(id).uniform;
-    }
-
-    // The node with what is below it replaced.
-    ir::NodeId rebuild(ir::NodeId id, std::map<ir::NodeId, ir::NodeId>& replaced) {
-        if (const auto known = replaced.find(id); known != replaced.end()) return known->second;
-        ir::Node node = program_[id];
-        ir::change_operands(node,
-                            [&](ir::NodeId& operand) { operand = rebuild(operand, replaced); });
-        return replaced[id] = builder_.rebuild(node);
     }
 
     ir::Program program_;
