@@ -64,35 +64,35 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
 }};
 // clang-format on
 
-// risk-rows, domain.rddl:53
+// ignites-rows, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 26> risk_rows = {
+inline constexpr std::array<std::int64_t, 26> ignites_rows = {
     0, 2, 5, 8, 11, 13, 16, 20, 24, 28, 31, 34, 38, 42, 46, 49, 52, 56, 60, 64, 67, 69, 72, 75, 78,
     80
 };
 // clang-format on
 
-// risk-n, domain.rddl:53
+// ignites-n, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 80> risk_n = {
+inline constexpr std::array<std::int64_t, 80> ignites_n = {
     0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 2, 1,
     2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 3, 2, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4,
     2, 3, 4, 3, 4, 3, 4, 4, 3, 4, 4, 3, 4, 4, 3, 4
 };
 // clang-format on
 
-// risk-m, domain.rddl:53
+// ignites-m, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 80> risk_m = {
+inline constexpr std::array<std::int64_t, 80> ignites_m = {
     1, 0, 0, 2, 1, 1, 3, 2, 2, 4, 3, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0,
     1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3,
     4, 3, 4, 0, 1, 1, 0, 2, 2, 1, 3, 3, 2, 4, 4, 3
 };
 // clang-format on
 
-// risk-entries, domain.rddl:53
+// ignites-entries, domain.rddl:58
 // clang-format off
-inline constexpr std::array<double, 80> risk_entries = {
+inline constexpr std::array<double, 80> ignites_entries = {
     0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88,
     0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
     0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
@@ -122,7 +122,6 @@ struct Action {
 // What the CPFs tell each other within a step.
 template <class L>
 struct Scratch {
-    std::array<std::array<typename L::Real, ypos_count>, xpos_count> risk;     // domain.rddl:42
     std::array<std::array<typename L::Bool, ypos_count>, xpos_count> ignites;  // domain.rddl:43
 };
 
@@ -155,7 +154,6 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
         bare(state, action, next, context);
-        risk(state, scratch);
         ignites(state, action, scratch, context);
         burning(state, action, scratch, next);
     }
@@ -176,27 +174,13 @@ struct Simulator {
         }
     }
 
-    // risk(?c, ?r)  (domain.rddl:53)
-    template <class L>
-    static void risk(const State<L>& state, Scratch<L>& scratch) {
-        using Real = typename L::Real;
-        for (rddl::Index c = 0; c < xpos_count; ++c) {
-            for (rddl::Index r = 0; r < ypos_count; ++r) {
-                const Real product =
-                    rddl::product<Real>(rddl::row(risk_rows, c * 5 + r), [&](rddl::Index entry) {
-                        return rddl::select(state.burning[risk_n[entry]][risk_m[entry]],
-                                            risk_entries[entry], 1.0);
-                    });
-                scratch.risk[c][r] = 1.0 - 0.9995 * product;
-            }
-        }
-    }
-
     // ignites(?c, ?r)  (domain.rddl:58)
     template <class L>
     static void ignites(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                         rddl::Context<L>& context) {
         using Bool = typename L::Bool;
+        using Int = typename L::Int;
+        using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
                 const Bool condition =
@@ -204,7 +188,15 @@ struct Simulator {
                 scratch.ignites[c][r] = rddl::branch(
                     context, condition, [&] { return false; },
                     [&] {
-                        return rddl::sample::bernoulli(context, {1, c * 5 + r}, scratch.risk[c][r]);
+                        const Real product = rddl::product<Real>(
+                            rddl::row(ignites_rows, c * 5 + r), [&](rddl::Index entry) {
+                                return rddl::select(
+                                    state.burning[ignites_n[entry]][ignites_m[entry]],
+                                    ignites_entries[entry], 1.0);
+                            });
+                        const Int number = rddl::wrap_add(rddl::wrap_mul(c, 5), r);
+                        const Real term = 1.0 - 0.9995 * product;
+                        return rddl::sample::bernoulli(context, {1, number}, term);
                     });
             }
         }

@@ -33,13 +33,8 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 // running, domain.rddl:24
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
-<<<<<<< HEAD
-// LINK-d, domain.rddl:16
-inline constexpr std::array<std::int64_t, 8> LINK_d = {7, 0, 1, 2, 3, 4, 5, 6};
-=======
-// running-table, domain.rddl:40
-inline constexpr std::array<double, computer_count> running_table = {2, 2, 2, 2, 2, 2, 2, 2};
->>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
+// LINK-object, domain.rddl:16
+inline constexpr std::array<std::int64_t, computer_count> LINK_object = {7, 0, 1, 2, 3, 4, 5, 6};
 
 // --------------------------------------------------------------------------------- records
 
@@ -84,21 +79,7 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& /*scratch*/,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-<<<<<<< HEAD
-        support(state, scratch);
-        running(state, action, scratch, next, context);
-    }
-
-    // support(?c)  (domain.rddl:35)
-    template <class L>
-    static void support(const State<L>& state, Scratch<L>& scratch) {
-        for (rddl::Index c = 0; c < computer_count; ++c) {
-            scratch.support[c] =
-                rddl::to_real(rddl::wrap_add(1, rddl::to_int(state.running[LINK_d[c]]))) / 2.0;
-        }
-=======
         running(state, action, next, context);
->>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
     }
 
     // running'(?c)  (domain.rddl:40)
@@ -111,12 +92,13 @@ struct Simulator {
             next.running[c] = rddl::branch(
                 context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
                 [&] {
-                    const Int total = rddl::sum<Int>(computer_count, [&](rddl::Index d) {
-                        return rddl::to_int(LINK[d][c] && state.running[d]);
-                    });
-                    const Real term =
-                        0.45 + 0.5 * (rddl::to_real(rddl::wrap_add(1, total)) / running_table[c]);
-                    return rddl::sample::bernoulli(context, {0, c}, term);
+                    const Int number =
+                        rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
+                    const Real term = rddl::to_real(number);
+                    const Real term_2 = term / 2.0;
+                    const Real term_3 = 0.5 * term_2;
+                    const Real term_4 = 0.45 + term_3;
+                    return rddl::sample::bernoulli(context, {0, c}, term_4);
                 },
                 [&] {
                     return rddl::sample::bernoulli(context, {1, c}, 0.05);

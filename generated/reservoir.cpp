@@ -112,20 +112,6 @@ struct Simulator {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-<<<<<<< HEAD
-            scratch.inflow[b] = rddl::sum<Real>(
-                rddl::row(FLOWS_TO_rows, b),
-                [&](rddl::Index entry) { return action.release[FLOWS_TO_up[entry]]; });
-        }
-    }
-
-    // rain(?b)  (domain.rddl:49)
-    template <class L>
-    static void rain(Scratch<L>& scratch, rddl::Context<L>& context) {
-        using Bool = typename L::Bool;
-        for (rddl::Index b = 0; b < basin_count; ++b) {
-=======
->>>>>>> 70bd9c3 (Compute interm-fluents where they are read, if that repeats no work)
             const Bool draw = rddl::sample::bernoulli(context, {0, b}, RAIN_CHANCE[b]);
             const Real term = rddl::branch(
                 context, draw,
@@ -133,8 +119,8 @@ struct Simulator {
                     return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE[b]);
                 },
                 [&] { return 0.0; });
-            const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
-                return rddl::to_real(FLOWS_TO[up][b]) * action.release[up];
+            const Real total = rddl::sum<Real>(rddl::row(FLOWS_TO_rows, b), [&](rddl::Index entry) {
+                return action.release[FLOWS_TO_up[entry]];
             });
             scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
         }

@@ -100,7 +100,16 @@ class Collector {
         const Buffer& buffer = program_[load.buffer];
         facts_.uniform &= buffer.storage == Storage::Constant;
         facts_.finite = buffer.finite;
-        if (buffer.storage == Storage::Constant) facts_.range = table_range(load.buffer);
+        facts_.range =
+            buffer.storage == Storage::Constant ? table_range(load.buffer) : object_range(buffer);
+    }
+
+    // Of a fluent whose values are objects.
+    std::optional<Range> object_range(const Buffer& buffer) const {
+        if (!buffer.fluent) return std::nullopt;
+        const auto type = program_.fluents[*buffer.fluent].object_type;
+        if (!type) return std::nullopt;
+        return Range{0, static_cast<double>(program_.types[*type].objects.size()) - 1};
     }
 
     void describe(Scalar type, const Local&) {
@@ -133,6 +142,8 @@ class Collector {
         const std::int64_t size = program_[reduce.variable].size;
         bind(reduce.variable, reduce.body,
              reduce.bounds ? length_of(*reduce.bounds, size) : static_cast<double>(size));
+        if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
+            facts_.range = Range{0, static_cast<double>(size - 1)};
     }
 
     // On average, where the bounds are neighbours in a table of where rows begin.
@@ -149,14 +160,16 @@ class Collector {
         facts_.cost += 20;
     }
 
-    void describe(Scalar, const Discrete&) {
+    void describe(Scalar, const Discrete& discrete) {
         draw(true);
+        facts_.range = Range{0, static_cast<double>(discrete.weights.size() - 1)};
         facts_.cost += 20;
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
         bind(discrete.variable, discrete.weight,
              static_cast<double>(program_[discrete.variable].size));
+        facts_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
         draw(true);
         facts_.cost += 20;
     }

@@ -6,6 +6,7 @@
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/fuse_interm_fluents.hpp"
+#include "passes/index_directly.hpp"
 #include "passes/hoist_aggregations.hpp"
 #include "passes/make_aggregations_sparse.hpp"
 #include "passes/remove_unused_buffers.hpp"
@@ -36,6 +37,8 @@ constexpr Pass in_order[] = {
     {"fuse_interm_fluents",
      "interm-fluents read once, or cheap ones, are computed where they are read",
      passes::fuse_interm_fluents},
+    {"index_directly", "an aggregation to which one object contributes takes that object",
+     passes::index_directly},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",

@@ -2,10 +2,11 @@
 
 #include "ir/rewrite.hpp"
 #include "passes/constant_values.hpp"
+#include "passes/new_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,13 @@ namespace {
 constexpr double entries_for_an_operation = 32;
 // In operations (Facts::cost), for the whole table.
 constexpr double affordable_cost = 4e6;
+
+bool are_finite(const std::vector<ir::Value>& values) {
+    return std::ranges::all_of(values, [](const ir::Value& value) {
+        const auto* real = std::get_if<double>(&value);
+        return !real || std::isfinite(*real);
+    });
+}
 
 // Finds the outermost expressions that are worth a table.
 class Tabulation {
@@ -100,7 +108,7 @@ class Tabulation {
         collect_variables(id, variables);
         auto values = constant_values(evaluator_, program_, id, variables);
         if (!values) return false;
-        ir::Buffer buffer{.name = free_name(name + "-table"),
+        ir::Buffer buffer{.name = name + "-table",
                           .storage = ir::Storage::Constant,
                           .scalar = program_[id].type,
                           .shape = {},
@@ -113,6 +121,7 @@ class Tabulation {
             if (program_[variable].type) buffer.types.push_back(*program_[variable].type);
         }
         if (buffer.types.size() != buffer.shape.size()) buffer.types.clear();
+        buffer.finite = are_finite(buffer.values);
         tables_.emplace(id, Table{std::move(variables), std::move(buffer)});
         return true;
     }
@@ -127,23 +136,10 @@ class Tabulation {
         if (const auto bound = ir::bound_variable(program_[id])) std::erase(variables, *bound);
     }
 
-    std::string free_name(const std::string& wish) {
-        const auto is_taken = [&](const std::string& name) {
-            return taken_.contains(name) ||
-                   std::ranges::find(program_.buffers, name, &ir::Buffer::name) !=
-                       program_.buffers.end();
-        };
-        std::string name = wish;
-        for (int number = 2; is_taken(name); ++number) name = wish + "-" + std::to_string(number);
-        taken_.insert(name);
-        return name;
-    }
-
     ir::Program& program_;
     std::vector<ir::Facts> facts_;
     std::vector<bool> seen_;
     ir::Evaluator evaluator_;
-    std::set<std::string> taken_;
     std::map<ir::NodeId, Table> tables_;
 };
 
@@ -153,8 +149,7 @@ ir::Program tabulate_constants(ir::Program program, Report& report) {
     const std::map<ir::NodeId, Tabulation::Table> tables = Tabulation(program).run();
     std::map<ir::NodeId, ir::BufferId> buffers;
     for (const auto& [id, table] : tables) {
-        buffers[id] = {static_cast<std::uint32_t>(program.buffers.size())};
-        program.buffers.push_back(table.buffer);
+        buffers[id] = constant_table(program, table.buffer);
         ++report["tables computed"];
     }
     return ir::rewrite(

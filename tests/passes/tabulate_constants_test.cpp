@@ -34,7 +34,7 @@ TEST(TabulateConstants, ComputesAggregationsOverTables) {
 
 TEST(TabulateConstants, HasADimensionForEachVariable) {
     ir::Program program =
-        grounded(with_tables("sum_{?o : obj, ?u : obj} [(W(?u) > 1 ^ NONE(?u, ?o)) ^ p(?o)]"));
+        grounded(with_tables("sum_{?o : obj, ?u : obj} [(W(?u) > 1 | NONE(?u, ?o)) ^ p(?o)]"));
     passes::Report report;
     program = valid(passes::tabulate_constants(std::move(program), report));
     EXPECT_EQ(value_of_x(program),

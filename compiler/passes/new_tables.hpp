@@ -1,0 +1,17 @@
+// Constant tables that passes add.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <string>
+
+namespace rddlc::passes {
+
+// The name, or the name with the first number that no buffer has.
+std::string unused_name(const ir::Program& program, const std::string& wish);
+
+// A table like this one, if there is one already; else a new one, named as it wishes if nobody else
+// is.
+ir::BufferId constant_table(ir::Program& program, ir::Buffer table);
+
+}  // namespace rddlc::passes

@@ -1,0 +1,179 @@
+#include "passes/only_object.hpp"
+
+#include "passes/new_tables.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// A table from values to objects has at most this many entries for each object.
+constexpr std::int64_t most_entries_an_object = 4;
+
+// The elements of a table in groups that differ in the index of one axis only.
+struct Lines {
+    Lines(const ir::Buffer& table, std::size_t axis) : length(table.shape[axis]), stride(1) {
+        for (std::size_t d = axis + 1; d < table.shape.size(); ++d) stride *= table.shape[d];
+        count = length == 0 ? 0 : table.count() / length;
+    }
+    std::size_t element(std::int64_t line, std::int64_t place) const {
+        const std::int64_t outer = line / stride, inner = line % stride;
+        return static_cast<std::size_t>((outer * length + place) * stride + inner);
+    }
+
+    std::int64_t length, stride, count;
+};
+
+}  // namespace
+
+std::optional<OnlyObject> OnlyObjects::fulfilling(const Condition& condition,
+                                                  ir::VariableId variable) {
+    if (!depends_on(condition.id, variable)) return std::nullopt;
+    if (const auto found = column(condition.id, variable))
+        return with_entry(*found, condition.needed);
+
+    const ir::Node node = program_[condition.id];
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (!apply || apply->op != (condition.needed ? Operator::Equal : Operator::NotEqual))
+        return std::nullopt;
+    const ir::NodeId a = apply->operands[0], b = apply->operands[1];
+    if (program_[a].type != ir::Scalar::Int) return std::nullopt;
+    if (const auto found = equal_to(a, b, variable)) return found;
+    return equal_to(b, a, variable);
+}
+
+// The object for which `side`, made of the variable alone, equals the other side.
+std::optional<OnlyObject> OnlyObjects::equal_to(ir::NodeId side, ir::NodeId other,
+                                                ir::VariableId variable) {
+    if (depends_on(other, variable) || builder_.facts(other).may_fault) return std::nullopt;
+    const auto* index = std::get_if<ir::Index>(&program_[side].form);
+    if (index && index->variable == variable) {
+        const std::int64_t last = program_[variable].size - 1;
+        return OnlyObject{clamped(other, 0, last), test(other, 0, last)};
+    }
+    const auto found = column(side, variable);
+    return found && found->indices.size() == 1 ? with_value(*found, other) : std::nullopt;
+}
+
+// ---------------------------------------------------------------------------------- tables
+
+std::optional<OnlyObjects::Column> OnlyObjects::column(ir::NodeId id,
+                                                       ir::VariableId variable) const {
+    const auto* load = std::get_if<ir::Load>(&program_[id].form);
+    if (!load || program_[load->buffer].storage != ir::Storage::Constant) return std::nullopt;
+    std::optional<std::size_t> axis;
+    for (std::size_t d = 0; d < load->indices.size(); ++d) {
+        if (!depends_on(load->indices[d], variable)) continue;
+        const auto* index = std::get_if<ir::Index>(&program_[load->indices[d]].form);
+        if (!index || axis) return std::nullopt;
+        axis = d;
+    }
+    if (!axis || program_[load->buffer].shape[*axis] != program_[variable].size)
+        return std::nullopt;
+    return Column{load->buffer, *axis, load->indices};
+}
+
+// By a table from values to objects.
+std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::NodeId value) {
+    const ir::Buffer& table = program_[column.table];
+    std::vector<std::int64_t> entries;
+    for (const ir::Value& entry : table.values) entries.push_back(std::get<std::int64_t>(entry));
+    const std::set<std::int64_t> different(entries.begin(), entries.end());
+    if (different.size() != entries.size()) return std::nullopt;
+    const std::int64_t first = *different.begin(), last = *different.rbegin();
+    const auto count = static_cast<std::int64_t>(entries.size());
+    if (last - first < 0 || last - first >= most_entries_an_object * count) return std::nullopt;
+
+    const auto extent = static_cast<std::size_t>(last - first + 1);
+    std::vector<ir::Value> objects(extent, std::int64_t{0}), exists(extent, false);
+    for (std::int64_t object = 0; object < count; ++object) {
+        const auto place =
+            static_cast<std::size_t>(entries[static_cast<std::size_t>(object)] - first);
+        objects[place] = object;
+        exists[place] = true;
+    }
+    const ir::Buffer like{.name = table.name,
+                          .storage = ir::Storage::Constant,
+                          .scalar = ir::Scalar::Int,
+                          .shape = {last - first + 1},
+                          .types = {},
+                          .fluent = {},
+                          .values = {},
+                          .span = table.span};
+    const ir::NodeId place =
+        builder_.apply(Operator::Subtract, {clamped(value, first, last), number(first)});
+    const Column entry{column.table, 1, {place}};
+    const ir::NodeId object = load(like, "-object", ir::Scalar::Int, std::move(objects), entry);
+    const ir::NodeId is_there = load(like, "-is-there", ir::Scalar::Bool, std::move(exists), entry);
+    return OnlyObject{object, builder_.apply(Operator::And, {test(value, first, last), is_there})};
+}
+
+// By tables of the other axes.
+std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool entry) {
+    const ir::Buffer& table = program_[column.table];
+    const Lines lines(table, column.axis);
+    std::vector<ir::Value> objects, exists;
+    for (std::int64_t line = 0; line < lines.count; ++line) {
+        std::int64_t object = 0, found = 0;
+        for (std::int64_t place = 0; place < lines.length; ++place) {
+            if (std::get<bool>(table.values[lines.element(line, place)]) != entry) continue;
+            object = place;
+            ++found;
+        }
+        if (found > 1) return std::nullopt;
+        objects.emplace_back(object);
+        exists.emplace_back(found == 1);
+    }
+    ir::Buffer like = table;
+    like.shape.erase(like.shape.begin() + static_cast<std::ptrdiff_t>(column.axis));
+    if (!like.types.empty())
+        like.types.erase(like.types.begin() + static_cast<std::ptrdiff_t>(column.axis));
+    like.fluent.reset();
+    return OnlyObject{load(like, "-object", ir::Scalar::Int, std::move(objects), column),
+                      load(like, "-is-there", ir::Scalar::Bool, std::move(exists), column)};
+}
+
+// From a table of these values, unless they are all equal; indexed as the column is, without its
+// axis.
+ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, ir::Scalar scalar,
+                             std::vector<ir::Value> values, const Column& column) {
+    if (std::ranges::all_of(values, [&](const ir::Value& value) { return value == values[0]; }))
+        return builder_.constant(values[0]);
+    ir::Buffer table = like;
+    table.name += suffix;
+    table.scalar = scalar;
+    table.values = std::move(values);
+    std::vector<ir::NodeId> indices = column.indices;
+    if (column.axis < indices.size())
+        indices.erase(indices.begin() + static_cast<std::ptrdiff_t>(column.axis));
+    return builder_.load(constant_table(program_, std::move(table)), std::move(indices));
+}
+
+// ---------------------------------------------------------------------------------- ranges
+
+bool OnlyObjects::depends_on(ir::NodeId id, ir::VariableId variable) const {
+    return std::ranges::binary_search(builder_.facts(id).free_variables, variable);
+}
+
+bool OnlyObjects::is_within(ir::NodeId id, std::int64_t first, std::int64_t last) const {
+    const auto& range = builder_.facts(id).range;
+    return range && range->lower >= static_cast<double>(first) &&
+           range->upper <= static_cast<double>(last);
+}
+
+ir::NodeId OnlyObjects::test(ir::NodeId id, std::int64_t first, std::int64_t last) {
+    if (is_within(id, first, last)) return builder_.constant(true);
+    return builder_.apply(Operator::And,
+                          {builder_.apply(Operator::GreaterEqual, {id, number(first)}),
+                           builder_.apply(Operator::LessEqual, {id, number(last)})});
+}
+
+ir::NodeId OnlyObjects::clamped(ir::NodeId id, std::int64_t first, std::int64_t last) {
+    if (is_within(id, first, last)) return id;
+    return builder_.apply(Operator::Minimum,
+                          {builder_.apply(Operator::Maximum, {id, number(first)}), number(last)});
+}
+
+}  // namespace rddlc::passes
