@@ -337,7 +337,8 @@ inline constexpr rddl_problem problem = {
 
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator>;
-    static const rddl::SimulatorTable<Engine> table(about::problem, {}, Engine());
+    using Packed = rddl::Packed<Simulator, 16>;
+    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, {}, Engine());
     return table.get();
 }
 

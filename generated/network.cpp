@@ -229,7 +229,8 @@ inline constexpr rddl::Site sites[] = {
 
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator>;
-    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    using Packed = rddl::Packed<Simulator, 16>;
+    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
     return table.get();
 }
 

@@ -24,8 +24,8 @@ constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
 constexpr std::uint32_t most_samples = 128;
 constexpr std::uint32_t most_single_changes = 256;
 
-std::uint64_t joined(std::uint32_t low, std::uint32_t high) {
-    return std::uint64_t{high} << 32 | low;
+std::uint64_t joined(std::uint64_t low, std::uint64_t high) {
+    return high << 32 | (low & 0xFFFFFFFF);
 }
 
 // 0 .. count - 1; unbiased enough: the error is below count / 2^64.
@@ -72,12 +72,12 @@ struct RandomPolicy::Draws {
 
     enum Purpose : std::uint32_t { Value = 0, Choice = 1, Reset = 2, Bools = 3 };
 
-    rddl::philox::Block block(Purpose purpose, std::size_t number) const {
-        return rddl::philox::generate({step, static_cast<std::uint32_t>(number), purpose, sample},
-                                      {key.low, key.high});
+    rddl::philox::Block<std::uint64_t> block(Purpose purpose, std::size_t number) const {
+        return rddl::philox::generate<rddl::philox::draw_rounds>(
+            rddl::philox::Block<std::uint64_t>{step, number, purpose, sample}, {key.low, key.high});
     }
     std::uint64_t bits(Purpose purpose, std::size_t number) const {
-        const rddl::philox::Block words = block(purpose, number);
+        const auto words = block(purpose, number);
         return joined(words[0], words[1]);
     }
 };
@@ -222,7 +222,7 @@ void RandomPolicy::draw_bool(const Entry& entry, const Draws& draws, std::uint64
 
 void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t number,
                         std::byte* action) const {
-    const rddl::philox::Block words = draws.block(Draws::Value, number);
+    const auto words = draws.block(Draws::Value, number);
     const std::uint64_t bits = joined(words[0], words[1]);
     if (entry.kind == Entry::Kind::Bool) return draw_bool(entry, draws, bits, action);
     if (entry.kind == Entry::Kind::Int && entry.count > 0)
@@ -232,8 +232,9 @@ void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t numb
     if (entry.kind == Entry::Kind::Int && std::isfinite(entry.lower) && std::isfinite(entry.upper))
         return;
 
-    const double value = draw_real(entry.lower, entry.upper, rddl::open_unit_real(bits),
-                                   rddl::open_unit_real(joined(words[2], words[3])));
+    const double value = draw_real(entry.lower, entry.upper,
+                                   rddl::open_unit_real(rddl::unit_real(words[0], words[1])),
+                                   rddl::open_unit_real(rddl::unit_real(words[2], words[3])));
     if (entry.kind == Entry::Kind::Real) return store(action, entry.offset, value);
     const double inside = std::isfinite(entry.lower)   ? std::ceil(value)
                           : std::isfinite(entry.upper) ? std::floor(value)

@@ -172,7 +172,7 @@ ReplaySession::Record ReplaySession::read_action(const json& values) const {
 // ------------------------------------------------------------------------------- acting on it
 
 Batch ReplaySession::create(std::int64_t first, std::int64_t count, std::int64_t horizon) const {
-    return create_batch(simulator_, {count, first, seed_, 1, RDDL_AUTORESET_DISABLED, horizon});
+    return create_batch(simulator_, {count, first, seed_, 1, RDDL_AUTORESET_DISABLED, horizon, 0});
 }
 
 void ReplaySession::prepare(const Request& request) {

@@ -62,7 +62,7 @@ class EpisodeBatch {
           options_(options),
           first_(first),
           batch_(create_batch(simulator, {count, first, options.seed, 1, RDDL_AUTORESET_DISABLED,
-                                          options.horizon})),
+                                          options.horizon, 0})),
           episodes_(static_cast<std::size_t>(count)),
           discounts_(episodes_.size(), 1.0),
           rewards_(episodes_.size()),

@@ -29,6 +29,21 @@ std::vector<std::string> words(const std::string& text) {
     return result;
 }
 
+// The greatest level of x86-64 that this machine's processor has; null if it is another one.
+const char* processor_level() {
+#ifdef __x86_64__
+    __builtin_cpu_init();
+    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("fma");
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+                    __builtin_cpu_supports("avx512cd");
+    return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : "x86-64";
+#else
+    return nullptr;
+#endif
+}
+
 // With the beginning of what the compiler says.
 Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::string& output) {
     constexpr int most_lines = 30;
@@ -69,6 +84,7 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
                              "-DRDDL_ENTRY=rddl_simulator_entry"}) {
         command.push_back(flag);
     }
+    if (const char* level = processor_level()) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
     command.insert(command.end(), {"-o", output.string(), source.string()});
     return command;

@@ -5,6 +5,8 @@
 #include "emit/literals.hpp"
 #include "emit/tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -348,13 +350,30 @@ std::string about(const Unit& unit) {
     return Describer(unit).describe();
 }
 
+namespace {
+
+// Policies and functions of whole tables work on one environment at a time.
+bool has_packs(const Unit& unit) {
+    return unit.options.lane_count > 1 && !unit.program.policy &&
+           std::ranges::none_of(ir::blocks_of(unit.program),
+                                [](const ir::Block* block) { return ir::calls_functions(*block); });
+}
+
+}  // namespace
+
 std::string table_definition(const Unit& unit) {
     std::vector<std::string> arguments = {"about::problem", "about::sites", "Engine()"};
     if (unit.program.sites.empty()) arguments[1] = "{}";
     if (unit.program.policy) arguments.push_back("&about::policy");
+    const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
     std::string text;
-    for (const std::string& line : fill_call("static const rddl::SimulatorTable<Engine> table(",
-                                             arguments, ");", indentation)) {
+    if (has_packs(unit)) {
+        text += fmt::format("    using Packed = rddl::Packed<Simulator, {}>;\n",
+                            unit.options.lane_count);
+    }
+    for (const std::string& line :
+         fill_call("static const rddl::SimulatorTable<" + engines + "> table(", arguments, ");",
+                   indentation)) {
         text += std::string(indentation, ' ') + line + "\n";
     }
     return text;

@@ -86,6 +86,19 @@ std::string_view wish_for(const ir::Node& node) {
     return "term";
 }
 
+// The same in all lanes, and spelled so: made of loop indices and constants by operators alone.
+bool is_index_arithmetic(const ir::Program& program, ir::NodeId id) {
+    const ir::Node& node = program[id];
+    if (node.type != ir::Scalar::Int) return false;
+    const bool is_leaf = std::holds_alternative<ir::Index>(node.form) ||
+                         std::holds_alternative<ir::Constant>(node.form);
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    return is_leaf ||
+           (apply && !apply->place && std::ranges::all_of(apply->operands, [&](ir::NodeId operand) {
+                return is_index_arithmetic(program, operand);
+            }));
+}
+
 }  // namespace
 
 // --------------------------------------------------------------------------- statements
@@ -218,7 +231,9 @@ void FunctionBody::name_value(ir::NodeId id) {
 std::string FunctionBody::declare(ir::NodeId id) {
     const ir::Node& node = program()[id];
     const std::string_view wish = wish_for(node);
-    const std::string type = "const " + expressions_.type(node.type) + " ";
+    const bool is_index = is_index_arithmetic(program(), id);
+    const std::string type =
+        "const " + (is_index ? "rddl::Index" : expressions_.type(node.type)) + " ";
     // The parts that need names get them first, so that numbers grow from top to bottom.
     prepare(type + std::string(wish) + "_99 = ", id);
     const std::string name = expressions_.claim(wish);

@@ -13,6 +13,8 @@ namespace rddlc::ir {
 // Records are laid out by layout.hpp. All functions may run at the same time in several threads.
 class Interpreter {
   public:
+    using Lane = rddl::Scalar;
+
     // The functions are by ExternalId, and accept the calls of the program.
     explicit Interpreter(Program program, ExternalFunctions functions = {});
 

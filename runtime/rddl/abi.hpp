@@ -16,7 +16,9 @@
 #include <optional>
 #include <span>
 #include <thread>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace rddl {
 
@@ -46,10 +48,12 @@ inline std::optional<BatchOptions> checked_options(const rddl_problem& problem,
 // description and the sites must outlive it; it must outlive its batches. An emitted file ends in
 //
 //     extern "C" const rddl_simulator* rddl_simulator_entry() {
-//         static const rddl::SimulatorTable table(problem, sites, rddl::Compiled<Simulator>());
+//         static const rddl::SimulatorTable<rddl::Compiled<Simulator>> table(problem, sites, {});
 //         return table.get();
 //     }
-template <Engine E>
+//
+// Packed is an engine of the same simulator for packs, where there is one: for larger batches.
+template <Engine E, Engine Packed = E>
 class SimulatorTable {
   public:
     // `policy` describes the engine's policy and must outlive it, too; null if it has none.
@@ -62,20 +66,40 @@ class SimulatorTable {
     const rddl_simulator* get() const { return &table_; }
 
   private:
+    static constexpr bool has_packs = Packed::Lane::width > 1;
+    using AnyBatch = std::conditional_t<has_packs, std::variant<Batch<E>, Batch<Packed>>,
+                                        std::variant<Batch<E>>>;
+
     // What an rddl_batch is.
     struct Handle {
+        template <class Kind, class OneEngine>
+        Handle(const SimulatorTable& its_maker, std::in_place_type_t<Kind> kind,
+               const OneEngine& engine, const BatchOptions& options)
+            : maker(&its_maker), batch(kind, engine, *its_maker.problem_, options) {}
+
         const SimulatorTable* maker;
-        Batch<E> batch;
+        AnyBatch batch;
 
         const rddl_problem& problem() const { return *maker->problem_; }
+        template <class Use>
+        decltype(auto) use(Use&& use) {
+            return std::visit(use, batch);
+        }
+        template <class Use>
+        decltype(auto) use(Use&& use) const {
+            return std::visit(use, batch);
+        }
+        std::int64_t environment_count() const {
+            return use([](const auto& some) { return some.environment_count(); });
+        }
         bool has(std::int64_t begin, std::int64_t count) const {
-            const std::int64_t all = batch.environment_count();
+            const std::int64_t all = environment_count();
             return begin >= 0 && count >= 0 && begin <= all && count <= all - begin;
         }
         bool accepts_actions(const void* actions) const {
             if (problem().action_size == 0) return true;
             return actions != nullptr &&
-                   records_are_valid(problem(), RDDL_ACTION, actions, batch.environment_count());
+                   records_are_valid(problem(), RDDL_ACTION, actions, environment_count());
         }
     };
     static Handle& handle(rddl_batch* batch) { return *reinterpret_cast<Handle*>(batch); }
@@ -83,10 +107,23 @@ class SimulatorTable {
         return *reinterpret_cast<const Handle*>(batch);
     }
 
-    bool sizes_agree() const {
-        return engine_.state_size() == static_cast<std::size_t>(problem_->state_size) &&
-               engine_.action_size() == static_cast<std::size_t>(problem_->action_size) &&
-               engine_.observation_size() == static_cast<std::size_t>(problem_->observation_size);
+    template <class OneEngine>
+    bool sizes_agree(const OneEngine& engine) const {
+        using L = typename OneEngine::Lane;
+        const auto agree = [&](rddl_role role, std::int64_t row_size, std::size_t block_size) {
+            const Columns columns = columns_of<L>(*problem_, role, row_size);
+            return columns.block_size == static_cast<std::int64_t>(block_size);
+        };
+        return agree(RDDL_STATE, problem_->state_size, engine.state_size()) &&
+               agree(RDDL_ACTION, problem_->action_size, engine.action_size()) &&
+               agree(problem_->partially_observed != 0 ? RDDL_OBSERVATION : RDDL_STATE,
+                     problem_->observation_size, engine.observation_size());
+    }
+
+    // Packs wait for their slowest lane and have more to start and to end, so one environment is
+    // stepped alone.
+    static bool wants_packs(const rddl_batch_options& options) {
+        return options.lane_count == 0 ? options.environment_count > 1 : options.lane_count > 1;
     }
 
     Site site_of(const FaultRecord& fault) const {
@@ -98,12 +135,22 @@ class SimulatorTable {
         if (simulator == nullptr || options == nullptr) return nullptr;
         const auto& maker = *static_cast<const SimulatorTable*>(simulator->self);
         const auto checked = checked_options(*maker.problem_, *options);
-        if (!checked || !maker.sizes_agree()) return nullptr;
+        const bool lanes_exist = options->lane_count == 0 || options->lane_count == 1 ||
+                                 options->lane_count == Packed::Lane::width;
+        if (!checked || !lanes_exist) return nullptr;
         try {
-            return reinterpret_cast<rddl_batch*>(new Handle{&maker, {maker.engine_, *checked}});
+            if constexpr (has_packs)
+                if (wants_packs(*options)) return maker.make(maker.packed_engine_, *checked);
+            return maker.make(maker.engine_, *checked);
         } catch (...) {
             return nullptr;
         }
+    }
+    template <class OneEngine>
+    rddl_batch* make(const OneEngine& engine, const BatchOptions& options) const {
+        if (!sizes_agree(engine)) return nullptr;
+        const auto kind = std::in_place_type<Batch<OneEngine>>;
+        return reinterpret_cast<rddl_batch*>(new Handle(*this, kind, engine, options));
     }
 
     static rddl_batch* copy(const rddl_batch* batch) {
@@ -121,15 +168,64 @@ class SimulatorTable {
 
     static rddl_error reset(rddl_batch* batch, const std::uint8_t* mask, void* observations) {
         if (batch == nullptr) return RDDL_BAD_ARGUMENT;
-        handle(batch).batch.reset(mask, static_cast<std::byte*>(observations));
+        handle(batch).use([&](auto& environments) {
+            environments.reset(mask, static_cast<std::byte*>(observations));
+        });
         return RDDL_OK;
     }
 
     static rddl_error step(rddl_batch* batch, const void* actions, const rddl_transition* out) {
         if (batch == nullptr || out == nullptr || !handle(batch).accepts_actions(actions))
             return RDDL_BAD_ARGUMENT;
-        handle(batch).batch.step(static_cast<const std::byte*>(actions), *out);
+        handle(batch).use([&](auto& environments) {
+            environments.step(static_cast<const std::byte*>(actions), *out);
+        });
         return RDDL_OK;
+    }
+
+    static rddl_error step_values(rddl_batch* batch, rddl_number number, const void* actions,
+                                  void* observations, const rddl_transition* out) {
+        if (batch == nullptr || out == nullptr) return RDDL_BAD_ARGUMENT;
+        return with_number(number, [&]<class Number>(Number) {
+            const auto* const rows = static_cast<const Number*>(actions);
+            return handle(batch).use([&](auto& environments) {
+                const Columns& columns = environments.action_columns();
+                const std::int64_t count = environments.environment_count();
+                if (columns.value_count > 0 &&
+                    (rows == nullptr || !values_are_valid(columns, rows, count)))
+                    return RDDL_BAD_ARGUMENT;
+                environments.step_values(rows, static_cast<Number*>(observations), *out);
+                return RDDL_OK;
+            });
+        });
+    }
+    static rddl_error get_observation_values(const rddl_batch* batch, rddl_number number,
+                                             void* observations) {
+        if (batch == nullptr || observations == nullptr) return RDDL_BAD_ARGUMENT;
+        return with_number(number, [&]<class Number>(Number) {
+            handle(batch).use([&](const auto& environments) {
+                environments.get_observation_values(static_cast<Number*>(observations));
+            });
+            return RDDL_OK;
+        });
+    }
+    template <class Use>
+    static rddl_error with_number(rddl_number number, Use&& use) {
+        if (number == RDDL_FLOAT) return use(float{});
+        if (number == RDDL_DOUBLE) return use(double{});
+        return RDDL_BAD_ARGUMENT;
+    }
+
+    static std::int64_t action_value_count(const rddl_simulator* simulator) {
+        return simulator == nullptr ? 0 : value_count(*simulator->problem, RDDL_ACTION);
+    }
+    static std::int64_t observation_value_count(const rddl_simulator* simulator) {
+        if (simulator == nullptr) return 0;
+        const bool partially_observed = simulator->problem->partially_observed != 0;
+        return value_count(*simulator->problem, partially_observed ? RDDL_OBSERVATION : RDDL_STATE);
+    }
+    static std::int64_t value_count(const rddl_problem& problem, rddl_role role) {
+        return columns_of<Scalar>(problem, role, 0).value_count;
     }
 
     static rddl_error violated_preconditions(rddl_batch* batch, const void* actions,
@@ -137,8 +233,10 @@ class SimulatorTable {
         if (batch == nullptr || first_violated == nullptr ||
             !handle(batch).accepts_actions(actions))
             return RDDL_BAD_ARGUMENT;
-        handle(batch).batch.violated_preconditions(static_cast<const std::byte*>(actions),
-                                                   first_violated);
+        handle(batch).use([&](auto& environments) {
+            environments.violated_preconditions(static_cast<const std::byte*>(actions),
+                                                first_violated);
+        });
         return RDDL_OK;
     }
 
@@ -160,7 +258,7 @@ class SimulatorTable {
 
     static rddl_error action_mask(rddl_batch* batch, std::uint8_t* masks) {
         if (batch == nullptr || masks == nullptr) return RDDL_BAD_ARGUMENT;
-        handle(batch).batch.action_mask(handle(batch).problem(), masks);
+        handle(batch).use([&](auto& environments) { environments.action_mask(masks); });
         return RDDL_OK;
     }
 
@@ -169,36 +267,36 @@ class SimulatorTable {
         const rddl_problem& problem = handle(batch).problem();
         if (actions == nullptr && problem.action_size > 0) return RDDL_BAD_ARGUMENT;
         if constexpr (PolicyEngine<E>)
-            handle(batch).batch.act(problem, static_cast<std::byte*>(actions));
+            std::get<Batch<E>>(handle(batch).batch).act(static_cast<std::byte*>(actions));
         return RDDL_OK;
     }
 
-    // Calls body(k, environment) for each of the environments.
-    template <class Body>
-    static rddl_error for_each(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
+    // Calls body(batch, k, environment) for each of the environments.
+    template <class AnyHandle, class Body>
+    static rddl_error for_each(AnyHandle* batch, std::int64_t begin, std::int64_t count,
                                Body&& body) {
         if (batch == nullptr || !handle(batch).has(begin, count)) return RDDL_BAD_ARGUMENT;
-        for (std::int64_t k = 0; k < count; ++k) body(k, begin + k);
+        handle(batch).use([&](auto& environments) {
+            for (std::int64_t k = 0; k < count; ++k) body(environments, k, begin + k);
+        });
         return RDDL_OK;
     }
 
     static rddl_error get_state(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                 void* states) {
         if (states == nullptr) return RDDL_BAD_ARGUMENT;
-        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+        return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
             const std::int64_t size = handle(batch).problem().state_size;
-            std::memcpy(static_cast<std::byte*>(states) + k * size, handle(batch).batch.state(i),
-                        static_cast<std::size_t>(size));
+            all.get_state(i, static_cast<std::byte*>(states) + k * size);
         });
     }
 
     static rddl_error get_observation(const rddl_batch* batch, std::int64_t begin,
                                       std::int64_t count, void* records) {
         if (records == nullptr) return RDDL_BAD_ARGUMENT;
-        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+        return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
             const std::int64_t size = handle(batch).problem().observation_size;
-            std::memcpy(static_cast<std::byte*>(records) + k * size,
-                        handle(batch).batch.observation(i), static_cast<std::size_t>(size));
+            all.get_observation(i, static_cast<std::byte*>(records) + k * size);
         });
     }
 
@@ -207,45 +305,46 @@ class SimulatorTable {
         if (batch == nullptr || states == nullptr || !handle(batch).has(begin, count) ||
             !records_are_valid(handle(batch).problem(), RDDL_STATE, states, count))
             return RDDL_BAD_ARGUMENT;
-        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
+        return for_each(batch, begin, count, [&](auto& all, std::int64_t k, std::int64_t i) {
             const std::int64_t size = handle(batch).problem().state_size;
-            handle(batch).batch.set_state(i, static_cast<const std::byte*>(states) + k * size);
+            all.set_state(i, static_cast<const std::byte*>(states) + k * size);
         });
     }
 
     static rddl_error get_progress(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                    std::int64_t* steps, std::int64_t* episodes) {
-        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
-            if (steps != nullptr) steps[k] = handle(batch).batch.episode(i).steps;
-            if (episodes != nullptr) episodes[k] = handle(batch).batch.episode(i).number;
+        return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
+            if (steps != nullptr) steps[k] = all.steps(i);
+            if (episodes != nullptr) episodes[k] = all.episode_number(i);
         });
     }
 
     static rddl_error get_causes(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                  std::uint8_t* causes) {
         if (causes == nullptr) return RDDL_BAD_ARGUMENT;
-        return for_each(batch, begin, count, [&](std::int64_t k, std::int64_t i) {
-            causes[k] = handle(batch).batch.episode(i).causes;
+        return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
+            causes[k] = all.causes(i);
         });
     }
 
     static rddl_error get_fault(const rddl_batch* batch, std::int64_t environment,
                                 rddl_fault* fault) {
         if (fault == nullptr) return RDDL_BAD_ARGUMENT;
-        return for_each(batch, environment, 1, [&](std::int64_t, std::int64_t i) {
-            const Episode& episode = handle(batch).batch.episode(i);
-            fault->faulty = episode.fault ? 1 : 0;
-            if (!episode.fault) return;
-            const Site site = handle(batch).maker->site_of(episode.fault);
-            fault->step = static_cast<std::int32_t>(episode.fault_steps);
+        return for_each(batch, environment, 1, [&](const auto& all, std::int64_t, std::int64_t i) {
+            const FaultRecord* const record = all.fault(i);
+            fault->faulty = record != nullptr;
+            if (record == nullptr) return;
+            const Site site = handle(batch).maker->site_of(*record);
+            fault->step = static_cast<std::int32_t>(all.steps_before_fault(i));
             fault->source = site.source;
-            describe_fault(episode.fault, site, fault->message);
+            describe_fault(*record, site, fault->message);
         });
     }
 
     const rddl_problem* problem_;
     std::span<const Site> sites_;
     E engine_;
+    [[no_unique_address]] std::conditional_t<has_packs, Packed, std::monostate> packed_engine_;
     const rddl_policy* policy_;
     rddl_simulator table_{.abi_version = RDDL_ABI_VERSION,
                           .struct_size = sizeof(rddl_simulator),
@@ -267,7 +366,13 @@ class SimulatorTable {
                           .action_choice = action_choice,
                           .action_mask = action_mask,
                           .policy = policy_,
-                          .policy_act = policy_ ? policy_act : nullptr};
+                          .policy_act = policy_ ? policy_act : nullptr,
+                          .lane_count = Packed::Lane::width,
+                          .instruction_set = simd::level,
+                          .action_value_count = action_value_count,
+                          .observation_value_count = observation_value_count,
+                          .step_values = step_values,
+                          .get_observation_values = get_observation_values};
 };
 
 }  // namespace rddl

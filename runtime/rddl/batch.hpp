@@ -1,23 +1,25 @@
 // Many environments of one simulator, stepped together.
 //
-// Each environment has its own state record and episode; nothing is shared between them, so a
+// They lie in blocks of as many as the engine's lane type holds; environment i is lane i % width of
+// block i / width. Each has its own state and episode; nothing is shared between them, so a
 // trajectory does not depend on the batch around it or on the threads. Nothing is allocated after
 // construction.
 #pragma once
 
 #include <rddl/action_choices.hpp>
+#include <rddl/columns.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
 #include <rddl/policy.hpp>
 #include <rddl/simulator.h>
 #include <rddl/threads.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
-#include <span>
 #include <vector>
 
 namespace rddl {
@@ -66,21 +68,37 @@ struct BatchOptions {
 template <Engine E>
 class Batch {
   public:
+    using L = typename E::Lane;
+    using Bool = typename L::Bool;
+    static constexpr int width = L::width;
+
     // Every environment starts its first episode. Throws std::bad_alloc.
-    Batch(const E& engine, const BatchOptions& options)
+    Batch(const E& engine, const rddl_problem& problem, const BatchOptions& options)
         : engine_(&engine),
+          problem_(&problem),
           options_(options),
-          states_(count(), engine.state_size()),
-          observations_(options.partially_observed ? count() : 0, engine.observation_size()),
-          memories_(has_policy(engine) ? count() : 0, memory_size(engine)),
-          episodes_(count()),
+          state_columns_(columns_of<L>(problem, RDDL_STATE, problem.state_size)),
+          action_columns_(columns_of<L>(problem, RDDL_ACTION, problem.action_size)),
+          observation_columns_(options.partially_observed ? columns_of<L>(problem, RDDL_OBSERVATION,
+                                                                          problem.observation_size)
+                                                          : state_columns_),
+          states_(block_count(), engine.state_size()),
+          observations_(options.partially_observed ? block_count() : 0, engine.observation_size()),
+          memories_(has_policy(engine) ? block_count() : 0, memory_size(engine)),
+          episodes_(block_count()),
           workspaces_(static_cast<std::size_t>(options.thread_count), Workspace(engine)),
           team_(options.thread_count) {
+        for (int lane = lanes_of(episodes_.size() - 1); lane < width; ++lane)
+            set_lane(episodes_.back().present, lane, false);
         reset(nullptr, nullptr);
     }
     Batch(const Batch& other)
         : engine_(other.engine_),
+          problem_(other.problem_),
           options_(other.options_),
+          state_columns_(other.state_columns_),
+          action_columns_(other.action_columns_),
+          observation_columns_(other.observation_columns_),
           states_(other.states_),
           observations_(other.observations_),
           memories_(other.memories_),
@@ -90,66 +108,114 @@ class Batch {
     Batch& operator=(const Batch&) = delete;
 
     std::int64_t environment_count() const { return options_.environment_count; }
-    const Episode& episode(std::int64_t i) const { return episodes_[static_cast<std::size_t>(i)]; }
-    const std::byte* state(std::int64_t i) const { return states_[i]; }
-    // In a fully observed problem the state is what is observed.
-    const std::byte* observation(std::int64_t i) const {
-        return options_.partially_observed ? observations_[i] : states_[i];
+    const Columns& action_columns() const { return action_columns_; }
+
+    // --------------------------------------------------------------- one environment
+
+    std::int64_t steps(std::int64_t i) const { return get_lane(at(i).steps, lane_of(i)); }
+    std::int64_t episode_number(std::int64_t i) const { return get_lane(at(i).number, lane_of(i)); }
+    std::uint8_t causes(std::int64_t i) const { return at(i).causes(lane_of(i)); }
+
+    // The fault of the episode, or of the last one until this one makes a step; else nothing.
+    const FaultRecord* fault(std::int64_t i) const {
+        const bool faulty = get_lane(at(i).has_fault, lane_of(i));
+        return faulty ? &at(i).faults[static_cast<std::size_t>(lane_of(i))] : nullptr;
     }
+    std::int64_t steps_before_fault(std::int64_t i) const {
+        return at(i).fault_steps[static_cast<std::size_t>(lane_of(i))];
+    }
+
+    void get_state(std::int64_t i, std::byte* record) const {
+        write_record(L{}, state_columns_, states_[i / width], lane_of(i), record);
+    }
+    // In a fully observed problem the state is what is observed.
+    void get_observation(std::int64_t i, std::byte* record) const {
+        write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
+    }
+    // The episode goes on from this state, unless it is terminal.
+    void set_state(std::int64_t i, const std::byte* record) {
+        read_record(L{}, state_columns_, record, states_[i / width], lane_of(i));
+        Bool lane{false};
+        set_lane(lane, lane_of(i), true);
+        end_if_terminal(*engine_, at(i), lane, states_[i / width]);
+    }
+
+    // -------------------------------------------------------------- all environments
 
     // Starts a new episode where the mask is non-zero, or everywhere without one.
     void reset(const std::uint8_t* mask, std::byte* observations) {
-        for_each_environment([&](Workspace&, std::int64_t i) {
-            if (mask == nullptr || mask[i] != 0) start(i);
-            write_observation(observations, i);
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            Bool chosen = episodes_[index(b)].present;
+            for (int lane = 0; mask != nullptr && lane < lanes_of(b); ++lane)
+                set_lane(chosen, lane, mask[b * width + lane] != 0);
+            start(workspace, b, chosen);
+            write_observations(observations, b);
         });
     }
 
     void step(const std::byte* actions, const rddl_transition& out) {
-        for_each_environment([&](Workspace& workspace, std::int64_t i) {
-            copy_record(workspace.action[0], actions, i, engine_->action_size());
-            step_environment(workspace, i, out);
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            read_actions(workspace, actions, b);
+            step_block(workspace, b, out);
         });
     }
 
-    // The episode goes on from this state, unless it is terminal.
-    void set_state(std::int64_t i, const std::byte* state) {
-        std::memcpy(states_[i], state, engine_->state_size());
-        end_if_terminal(*engine_, episode_of(i), states_[i]);
+    // The same with matrices of numbers; `observations` may be null.
+    template <class Number>
+    void step_values(const Number* actions, Number* observations, const rddl_transition& out) {
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            read_values(L{}, action_columns_, actions + b * width * action_columns_.value_count,
+                        lanes_of(b), workspace.action[0]);
+            step_block(workspace, b, out);
+            if (observations != nullptr) write_observation_values(observations, b);
+        });
+    }
+    template <class Number>
+    void get_observation_values(Number* observations) const {
+        for (std::size_t b = 0; b < block_count(); ++b)
+            write_observation_values(observations, static_cast<std::int64_t>(b));
     }
 
+    // The first violated precondition of each environment's action, or -1.
     void violated_preconditions(const std::byte* actions, std::int32_t* first_violated) {
-        for_each_environment([&](Workspace& workspace, std::int64_t i) {
-            copy_record(workspace.action[0], actions, i, engine_->action_size());
-            first_violated[i] = violated_precondition(workspace, i);
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            read_actions(workspace, actions, b);
+            const auto first = violated_precondition(workspace, b);
+            for (int lane = 0; lane < lanes_of(b); ++lane)
+                first_violated[b * width + lane] = static_cast<std::int32_t>(get_lane(first, lane));
         });
     }
 
     // The action of the policy in each environment; the default one where the episode is over or
     // the policy faults. Only with an engine that has a policy.
-    void act(const rddl_problem& problem, std::byte* actions) requires PolicyEngine<E> {
-        const auto* const default_action = static_cast<const std::byte*>(problem.default_action);
-        for_each_environment([&](Workspace& workspace, std::int64_t i) {
-            Episode& episode = episode_of(i);
-            if (!episode.over())
-                decide(*engine_, problem, episode, observation(i), workspace.decision_buffers(),
-                       memories_[i]);
-            const std::byte* const action = episode.over() ? default_action : workspace.action[0];
+    void act(std::byte* actions) requires PolicyEngine<E> &&(width == 1) {
+        const auto* const default_action = static_cast<const std::byte*>(problem_->default_action);
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            decide(*engine_, *problem_, episodes_[index(b)], observed(b),
+                   workspace.decision_buffers(), memories_[b]);
+            const bool over = !episodes_[index(b)].running();
             const std::size_t size = engine_->action_size();
-            if (size > 0) std::memcpy(actions + static_cast<std::size_t>(i) * size, action, size);
+            if (size > 0)
+                std::memcpy(actions + index(b) * size, over ? default_action : workspace.action[0],
+                            size);
         });
     }
 
     // One byte for each environment and choice (action_choices.hpp): is it allowed now?
-    void action_mask(const rddl_problem& problem, std::uint8_t* masks) {
-        const std::int64_t choices = choice_count(problem);
-        for_each_environment([&](Workspace& workspace, std::int64_t i) {
-            std::byte* const action = workspace.action[0];
-            copy_record(action, static_cast<const std::byte*>(problem.default_action), 0,
-                        engine_->action_size());
-            for_each_choice(problem, action, [&](std::int64_t choice) {
-                const bool allowed = choice == 0 || problem.max_nondef_actions != 0;
-                masks[i * choices + choice] = allowed && violated_precondition(workspace, i) < 0;
+    void action_mask(std::uint8_t* masks) {
+        const std::int64_t choices = choice_count(*problem_);
+        for_each_block([&](Workspace& workspace, std::int64_t b) {
+            std::byte* const record = workspace.choice[0];
+            copy_record(record, static_cast<const std::byte*>(problem_->default_action),
+                        static_cast<std::size_t>(problem_->action_size));
+            for_each_choice(*problem_, record, [&](std::int64_t choice) {
+                for (int lane = 0; lane < width; ++lane)
+                    read_record(L{}, action_columns_, record, workspace.action[0], lane);
+                const bool possible = choice == 0 || problem_->max_nondef_actions != 0;
+                const auto first = violated_precondition(workspace, b);
+                for (int lane = 0; lane < lanes_of(b); ++lane)
+                    masks[(b * width + lane) * choices + choice] =
+                        possible && get_lane(first, lane) < 0;
             });
         });
     }
@@ -159,6 +225,7 @@ class Batch {
     struct Workspace {
         explicit Workspace(const E& engine)
             : action(1, engine.action_size()),
+              choice(1, engine.action_size()),
               scratch(1, engine.scratch_size()),
               next(1, engine.state_size()),
               observation(1, engine.observation_size()),
@@ -169,91 +236,135 @@ class Batch {
         DecisionBuffers decision_buffers() { return {scratch[0], action[0], next_memory[0]}; }
 
         Records action;
+        Records choice;  // one record of the C interface
         Records scratch;
         Records next;
         Records observation;
         Records next_memory;
     };
 
-    std::size_t count() const { return static_cast<std::size_t>(options_.environment_count); }
-    Episode& episode_of(std::int64_t i) { return episodes_[static_cast<std::size_t>(i)]; }
-    std::byte* observation_of(std::int64_t i) {
-        return options_.partially_observed ? observations_[i] : states_[i];
+    static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
+    static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
+
+    std::size_t block_count() const {
+        return static_cast<std::size_t>((options_.environment_count + width - 1) / width);
+    }
+    // Environments in the block.
+    int lanes_of(std::size_t b) const { return lanes_of(static_cast<std::int64_t>(b)); }
+    int lanes_of(std::int64_t b) const {
+        return static_cast<int>(
+            std::min<std::int64_t>(width, options_.environment_count - b * width));
+    }
+    Episodes<L>& at(std::int64_t i) { return episodes_[index(i / width)]; }
+    const Episodes<L>& at(std::int64_t i) const { return episodes_[index(i / width)]; }
+    std::byte* observed(std::int64_t b) {
+        return options_.partially_observed ? observations_[b] : states_[b];
+    }
+    const std::byte* observed(std::int64_t b) const {
+        return options_.partially_observed ? observations_[b] : states_[b];
     }
 
     template <class Body>
-    void for_each_environment(Body&& body) {
+    void for_each_block(Body&& body) {
         team_.run([&](int worker) {
-            const Range share = share_of(worker, team_.size(), environment_count());
+            const auto blocks = static_cast<std::int64_t>(block_count());
+            const Range share = share_of(worker, team_.size(), blocks, 64 / width);
             Workspace& workspace = workspaces_[static_cast<std::size_t>(worker)];
-            for (std::int64_t i = share.begin; i < share.end; ++i) body(workspace, i);
+            for (std::int64_t b = share.begin; b < share.end; ++b) body(workspace, b);
         });
     }
 
-    void start(std::int64_t i) {
-        const auto identity =
-            static_cast<std::uint64_t>(options_.first_environment) + static_cast<std::uint64_t>(i);
-        start_next(*engine_, episode_of(i), options_.seed, identity, states_[i]);
-        if (options_.partially_observed)
-            std::memset(observations_[i], 0, engine_->observation_size());
+    void read_actions(Workspace& workspace, const std::byte* actions, std::int64_t b) {
+        read_records(L{}, action_columns_, actions + b * width * action_columns_.row_size,
+                     lanes_of(b), workspace.action[0]);
+    }
+
+    void start(Workspace& workspace, std::int64_t b, Bool lanes) {
+        const std::uint64_t identity = static_cast<std::uint64_t>(options_.first_environment) +
+                                       static_cast<std::uint64_t>(b * width);
+        start_next(*engine_, state_columns_, episodes_[index(b)], lanes, options_.seed, identity,
+                   workspace.next[0], states_[b]);
+        if (options_.partially_observed) clear_observations(workspace, b, lanes);
         if constexpr (PolicyEngine<E>)
-            if (engine_->has_policy()) engine_->reset_policy(memories_[i]);
+            if (engine_->has_policy() && any(lanes)) engine_->reset_policy(memories_[b]);
+    }
+    void clear_observations(Workspace& workspace, std::int64_t b, Bool lanes) {
+        std::memset(workspace.observation[0], 0, engine_->observation_size());
+        merge(L{}, observation_columns_, lanes, workspace.observation[0], observations_[b]);
     }
 
     // Of the action in the workspace.
-    int violated_precondition(Workspace& workspace, std::int64_t i) const {
-        Context<Scalar> context = episode(i).context_at(episode(i).steps + 1);
-        return engine_->violated_precondition(states_[i], workspace.action[0], context);
+    typename L::Int violated_precondition(Workspace& workspace, std::int64_t b) const {
+        const Episodes<L>& episodes = episodes_[index(b)];
+        Context<L> context = episodes.context_of_step(episodes.present);
+        return engine_->violated_precondition(states_[b], workspace.action[0], context);
     }
 
-    void step_environment(Workspace& workspace, std::int64_t i, const rddl_transition& out) {
-        Episode& episode = episode_of(i);
-        double reward = 0.0;
-        if (!episode.over())
-            reward = advance(*engine_, episode, options_.horizon, workspace.action[0],
-                             workspace.step_buffers(), states_[i], observation_of(i));
-        else if (options_.autoreset == RDDL_AUTORESET_NEXT_STEP)
-            start(i);
+    void step_block(Workspace& workspace, std::int64_t b, const rddl_transition& out) {
+        Episodes<L>& episodes = episodes_[index(b)];
+        const Bool was_over = episodes.present && episodes.over();
+        const auto rewards =
+            advance(*engine_, state_columns_, observation_columns_, episodes, options_.horizon,
+                    workspace.action[0], workspace.step_buffers(), states_[b], observed(b));
+        if (options_.autoreset == RDDL_AUTORESET_NEXT_STEP && any(was_over))
+            start(workspace, b, was_over);
 
-        if (out.rewards != nullptr) out.rewards[i] = reward;
-        if (out.terminated != nullptr) out.terminated[i] = episode.terminated();
-        if (out.truncated != nullptr) out.truncated[i] = episode.truncated();
-        if (out.causes != nullptr) out.causes[i] = episode.causes;
-        if (episode.over() && options_.autoreset == RDDL_AUTORESET_SAME_STEP) {
-            write_observation(out.final_observations, i);
-            start_keeping_fault(i);
+        const std::int64_t first = b * width;
+        if (out.rewards != nullptr) write_reals(rewards, out.rewards + first, lanes_of(b));
+        if (out.terminated != nullptr)
+            write_flags(episodes.terminated, out.terminated + first, lanes_of(b));
+        if (out.truncated != nullptr)
+            write_flags(episodes.truncated(), out.truncated + first, lanes_of(b));
+        for (int lane = 0; out.causes != nullptr && lane < lanes_of(b); ++lane)
+            out.causes[first + lane] = episodes.causes(lane);
+        const Bool ended = episodes.present && episodes.over();
+        if (options_.autoreset == RDDL_AUTORESET_SAME_STEP && any(ended)) {
+            write_final_observations(out.final_observations, b, ended);
+            start_keeping_faults(workspace, b, ended);
         }
-        write_observation(out.observations, i);
+        write_observations(out.observations, b);
     }
 
     // The fault that ended an episode can be read until the next one makes a step.
-    void start_keeping_fault(std::int64_t i) {
-        Episode& episode = episode_of(i);
-        const Episode ended = episode;
-        start(i);
-        if (episode.fault) return;
-        episode.fault = ended.fault;
-        episode.fault_steps = ended.fault_steps;
+    void start_keeping_faults(Workspace& workspace, std::int64_t b, Bool lanes) {
+        Episodes<L>& episodes = episodes_[index(b)];
+        const Bool had_fault = episodes.has_fault;
+        start(workspace, b, lanes);
+        episodes.has_fault = episodes.has_fault || had_fault;
     }
 
-    void write_observation(void* records, std::int64_t i) {
-        const std::size_t size = engine_->observation_size();
-        if (records != nullptr)
-            std::memcpy(static_cast<std::byte*>(records) + static_cast<std::size_t>(i) * size,
-                        observation(i), size);
+    void write_observations(void* records, std::int64_t b) const {
+        if (records == nullptr) return;
+        const std::int64_t size = observation_columns_.row_size;
+        write_records(L{}, observation_columns_, observed(b),
+                      static_cast<std::byte*>(records) + b * width * size, lanes_of(b));
+    }
+    template <class Number>
+    void write_observation_values(Number* observations, std::int64_t b) const {
+        write_values(L{}, observation_columns_, observed(b),
+                     observations + b * width * observation_columns_.value_count, lanes_of(b));
+    }
+    void write_final_observations(void* records, std::int64_t b, Bool lanes) const {
+        if (records == nullptr) return;
+        const std::int64_t size = observation_columns_.row_size;
+        for_each_lane(lanes, [&](int lane) {
+            write_record(L{}, observation_columns_, observed(b), lane,
+                         static_cast<std::byte*>(records) + (b * width + lane) * size);
+        });
     }
 
-    static void copy_record(std::byte* target, const std::byte* records, std::int64_t i,
-                            std::size_t size) {
-        if (size > 0) std::memcpy(target, records + static_cast<std::size_t>(i) * size, size);
+    static void copy_record(std::byte* target, const std::byte* record, std::size_t size) {
+        if (size > 0) std::memcpy(target, record, size);
     }
 
     const E* engine_;
+    const rddl_problem* problem_;
     BatchOptions options_;
-    Records states_;
-    Records observations_;  // empty when fully observed
-    Records memories_;      // of the policy; empty without one
-    std::vector<Episode> episodes_;
+    Columns state_columns_, action_columns_, observation_columns_;
+    Records states_;        // blocks
+    Records observations_;  // blocks; none when fully observed
+    Records memories_;      // of the policy; none without one
+    std::vector<Episodes<L>> episodes_;
     std::vector<Workspace> workspaces_;
     Team team_;
 };

@@ -1,9 +1,9 @@
-// An emitted simulator as an engine (engine.hpp). Its sizes are constants, so that a batch copies
-// small records in a few instructions.
+// An emitted simulator as an engine (engine.hpp), for one environment or for packs of them.
 #pragma once
 
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
+#include <rddl/pack_ops.hpp>
 
 #include <cstddef>
 #include <type_traits>
@@ -20,13 +20,14 @@ struct NoPolicy {
     struct Memory {};
 };
 
-template <class Simulator, class Policy = NoPolicy>
+template <class Simulator, class Policy = NoPolicy, class L = Scalar>
 struct Compiled {
-    using State = typename Simulator::template State<Scalar>;
-    using Action = typename Simulator::template Action<Scalar>;
-    using Scratch = typename Simulator::template Scratch<Scalar>;
-    using Observation = typename Simulator::template Observation<Scalar>;
-    using Memory = typename Policy::template Memory<Scalar>;
+    using Lane = L;
+    using State = typename Simulator::template State<L>;
+    using Action = typename Simulator::template Action<L>;
+    using Scratch = typename Simulator::template Scratch<L>;
+    using Observation = typename Simulator::template Observation<L>;
+    using Memory = typename Policy::template Memory<L>;
     static_assert(std::is_trivially_copyable_v<State> && std::is_trivially_copyable_v<Action> &&
                   std::is_trivially_copyable_v<Scratch> &&
                   std::is_trivially_copyable_v<Observation> &&
@@ -39,12 +40,13 @@ struct Compiled {
         return Simulator::partially_observed ? record_size<Observation> : record_size<State>;
     }
 
-    static void reset(std::byte* state, Context<Scalar>& context) {
+    static void reset(std::byte* state, Context<L>& context) {
         Simulator::reset(as<State>(state), context);
     }
 
-    static double step(const std::byte* state, const std::byte* action, std::byte* scratch,
-                       std::byte* next, std::byte* observation, Context<Scalar>& context) {
+    static typename L::Real step(const std::byte* state, const std::byte* action,
+                                 std::byte* scratch, std::byte* next, std::byte* observation,
+                                 Context<L>& context) {
         const State& current = as<State>(state);
         const Action& chosen = as<Action>(action);
         Scratch& workspace = as<Scratch>(scratch);
@@ -54,27 +56,24 @@ struct Compiled {
         return Simulator::reward(current, chosen, workspace, following, context);
     }
 
-    static bool terminal(const std::byte* state, Context<Scalar>& context) {
-        bool holds = false;
+    static typename L::Bool terminal(const std::byte* state, Context<L>& context) {
+        typename L::Bool holds{false};
         for (Index k = 0; k < Simulator::termination_count; ++k)
             holds = Simulator::termination(k, as<State>(state), context) || holds;
         return holds;
     }
 
-    static int violated_invariant(const std::byte* state, Context<Scalar>& context) {
-        for (Index k = 0; k < Simulator::invariant_count; ++k)
-            if (!Simulator::invariant(k, as<State>(state), context) || context.fault)
-                return static_cast<int>(k);
-        return -1;
+    static typename L::Int violated_invariant(const std::byte* state, Context<L>& context) {
+        return first_violated(Simulator::invariant_count, context, [&](Index k) {
+            return Simulator::invariant(k, as<State>(state), context);
+        });
     }
 
-    static int violated_precondition(const std::byte* state, const std::byte* action,
-                                     Context<Scalar>& context) {
-        for (Index k = 0; k < Simulator::precondition_count; ++k)
-            if (!Simulator::precondition(k, as<State>(state), as<Action>(action), context) ||
-                context.fault)
-                return static_cast<int>(k);
-        return -1;
+    static typename L::Int violated_precondition(const std::byte* state, const std::byte* action,
+                                                 Context<L>& context) {
+        return first_violated(Simulator::precondition_count, context, [&](Index k) {
+            return Simulator::precondition(k, as<State>(state), as<Action>(action), context);
+        });
     }
 
     // The policy, if there is one (policy.hpp).
@@ -88,13 +87,29 @@ struct Compiled {
 
     static void act(const std::byte* observation, const std::byte* memory, std::byte* scratch,
                     std::byte* action, std::byte* next_memory,
-                    Context<Scalar>& context) requires with_policy {
+                    Context<L>& context) requires with_policy {
         using Seen = std::conditional_t<Simulator::partially_observed, Observation, State>;
         Policy::act(as<Seen>(observation), as<Memory>(memory), as<Scratch>(scratch),
                     as<Action>(action), as<Memory>(next_memory), context);
     }
 
   private:
+    // Of the conditions 0 .. count - 1; -1 where all hold.
+    template <class Condition>
+    static typename L::Int first_violated(Index count, const Context<L>& context,
+                                          Condition&& condition) {
+        using Bool = typename L::Bool;
+        using Int = typename L::Int;
+        Int first{std::int64_t{-1}};
+        for (Index k = 0; k < count; ++k) {
+            const Bool holds = condition(k);
+            const Bool unviolated = first < Int{0};
+            first = select((!holds || context.faulted()) && unviolated, Int{k}, first);
+            if (all(!unviolated)) break;
+        }
+        return first;
+    }
+
     template <class Record>
     static Record& as(std::byte* record) {
         return *reinterpret_cast<Record*>(record);
@@ -104,5 +119,9 @@ struct Compiled {
         return *reinterpret_cast<const Record*>(record);
     }
 };
+
+// The same simulator for packs of n environments.
+template <class Simulator, int n>
+using Packed = Compiled<Simulator, NoPolicy, Pack<n>>;
 
 }  // namespace rddl

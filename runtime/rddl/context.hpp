@@ -2,7 +2,9 @@
 #pragma once
 
 #include <rddl/lane.hpp>
+#include <rddl/pack.hpp>
 
+#include <array>
 #include <cstdint>
 
 namespace rddl {
@@ -64,16 +66,93 @@ struct FaultRecord {
 template <class L>
 struct Context;
 
+// No draw has this site.
+inline constexpr std::uint32_t no_site = ~std::uint32_t{0};
+
 template <>
 struct Context<Scalar> {
     StreamKey key;
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
-    FaultRecord fault;
+    FaultRecord fault{};
+
+    // The numbers made last (random.hpp): of this step, of one site and 2 * simd::lanes
+    // neighbouring indices, the even ones first.
+    struct Recent {
+        std::uint32_t site = no_site;
+        std::uint32_t chunk;
+        double numbers[2][simd::lanes];
+    } recent{};
+
+    static constexpr Context of(std::uint64_t key_low, std::uint64_t key_high, std::uint64_t step,
+                                bool /*active*/) {
+        return {{static_cast<std::uint32_t>(key_low), static_cast<std::uint32_t>(key_high)},
+                static_cast<std::uint32_t>(step),
+                {},
+                {}};
+    }
+
+    constexpr void go_to_next_step() {
+        ++step;
+        recent.site = no_site;
+    }
+
+    constexpr bool faulted() const { return static_cast<bool>(fault); }
+    constexpr const FaultRecord& fault_of(int /*lane*/) const { return fault; }
 
     // Passes `ok` on, having recorded a fault where it is false. The first fault wins.
     constexpr bool require(bool ok, FaultKind kind, Place place, double value) {
         if (!ok && !fault) fault = {kind, place, value};
         return ok;
+    }
+};
+
+template <int n>
+struct Context<Pack<n>> {
+    using Word = Lanes<std::uint64_t, n>;
+
+    Word key_low, key_high;
+    Word step;
+    Mask<n> active;  // the lanes whose values are looked at: they alone can fault
+    Mask<n> faulty{false};
+    std::array<FaultRecord, static_cast<std::size_t>(n)> faults;  // of the faulty lanes
+
+    // The numbers made last: of one site and two neighbouring indices.
+    struct Recent {
+        std::uint32_t site = no_site;
+        std::uint32_t block;
+        Lanes<double, n> even, odd;
+    } recent;
+
+    static Context of(const Word& key_low, const Word& key_high, const Word& step, Mask<n> active) {
+        Context context;
+        context.key_low = key_low;
+        context.key_high = key_high;
+        context.step = step;
+        context.active = active;
+        return context;
+    }
+
+    Mask<n> faulted() const { return faulty; }
+    const FaultRecord& fault_of(int lane) const { return faults[static_cast<std::size_t>(lane)]; }
+
+    StreamKey key(int lane) const {
+        return {static_cast<std::uint32_t>(key_low[lane]),
+                static_cast<std::uint32_t>(key_high[lane])};
+    }
+
+    RDDL_INLINE Mask<n> require(Mask<n> ok, FaultKind kind, Place place,
+                                const Lanes<double, n>& value) {
+        if (any(active && !ok)) record(active && !ok, kind, place, value);
+        return ok;
+    }
+
+  private:
+    [[gnu::noinline, gnu::cold]] void record(Mask<n> failed, FaultKind kind, Place place,
+                                             const Lanes<double, n>& value) {
+        for_each_lane(failed && !faulty, [&](int lane) {
+            faults[static_cast<std::size_t>(lane)] = {kind, place, value[lane]};
+        });
+        faulty = faulty || failed;
     }
 };
 

@@ -1,8 +1,11 @@
-// What a batch needs from a simulator of one environment, compiled or interpreted.
+// What a batch needs from a simulator, compiled or interpreted.
+//
+// An engine works on blocks of Lane::width environments; that of the interpreter is one. A record
+// of a block holds each value as the lane type's Bool, Int or Real.
 //
 // An engine is immutable and shared by threads: all its functions are const and work on records
-// that the caller owns, laid out as simulator.h says. Pointers are never null and are aligned for
-// any element, also where a record is empty.
+// that the caller owns. Those of one environment are laid out as simulator.h says. Pointers are
+// never null and are aligned for any element, also where a record is empty.
 #pragma once
 
 #include <rddl/context.hpp>
@@ -15,7 +18,7 @@ namespace rddl {
 
 template <class E>
 concept Engine = requires(const E engine, const std::byte* record, std::byte* target,
-                          Context<Scalar>& context) {
+                          Context<typename E::Lane>& context) {
     // Bytes of one record; 0 for an empty one. Scratch is whatever a step needs beside them.
     { engine.state_size() } -> std::convertible_to<std::size_t>;
     { engine.action_size() } -> std::convertible_to<std::size_t>;
@@ -26,13 +29,17 @@ concept Engine = requires(const E engine, const std::byte* record, std::byte* ta
     {engine.reset(target, context)};
     // step(state, action, scratch, next, observation, context): fills the next state, and the
     // observation of a partially observed problem; the reward.
-    { engine.step(record, record, target, target, target, context) } -> std::convertible_to<double>;
+    {
+        engine.step(record, record, target, target, target, context)
+        } -> std::convertible_to<typename E::Lane::Real>;
 
     // Whether a termination condition holds.
-    { engine.terminal(record, context) } -> std::convertible_to<bool>;
+    { engine.terminal(record, context) } -> std::convertible_to<typename E::Lane::Bool>;
     // The first violated condition, or -1. One that faults counts as violated.
-    { engine.violated_invariant(record, context) } -> std::convertible_to<int>;
-    { engine.violated_precondition(record, record, context) } -> std::convertible_to<int>;
+    { engine.violated_invariant(record, context) } -> std::convertible_to<typename E::Lane::Int>;
+    {
+        engine.violated_precondition(record, record, context)
+        } -> std::convertible_to<typename E::Lane::Int>;
 };
 
 }  // namespace rddl

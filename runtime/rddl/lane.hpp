@@ -1,10 +1,11 @@
 // Lane types: what one evaluation of the emitted code works on.
 //
 // Emitted code and kernels are generic over a lane type L, which names the types of values. Scalar
-// is one environment. A pack of environments would be another lane type with the same names.
+// is one environment, Pack<n> (pack.hpp) is n of them.
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl {
 
@@ -13,9 +14,30 @@ struct Scalar {
     using Bool = bool;
     using Int = std::int64_t;
     using Real = double;
+    using Word = std::uint64_t;  // 64 random bits, or a counter
 };
 
 // A loop index: the same in every lane.
 using Index = std::int64_t;
+
+// The value of one lane, and another one in its place.
+template <class T>
+constexpr auto get_lane(const T& value, int lane) {
+    return value[lane];
+}
+template <class T, class Value>
+constexpr void set_lane(T& target, int lane, Value value) {
+    target.set(lane, value);
+}
+template <class T>
+requires std::is_arithmetic_v<T>
+constexpr T get_lane(const T& value, int) {
+    return value;
+}
+template <class T, class Value>
+requires std::is_arithmetic_v<T>
+constexpr void set_lane(T& target, int, Value value) {
+    target = value;
+}
 
 }  // namespace rddl

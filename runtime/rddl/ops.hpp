@@ -152,11 +152,14 @@ inline std::int64_t ceil(double a) {
     return truncate_to_int(std::ceil(a));
 }
 
-// Both fault unless a > 0.
-inline double ln_gamma(Context<Scalar>& context, Place place, double a) {
-    if (!context.require(a > 0, FaultKind::GammaArgument, place, a)) return 0.0;
+inline double ln_absolute_gamma(double a) {
     int sign_of_gamma;
     return ::lgamma_r(a, &sign_of_gamma);  // std::lgamma writes a global variable
+}
+// Both fault unless a > 0.
+inline double ln_gamma(Context<Scalar>& context, Place place, double a) {
+    const bool valid = context.require(a > 0, FaultKind::GammaArgument, place, a);
+    return valid ? ln_absolute_gamma(a) : 0.0;
 }
 inline double gamma(Context<Scalar>& context, Place place, double a) {
     return context.require(a > 0, FaultKind::GammaArgument, place, a) ? std::tgamma(a) : 0.0;

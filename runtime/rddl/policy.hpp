@@ -16,7 +16,8 @@ namespace rddl {
 // An engine that may have a policy. Memory is what the policy remembers within an episode.
 template <class E>
 concept PolicyEngine = Engine<E> &&
-    requires(const E engine, const std::byte* record, std::byte* target, Context<Scalar>& context) {
+    requires(const E engine, const std::byte* record, std::byte* target,
+             Context<typename E::Lane>& context) {
     // The functions below may be called where this is true.
     { engine.has_policy() } -> std::convertible_to<bool>;
     { engine.memory_size() } -> std::convertible_to<std::size_t>;
@@ -81,19 +82,20 @@ struct DecisionBuffers {
     std::byte* next_memory;
 };
 
-// One decision of a running episode. A fault ends the episode, and so does an action with more than
-// max-nondef-actions values that are not the default; else the memory changes.
+// One decision of an episode, if it runs. A fault ends the episode, and so does an action with more
+// than max-nondef-actions values that are not the default; else the memory changes.
 template <PolicyEngine E>
-void decide(const E& engine, const rddl_problem& problem, Episode& episode,
+void decide(const E& engine, const rddl_problem& problem, Episodes<Scalar>& episode,
             const std::byte* observation, const DecisionBuffers& buffers, std::byte* memory) {
-    Context<Scalar> context = episode.context_at(episode.steps + 1);
+    if (!episode.running()) return;
+    Context<Scalar> context = episode.context_of_step(true);
     engine.act(observation, memory, buffers.scratch, buffers.action, buffers.next_memory, context);
     if (problem.max_nondef_actions >= 0) {
         const std::int64_t changed = count_non_default(problem, buffers.action);
         context.require(changed <= problem.max_nondef_actions, FaultKind::ActionLimit, {},
                         static_cast<double>(changed));
     }
-    if (context.fault) return episode.end_by(context.fault);
+    if (context.fault) return episode.end_by_faults(context);
     std::memcpy(memory, buffers.next_memory, engine.memory_size());
 }
 

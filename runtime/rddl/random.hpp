@@ -1,83 +1,164 @@
 // Random numbers as a pure function of what they are for (docs/randomness.md).
 //
-// An episode has a stream key made from (seed, environment, episode); a draw has the counter
+// An episode has a stream key made from (seed, environment, episode); a draw has the coordinates
 // (step, site, index) in that stream. So a draw depends neither on what was drawn before it nor
 // on batches, threads or machines.
 #pragma once
 
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
+#include <rddl/pack_ops.hpp>
 #include <rddl/philox.hpp>
 
-#include <array>
 #include <cstdint>
 
 namespace rddl {
 
 constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
                                std::uint64_t episode) {
-    using philox::high_word, philox::low_word;
-    const philox::Block block = philox::generate(
-        {low_word(environment), high_word(environment), low_word(episode), high_word(episode)},
-        {low_word(seed), high_word(seed)});
-    return {block[0], block[1]};
+    const philox::Block<std::uint64_t> block = philox::generate<philox::key_rounds>(
+        philox::Block<std::uint64_t>{environment, environment >> 32, episode, episode >> 32},
+        philox::Key<std::uint64_t>{seed, seed >> 32});
+    return {static_cast<std::uint32_t>(block[0]), static_cast<std::uint32_t>(block[1])};
 }
 
-// 53 bits in [0, 1).
-constexpr double unit_real(std::uint64_t bits) {
-    return static_cast<double>(bits >> 11) * 0x1p-53;
+// The upper 52 bits of two words, low word first: a multiple of 2^-52 in [0, 1).
+template <class Word>
+RDDL_INLINE auto unit_real(Word low, Word high) {
+    const Word mantissa = ((high << 32) >> 12) | ((low << 32) >> 44);
+    const Word one = Word{std::uint64_t{0x3FF0000000000000}};
+    return real_of_bits(mantissa | one) - 1.0;
 }
-// 52 bits in (0, 1), symmetric about 1/2: neither 0 nor 1 occurs.
-constexpr double open_unit_real(std::uint64_t bits) {
-    return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
+// In (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
+template <class Real>
+RDDL_INLINE Real open_unit_real(Real unit) {
+    return unit + 0x1p-53;
 }
 
-// The random numbers of one draw, as many as it needs: two from each counter value.
-class Draws {
-  public:
-    constexpr Draws(const Context<Scalar>& context, Place place)
-        : counter_{context.step, place.site, place.index, 0},
-          key_{context.key.low, context.key.high} {}
+// ------------------------------------------------------------------- one number of each draw
 
-    constexpr double uniform() { return unit_real(bits()); }
-    constexpr double open_uniform() { return open_unit_real(bits()); }
-
-  private:
-    constexpr std::uint64_t bits() {
-        if (used_ == block_.size()) refill();
-        const std::uint64_t low = block_[used_];
-        const std::uint64_t high = block_[used_ + 1];
-        used_ += 2;
-        return high << 32 | low;
-    }
-    constexpr void refill() {
-        block_ = philox::generate(counter_, key_);
-        ++counter_[3];
-        used_ = 0;
-    }
-
-    philox::Block counter_;
-    philox::Key key_;
-    philox::Block block_{};
-    std::uint32_t used_ = 4;
+// A counter value gives two numbers. They are the first ones of two draws, whose indices differ
+// in the last bit.
+template <class Real>
+struct TwoDraws {
+    Real even, odd;
 };
 
-// For draws that need one uniform number.
-constexpr double uniform_at(const Context<Scalar>& context, Place place) {
-    return Draws(context, place).uniform();
-}
-constexpr double open_uniform_at(const Context<Scalar>& context, Place place) {
-    return Draws(context, place).open_uniform();
+template <class Word>
+RDDL_INLINE auto first_numbers(Word step, std::uint32_t site, Word block_number,
+                               const philox::Key<Word>& key) {
+    const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
+        philox::Block<Word>{step, Word{std::uint64_t{site}}, block_number, Word{std::uint64_t{0}}},
+        key);
+    const auto even = unit_real(words[0], words[1]);
+    const auto odd = unit_real(words[2], words[3]);
+    return TwoDraws<std::remove_const_t<decltype(even)>>{even, odd};
 }
 
-// For draws that need more: `kernel(draws, parameters...)` in each lane whose parameters are
-// valid, zero elsewhere.
+// A loop draws for one index after the other, so some are made at once: for packs the draws of two
+// neighbours, for one environment as many as a register has room for.
+template <int n>
+[[gnu::noinline]] void refill(Context<Pack<n>>& context, std::uint32_t site,
+                              std::uint32_t block_number) {
+    using Word = Lanes<std::uint64_t, n>;
+    const auto draws = first_numbers<Word>(context.step, site, Word{std::uint64_t{block_number}},
+                                           {context.key_low, context.key_high});
+    context.recent = {site, block_number, draws.even, draws.odd};
+}
+
+template <int n>
+RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) {
+    const std::uint32_t block_number = place.index / 2;
+    if (context.recent.site != place.site || context.recent.block != block_number)
+        refill(context, place.site, block_number);
+    return place.index % 2 == 0 ? context.recent.even : context.recent.odd;
+}
+
+[[gnu::noinline]] inline void refill(Context<Scalar>& context, std::uint32_t site,
+                                     std::uint32_t chunk) {
+    using Word = Lanes<std::uint64_t, simd::lanes>;
+    Word block_numbers;
+    for (int lane = 0; lane < simd::lanes; ++lane)
+        block_numbers.set(lane, std::uint64_t{chunk} * simd::lanes + lane);
+    const auto draws = first_numbers<Word>(
+        Word{std::uint64_t{context.step}}, site, block_numbers,
+        {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
+    context.recent.site = site;
+    context.recent.chunk = chunk;
+    draws.even.store(context.recent.numbers[0]);
+    draws.odd.store(context.recent.numbers[1]);
+}
+
+inline double uniform_at(Context<Scalar>& context, Place place) {
+    const std::uint32_t chunk = place.index / 2 / simd::lanes;
+    if (context.recent.site != place.site || context.recent.chunk != chunk)
+        refill(context, place.site, chunk);
+    return context.recent.numbers[place.index % 2][place.index / 2 % simd::lanes];
+}
+
+template <class L>
+RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
+    return open_unit_real(uniform_at(context, place));
+}
+
+// -------------------------------------------------------------------- many numbers of a draw
+
+// The random numbers of one draw in one environment, as many as it needs.
+class Draws {
+  public:
+    constexpr Draws(StreamKey key, std::uint32_t step, Place place)
+        : step_(step), place_(place), key_{key.low, key.high} {}
+    constexpr Draws(const Context<Scalar>& context, Place place)
+        : Draws(context.key, context.step, place) {}
+
+    constexpr double uniform() {
+        const std::uint32_t number = number_++;
+        if (number == 0) return first();
+        if (number % 2 == 0) return second_;
+        const philox::Block<std::uint64_t> words = generate(place_.index, 1 + (number - 1) / 2);
+        second_ = unit_real(words[2], words[3]);
+        return unit_real(words[0], words[1]);
+    }
+    constexpr double open_uniform() { return open_unit_real(uniform()); }
+
+  private:
+    constexpr double first() const {
+        const philox::Block<std::uint64_t> words = generate(place_.index / 2, 0);
+        return place_.index % 2 == 0 ? unit_real(words[0], words[1])
+                                     : unit_real(words[2], words[3]);
+    }
+    constexpr philox::Block<std::uint64_t> generate(std::uint64_t index,
+                                                    std::uint64_t number) const {
+        return philox::generate<philox::draw_rounds>(
+            philox::Block<std::uint64_t>{step_, place_.site, index, number}, key_);
+    }
+
+    std::uint64_t step_;
+    Place place_;
+    philox::Key<std::uint64_t> key_;
+    std::uint32_t number_ = 0;
+    double second_ = 0;  // of the counter value used last
+};
+
+// For draws that need more than one number: `kernel(draws, parameters...)` in each lane whose
+// parameters are valid, zero elsewhere.
 template <class Kernel, class... Parameters>
 constexpr auto draw_in_each_lane(const Context<Scalar>& context, Place place, bool valid,
                                  Kernel kernel, Parameters... parameters) {
     Draws draws(context, place);
     using Result = decltype(kernel(draws, parameters...));
     return valid ? kernel(draws, parameters...) : Result{};
+}
+template <int n, class Kernel, class... Parameters>
+auto draw_in_each_lane(const Context<Pack<n>>& context, Place place, Mask<n> valid, Kernel kernel,
+                       Parameters... parameters) {
+    using Result = decltype(kernel(std::declval<Draws&>(), parameters[0]...));
+    LanesOf<Result, n> results{Result{}};
+    for_each_lane(valid && context.active, [&](int lane) {
+        Draws draws(context.key(lane), static_cast<std::uint32_t>(context.step[lane]), place);
+        results.set(lane, kernel(draws, parameters[lane]...));
+    });
+    return results;
 }
 
 // Rejection loops end after this many attempts. A loop that accepts once in two attempts gets

@@ -1,6 +1,7 @@
 // Whether records from outside may be given to an engine, which indexes tables by their objects.
 #pragma once
 
+#include <rddl/columns.hpp>
 #include <rddl/simulator.h>
 
 #include <cstddef>
@@ -47,6 +48,19 @@ inline bool records_are_valid(const rddl_problem& problem, rddl_role role, const
         if (!all_below(static_cast<std::uint64_t>(objects))) return false;
     }
     return true;
+}
+
+// Every number must be one, and every object value the index of an object.
+template <class Number>
+bool values_are_valid(const Columns& columns, const Number* rows, std::int64_t row_count) {
+    bool valid = true;
+    for (std::int64_t i = 0; i < row_count; ++i, rows += columns.value_count)
+        for (const Column& column : columns.list)
+            for (std::int64_t k = column.first; k < column.first + column.count; ++k)
+                valid &= column.limit > 0 ? rows[k] > Number(-0.5) &&
+                                                rows[k] < Number(column.limit) - Number(0.5)
+                                          : rows[k] == rows[k];
+    return valid;
 }
 
 }  // namespace rddl

@@ -8,7 +8,9 @@
 
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
+#include <rddl/pack_ops.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -42,6 +44,20 @@ constexpr std::int64_t times(std::int64_t a, std::int64_t b) {
 }
 constexpr double times(double a, double b) {
     return a * b;
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto plus(const A& a, const B& b) {
+    if constexpr (std::same_as<LanesOf<A, common_width<A, B>>, Lanes<double, common_width<A, B>>>)
+        return a + b;
+    else
+        return wrap_add(a, b);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto times(const A& a, const B& b) {
+    if constexpr (std::same_as<LanesOf<A, common_width<A, B>>, Lanes<double, common_width<A, B>>>)
+        return a * b;
+    else
+        return wrap_mul(a, b);
 }
 
 // Whether `a` replaces `best`: the first of equals stays, and so does the first nan.

@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-#define RDDL_ABI_VERSION 1
+#define RDDL_ABI_VERSION 2
 
 /* ------------------------------------------------------------------------- description */
 
@@ -58,9 +58,9 @@ typedef struct {
     int32_t rank;                   /* number of parameters */
     const int32_t* parameter_types; /* `rank` indices into types */
     int64_t count;                  /* number of groundings: product of the types' sizes */
-    int64_t offset;                 /* bytes into its record; -1 for non-, interm- and derived-fluents */
-    const double* lower;            /* `count` bounds from the constraints (-inf: none), or NULL: */
-    const double* upper;            /* not numeric, or not a state- or action-fluent */
+    int64_t offset;      /* bytes into its record; -1 for non-, interm- and derived-fluents */
+    const double* lower; /* `count` bounds from the constraints (-inf: none), or NULL: */
+    const double* upper; /* not numeric, or not a state- or action-fluent */
     rddl_source source;
 } rddl_fluent;
 
@@ -81,7 +81,7 @@ typedef struct {
     int64_t action_size;
     int64_t observation_size; /* equals state_size when not partially observed */
     int32_t partially_observed;
-    int32_t stochastic; /* 1: something is drawn at random, in a step or at reset */
+    int32_t stochastic;         /* 1: something is drawn at random, in a step or at reset */
     const void* default_action; /* one action record */
     int64_t horizon;            /* steps; 0: none (pos-inf) */
     double discount;
@@ -121,24 +121,27 @@ typedef struct {
     int32_t thread_count; /* 0: one per core */
     rddl_autoreset autoreset;
     int64_t horizon; /* -1: the instance's; 0: none; else this many steps */
+    int32_t
+        lane_count; /* environments stepped together in vector registers: 0: what suits the batch;
+                       else 1 or the simulator's lane_count. Trajectories do not depend on it. */
 } rddl_batch_options;
 
 /* Why an episode ended; several may hold. */
 enum {
     RDDL_RUNNING = 0,
-    RDDL_TERMINATED = 1,         /* a termination condition holds in the new state */
-    RDDL_TRUNCATED_HORIZON = 2,  /* the horizon is reached */
-    RDDL_TRUNCATED_INVARIANT = 4,/* a state invariant is violated */
-    RDDL_FAULTED = 8             /* a run-time fault (rddl_fault); counts as truncated */
+    RDDL_TERMINATED = 1,          /* a termination condition holds in the new state */
+    RDDL_TRUNCATED_HORIZON = 2,   /* the horizon is reached */
+    RDDL_TRUNCATED_INVARIANT = 4, /* a state invariant is violated */
+    RDDL_FAULTED = 8              /* a run-time fault (rddl_fault); counts as truncated */
 };
 
 /* Arrays of environment_count entries that a step fills; any may be NULL. */
 typedef struct {
     void* observations; /* records */
     double* rewards;
-    uint8_t* terminated; /* 0 or 1 */
-    uint8_t* truncated;  /* 0 or 1 */
-    uint8_t* causes;     /* bits above */
+    uint8_t* terminated;      /* 0 or 1 */
+    uint8_t* truncated;       /* 0 or 1 */
+    uint8_t* causes;          /* bits above */
     void* final_observations; /* records; written only where a same-step reset happened */
 } rddl_transition;
 
@@ -152,6 +155,9 @@ typedef struct {
 
 /* Ints with more values than this between their bounds have no choices (action_choice_count). */
 #define RDDL_MOST_INT_CHOICES 1024
+
+/* Elements of matrices. */
+typedef enum { RDDL_FLOAT = 0, RDDL_DOUBLE = 1 } rddl_number;
 
 typedef struct rddl_batch rddl_batch;
 typedef struct rddl_simulator rddl_simulator;
@@ -203,8 +209,9 @@ struct rddl_simulator {
     int64_t (*action_choice_count)(const rddl_simulator*); /* at least 1 */
     /* Writes the action record of a choice. */
     rddl_error (*action_choice)(const rddl_simulator*, int64_t choice, void* action);
-    /* For each environment action_choice_count bytes: 1 where the choice satisfies all preconditions
-     * in the current state, else 0; also 0 for all but choice 0 where max_nondef_actions is 0. */
+    /* For each environment action_choice_count bytes: 1 where the choice satisfies all
+     * preconditions in the current state, else 0; also 0 for all but choice 0 where
+     * max_nondef_actions is 0. */
     rddl_error (*action_mask)(rddl_batch*, uint8_t* masks);
 
     /* The policy block; NULL, as policy_act is, if the problem has none. */
@@ -216,6 +223,22 @@ struct rddl_simulator {
      * at once, and so does an action that violates max_nondef_actions. The policy's random numbers
      * are its own: those of the steps do not depend on it. */
     rddl_error (*policy_act)(rddl_batch*, void* actions);
+
+    /* How many environments a batch steps together in vector registers, and which registers these
+     * are ("AVX-512", "AVX2", "SSE2", "portable"). 1: the simulator was made without. */
+    int32_t lane_count;
+    const char* instruction_set;
+
+    /* The same with matrices, for solvers: a row for each environment, row-major, a number for each
+     * value of the record. Bools are 0 and 1 (an action above 0.5 is true), objects their index,
+     * ints are rounded. Counts of numbers in a row: */
+    int64_t (*action_value_count)(const rddl_simulator*);
+    int64_t (*observation_value_count)(const rddl_simulator*);
+    /* `observations` may be NULL; out->observations and out->final_observations are records as
+     * ever. An action that is nan, or an index without an object, is refused. */
+    rddl_error (*step_values)(rddl_batch*, rddl_number, const void* actions, void* observations,
+                              const rddl_transition* out);
+    rddl_error (*get_observation_values)(const rddl_batch*, rddl_number, void* observations);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

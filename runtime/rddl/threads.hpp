@@ -10,19 +10,19 @@
 
 namespace rddl {
 
-// A half-open range of environments.
+// A half-open range of blocks of environments.
 struct Range {
     std::int64_t begin;
     std::int64_t end;
 };
 
-// The worker's share of [0, count). The cuts are at multiples of 64 where there are enough, so
+// The worker's share of [0, count). The cuts are at multiples of `unit` where there are enough, so
 // that workers write to different cache lines of arrays of bytes.
-constexpr Range share_of(int worker, int workers, std::int64_t count) {
-    const std::int64_t unit = count >= std::int64_t{64} * workers ? 64 : 1;
-    const std::int64_t units = count / unit;
+constexpr Range share_of(int worker, int workers, std::int64_t count, std::int64_t unit) {
+    const std::int64_t step = count >= unit * workers ? unit : 1;
+    const std::int64_t units = count / step;
     const auto cut = [&](std::int64_t k) {
-        return k == workers ? count : units * k / workers * unit;
+        return k == workers ? count : units * k / workers * step;
     };
     return {cut(worker), cut(worker + 1)};
 }

@@ -82,7 +82,8 @@ std::string trace_of(const rddl_simulator& simulator) {
                                      .seed = seed,
                                      .thread_count = 1,
                                      .autoreset = RDDL_AUTORESET_DISABLED,
-                                     .horizon = -1};
+                                     .horizon = -1,
+                                     .lane_count = 0};
     rddl_batch* const batch = simulator.create(&simulator, &options);
     if (!batch) return "no batch\n";
 

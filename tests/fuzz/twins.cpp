@@ -87,7 +87,7 @@ class Engine {
     }
 
     void step() {
-        ++context_.step;
+        context_.go_to_next_step();
         reward_ = interpreter_.step(state_.data(), action_.data(), scratch_.data(), next_.data(),
                                     observation_.data(), context_);
         state_.swap(next_);

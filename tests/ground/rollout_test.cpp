@@ -47,7 +47,7 @@ class Rollout {
     }
 
     void step() {
-        ++context_.step;
+        context_.go_to_next_step();
         reward = engine_.step(state_.data(), action_.data(), scratch_.data(), next_.data(),
                               observation_.data(), context_);
         state_.swap(next_);

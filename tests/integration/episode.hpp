@@ -13,7 +13,8 @@ inline int print_episode(const rddl_simulator* simulator) {
                                      .seed = 7,
                                      .thread_count = 1,
                                      .autoreset = RDDL_AUTORESET_DISABLED,
-                                     .horizon = -1};
+                                     .horizon = -1,
+                                     .lane_count = 0};
     rddl_batch* const batch = simulator->create(simulator, &options);
     if (!batch) return 1;
     const auto size = static_cast<std::size_t>(simulator->problem->action_size);

@@ -49,14 +49,14 @@ constexpr int steps = 1'000'000 / environments;
 
 TEST(Allocations, AreCounted) {
     const std::int64_t before = allocations;
-    TinyBatch batch({environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1});
+    TinyBatch batch({environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
     EXPECT_GT(allocations, before);
 }
 
 TEST(Allocations, DoNotHappenInSteps) {
     for (const int threads : {1, 2})
         for (const rddl_autoreset mode : {RDDL_AUTORESET_NEXT_STEP, RDDL_AUTORESET_SAME_STEP}) {
-            TinyBatch batch({environments, 0, 42, threads, mode, -1});
+            TinyBatch batch({environments, 0, 42, threads, mode, -1, 0});
             const std::int64_t before = allocations;
             for (int time = 0; time < steps; ++time) {
                 for (std::size_t i = 0; i < batch.size(); ++i)
@@ -78,7 +78,7 @@ TEST(Allocations, DoNotHappenInSteps) {
 
 TEST(Allocations, DoNotHappenInDecisions) {
     const rddl_simulator& functions = *simulator_with_policy();
-    const rddl_batch_options options{environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1};
+    const rddl_batch_options options{environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, 0};
     TinyBatch batch(options, &functions);
     const std::int64_t before = allocations;
     for (int time = 0; time < 1000; ++time) {

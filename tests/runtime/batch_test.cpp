@@ -1,5 +1,5 @@
 // The promise: an environment's trajectory is bit for bit the same whatever the batch around it,
-// its place in it, and the number of threads.
+// its place in it, the number of threads, and how many environments are stepped together.
 #include "tiny_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,9 @@ Told told_of(const TinyBatch& batch, std::size_t i) {
 }
 
 // One trajectory for each environment from `first` on.
-std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads) {
-    TinyBatch batch({count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, -1});
+std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads,
+                                     const rddl_simulator* functions = simulator(), int lanes = 0) {
+    TinyBatch batch({count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, -1, lanes}, functions);
     std::vector<Trajectory> result(batch.size());
     for (int time = 0; time < step_count; ++time) {
         for (std::size_t i = 0; i < batch.size(); ++i)
@@ -51,8 +52,9 @@ std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int
 }
 
 const std::vector<Trajectory>& reference() {
-    static const std::vector<Trajectory> together = trajectories(0, all_environments, 1);
-    return together;
+    static const std::vector<Trajectory> alone =
+        trajectories(0, all_environments, 1, simulator(), 1);
+    return alone;
 }
 
 TEST(Trajectories, CoverEveryCauseOfAnEnd) {
@@ -82,16 +84,35 @@ TEST(Trajectories, DoNotDependOnTheThreads) {
               std::vector<Trajectory>(reference().begin(), reference().begin() + 5));
 }
 
+template <int lanes>
+const rddl_simulator* simulator_with_lanes() {
+    static const rddl::SimulatorTable<rddl::Compiled<Simulator>, rddl::Packed<Simulator, lanes>>
+        table(problem, sites, {});
+    return table.get();
+}
+
+TEST(Trajectories, DoNotDependOnTheLanes) {
+    for (const rddl_simulator* const functions :
+         {simulator_with_lanes<8>(), simulator_with_lanes<16>(), simulator_with_lanes<32>(),
+          simulator_with_lanes<64>()}) {
+        EXPECT_EQ(trajectories(0, all_environments, 1, functions, functions->lane_count),
+                  reference())
+            << functions->lane_count << " lanes, " << functions->instruction_set;
+        const auto few = trajectories(3, 5, 1, functions, functions->lane_count);
+        EXPECT_EQ(few, std::vector<Trajectory>(reference().begin() + 3, reference().begin() + 8));
+    }
+}
+
 TEST(Trajectories, DependOnTheSeed) {
-    TinyBatch one({1, 0, 1, 1, RDDL_AUTORESET_DISABLED, -1});
-    TinyBatch other({1, 0, 2, 1, RDDL_AUTORESET_DISABLED, -1});
+    TinyBatch one({1, 0, 1, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    TinyBatch other({1, 0, 2, 1, RDDL_AUTORESET_DISABLED, -1, 0});
     one.step();
     other.step();
     EXPECT_NE(one.observations[0].wear, other.observations[0].wear);
 }
 
 TEST(Trajectories, AreRepeatedBySettingTheState) {
-    TinyBatch batch({8, 0, 42, 1, RDDL_AUTORESET_DISABLED, 0});
+    TinyBatch batch({8, 0, 42, 1, RDDL_AUTORESET_DISABLED, 0, 0});
     batch.step();
     const auto before = batch.states();
     batch.step();

@@ -14,6 +14,7 @@
 namespace rddl {
 
 struct CounterEngine {
+    using Lane = Scalar;
     static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
     std::int64_t initial = 0;
@@ -65,5 +66,42 @@ struct CounterEngine {
     }
 };
 static_assert(Engine<CounterEngine>);
+
+// Its records.
+inline constexpr rddl_fluent counter_fluents[] = {
+    {"count", RDDL_STATE, RDDL_INT, -1, 0, nullptr, 1, 0, nullptr, nullptr, {"counter.rddl", 1, 1}},
+    {"move", RDDL_ACTION, RDDL_INT, -1, 0, nullptr, 1, 0, nullptr, nullptr, {"counter.rddl", 2, 1}},
+    {"seen",
+     RDDL_OBSERVATION,
+     RDDL_REAL,
+     -1,
+     0,
+     nullptr,
+     1,
+     0,
+     nullptr,
+     nullptr,
+     {"counter.rddl", 3, 1}}};
+inline constexpr rddl_problem counter_problem{.domain = "counter",
+                                              .instance = "counter_1",
+                                              .types = nullptr,
+                                              .type_count = 0,
+                                              .fluents = counter_fluents,
+                                              .fluent_count = 3,
+                                              .state_size = 8,
+                                              .action_size = 8,
+                                              .observation_size = 8,
+                                              .partially_observed = 1,
+                                              .stochastic = 1,
+                                              .default_action = nullptr,
+                                              .horizon = 0,
+                                              .discount = 1.0,
+                                              .max_nondef_actions = -1,
+                                              .preconditions = nullptr,
+                                              .precondition_count = 0,
+                                              .invariants = nullptr,
+                                              .invariant_count = 0,
+                                              .terminations = nullptr,
+                                              .termination_count = 0};
 
 }  // namespace rddl

@@ -14,7 +14,8 @@ namespace {
 // A batch with the arrays that a step reads and writes.
 struct Counters {
     Counters(const CounterEngine& engine, BatchOptions options)
-        : batch(engine, options), n(static_cast<std::size_t>(options.environment_count)) {}
+        : batch(engine, counter_problem, options),
+          n(static_cast<std::size_t>(options.environment_count)) {}
 
     void step(const std::vector<std::int64_t>& actions) {
         batch.step(reinterpret_cast<const std::byte*>(actions.data()),
@@ -22,7 +23,11 @@ struct Counters {
                     causes.data(), finals.data()});
     }
     void step() { step(std::vector<std::int64_t>(n, 1)); }
-    std::int64_t count(std::int64_t i) const { return CounterEngine::read(batch.state(i)); }
+    std::int64_t count(std::int64_t i) const {
+        std::int64_t count;
+        batch.get_state(i, reinterpret_cast<std::byte*>(&count));
+        return count;
+    }
 
     Batch<CounterEngine> batch;
     std::size_t n;
@@ -83,18 +88,18 @@ TEST(Episodes, WithoutHorizonGoOn) {
     Counters counters(engine, options_of(1));
     for (int t = 0; t < 1000; ++t) counters.step();
     EXPECT_EQ(counters.causes[0], RDDL_RUNNING);
-    EXPECT_EQ(counters.batch.episode(0).steps, 1000);
+    EXPECT_EQ(counters.batch.steps(0), 1000);
 }
 
 TEST(Episodes, AreOverAtOnceInATerminalInitialState) {
     const CounterEngine engine{.initial = 5, .terminal_from = 5};
     Counters counters(engine, options_of(1));
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_TERMINATED);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_TERMINATED);
     counters.step();
     EXPECT_EQ(counters.count(0), 5);
     EXPECT_EQ(counters.terminated[0], 1);
     EXPECT_EQ(counters.rewards[0], 0.0);
-    EXPECT_EQ(counters.batch.episode(0).steps, 0);
+    EXPECT_EQ(counters.batch.steps(0), 0);
 }
 
 TEST(Autoreset, DisabledLeavesAnEndedEnvironmentAlone) {
@@ -107,7 +112,7 @@ TEST(Autoreset, DisabledLeavesAnEndedEnvironmentAlone) {
     EXPECT_EQ(counters.rewards[0], 0.0);
     EXPECT_EQ(counters.terminated[0], 1);
     EXPECT_EQ(counters.observations[0], last_observation);
-    EXPECT_EQ(counters.batch.episode(0).steps, 1);
+    EXPECT_EQ(counters.batch.steps(0), 1);
     EXPECT_EQ(counters.count(1), 6);
 }
 
@@ -124,8 +129,8 @@ TEST(Autoreset, NextStepIgnoresTheAction) {
     EXPECT_EQ(counters.rewards[0], 0.0);
     EXPECT_EQ(counters.count(0), 0);
     EXPECT_EQ(counters.observations[0], 0.0);
-    EXPECT_EQ(counters.batch.episode(0).number, 1);
-    EXPECT_EQ(counters.batch.episode(0).steps, 0);
+    EXPECT_EQ(counters.batch.episode_number(0), 1);
+    EXPECT_EQ(counters.batch.steps(0), 0);
     counters.step({1});
     EXPECT_EQ(counters.count(0), 1);
 }
@@ -141,10 +146,10 @@ TEST(Autoreset, SameStepTellsTheEndAndTheNewBeginning) {
     EXPECT_EQ(counters.observations[0], 0.0);
     EXPECT_NEAR(counters.finals[0], 2.0, 6.0);
     EXPECT_NE(counters.finals[0], -1.0);
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_RUNNING);
-    EXPECT_EQ(counters.batch.episode(0).number, 1);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_RUNNING);
+    EXPECT_EQ(counters.batch.episode_number(0), 1);
     EXPECT_EQ(counters.finals[1], -1.0);
-    EXPECT_EQ(counters.batch.episode(1).number, 0);
+    EXPECT_EQ(counters.batch.episode_number(1), 0);
 }
 
 TEST(Autoreset, OfATerminalInitialStateGivesEpisodesWithoutSteps) {
@@ -155,7 +160,7 @@ TEST(Autoreset, OfATerminalInitialStateGivesEpisodesWithoutSteps) {
             counters.step();
             EXPECT_EQ(counters.terminated[0], 1);
             EXPECT_EQ(counters.rewards[0], 0.0);
-            EXPECT_EQ(counters.batch.episode(0).number, t);
+            EXPECT_EQ(counters.batch.episode_number(0), t);
         }
     }
 }
@@ -184,9 +189,9 @@ TEST(Reset, StartsNewEpisodesUnderTheMask) {
     EXPECT_EQ(observations[2], 0.0);
     EXPECT_EQ(counters.count(0), 0);
     EXPECT_EQ(counters.count(1), 1);
-    EXPECT_EQ(counters.batch.episode(0).number, 1);
-    EXPECT_EQ(counters.batch.episode(1).number, 0);
-    EXPECT_EQ(counters.batch.episode(1).steps, 1);
+    EXPECT_EQ(counters.batch.episode_number(0), 1);
+    EXPECT_EQ(counters.batch.episode_number(1), 0);
+    EXPECT_EQ(counters.batch.steps(1), 1);
 }
 
 TEST(Faults, EndTheEpisodeAndChangeNothingElse) {
@@ -207,11 +212,12 @@ TEST(Faults, EndTheEpisodeAndChangeNothingElse) {
         for (const std::size_t i : {0u, 2u})
             EXPECT_EQ(counters.observations[i], undisturbed.observations[i]);
     }
-    const Episode& episode = counters.batch.episode(1);
-    EXPECT_EQ(episode.steps, 1);
-    EXPECT_EQ(episode.fault_steps, 1);
-    EXPECT_EQ(episode.fault.kind, FaultKind::Probability);
-    EXPECT_EQ(episode.fault.value, 2.0);
+    EXPECT_EQ(counters.batch.steps(1), 1);
+    EXPECT_EQ(counters.batch.steps_before_fault(1), 1);
+    const FaultRecord* const fault = counters.batch.fault(1);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->kind, FaultKind::Probability);
+    EXPECT_EQ(fault->value, 2.0);
 }
 
 TEST(Faults, InATerminationUndoTheStep) {
@@ -221,13 +227,14 @@ TEST(Faults, InATerminationUndoTheStep) {
     counters.step({2});
     EXPECT_EQ(counters.causes[0], RDDL_FAULTED);
     EXPECT_EQ(counters.count(0), 1);
-    EXPECT_EQ(counters.batch.episode(0).fault.kind, FaultKind::Type);
+    ASSERT_TRUE(counters.batch.fault(0));
+    EXPECT_EQ(counters.batch.fault(0)->kind, FaultKind::Type);
 }
 
 TEST(Faults, AtResetEndTheEpisode) {
     const CounterEngine engine{.initial = 3, .faulty_terminal = 3};
     Counters counters(engine, options_of(1));
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_FAULTED);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_FAULTED);
     counters.step();
     EXPECT_EQ(counters.causes[0], RDDL_FAULTED);
     EXPECT_EQ(counters.count(0), 3);
@@ -236,11 +243,12 @@ TEST(Faults, AtResetEndTheEpisode) {
 TEST(Faults, OfInitialValuesEndTheEpisode) {
     const CounterEngine engine{.faulty_reset = true};
     Counters counters(engine, options_of(1, RDDL_AUTORESET_NEXT_STEP));
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_FAULTED);
-    EXPECT_EQ(counters.batch.episode(0).fault.kind, FaultKind::Type);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_FAULTED);
+    ASSERT_TRUE(counters.batch.fault(0));
+    EXPECT_EQ(counters.batch.fault(0)->kind, FaultKind::Type);
     counters.step();
-    EXPECT_EQ(counters.batch.episode(0).number, 1) << "the next one";
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_FAULTED);
+    EXPECT_EQ(counters.batch.episode_number(0), 1) << "the next one";
+    EXPECT_EQ(counters.batch.causes(0), RDDL_FAULTED);
 }
 
 TEST(Faults, CanBeReadUntilTheNextEpisodeMakesAStep) {
@@ -249,29 +257,30 @@ TEST(Faults, CanBeReadUntilTheNextEpisodeMakesAStep) {
     counters.step({5});
     counters.step({1});
     EXPECT_EQ(counters.causes[0], RDDL_FAULTED);
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_RUNNING);
-    EXPECT_EQ(counters.batch.episode(0).fault.kind, FaultKind::Probability);
-    EXPECT_EQ(counters.batch.episode(0).fault_steps, 1);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_RUNNING);
+    ASSERT_TRUE(counters.batch.fault(0));
+    EXPECT_EQ(counters.batch.fault(0)->kind, FaultKind::Probability);
+    EXPECT_EQ(counters.batch.steps_before_fault(0), 1);
     counters.step({1});
-    EXPECT_FALSE(counters.batch.episode(0).fault);
+    EXPECT_FALSE(counters.batch.fault(0));
 }
 
 TEST(SetState, MakesAnEndedEnvironmentRunUnlessTheStateIsTerminal) {
     const CounterEngine engine{.terminal_from = 5};
     Counters counters(engine, options_of(1));
     counters.step({7});
-    EXPECT_TRUE(counters.batch.episode(0).over());
+    EXPECT_NE(counters.batch.causes(0), RDDL_RUNNING);
     const auto set = [&](std::int64_t count) {
         counters.batch.set_state(0, reinterpret_cast<const std::byte*>(&count));
     };
     set(2);
-    EXPECT_FALSE(counters.batch.episode(0).over());
-    EXPECT_EQ(counters.batch.episode(0).steps, 1);
-    EXPECT_EQ(counters.batch.episode(0).number, 0);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_RUNNING);
+    EXPECT_EQ(counters.batch.steps(0), 1);
+    EXPECT_EQ(counters.batch.episode_number(0), 0);
     counters.step({1});
     EXPECT_EQ(counters.count(0), 3);
     set(6);
-    EXPECT_EQ(counters.batch.episode(0).causes, RDDL_TERMINATED);
+    EXPECT_EQ(counters.batch.causes(0), RDDL_TERMINATED);
 }
 
 TEST(Preconditions, AreReportedAndNotEnforced) {

@@ -22,7 +22,7 @@ struct Coordinates {
 };
 
 double uniform_of(const Coordinates& c) {
-    const Context<Scalar> context{stream_key(c.seed, c.environment, c.episode), c.step, {}};
+    Context<Scalar> context{stream_key(c.seed, c.environment, c.episode), c.step, {}};
     return uniform_at(context, {c.site, c.index});
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 const rddl_simulator& functions = *simulator();
 
-constexpr rddl_batch_options four{4, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1};
+constexpr rddl_batch_options four{4, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
 
 TEST(Interface, DescribesItself) {
     EXPECT_EQ(functions.abi_version, static_cast<std::uint32_t>(RDDL_ABI_VERSION));
@@ -73,7 +73,7 @@ TEST(Interface, WritesOnlyWhatIsAskedFor) {
 
 TEST(Interface, TakesTheHorizonFromTheInstanceOrTheOptions) {
     for (const auto& [option, expected] : {std::pair(-1, 50), {3, 3}}) {
-        TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option});
+        TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option, 0});
         int steps = 0;
         do {
             batch.actions[0].repair = {true, true, true};
@@ -141,12 +141,12 @@ TEST(Interface, RefusesOptionsOutOfRange) {
     const auto refused = [](const rddl_batch_options& options) {
         return functions.create(&functions, &options) == nullptr;
     };
-    EXPECT_TRUE(refused({0, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
-    EXPECT_TRUE(refused({-5, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
-    EXPECT_TRUE(refused({1, 0, 0, -1, RDDL_AUTORESET_DISABLED, -1}));
-    EXPECT_TRUE(refused({1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2}));
-    EXPECT_TRUE(refused({std::int64_t{1} << 60, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1}));
-    rddl_batch_options unknown_mode{1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1};
+    EXPECT_TRUE(refused({0, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
+    EXPECT_TRUE(refused({-5, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
+    EXPECT_TRUE(refused({1, 0, 0, -1, RDDL_AUTORESET_DISABLED, -1, 0}));
+    EXPECT_TRUE(refused({1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2, 0}));
+    EXPECT_TRUE(refused({std::int64_t{1} << 60, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
+    rddl_batch_options unknown_mode{1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0};
     const int three = 3;
     std::memcpy(&unknown_mode.autoreset, &three, sizeof three);
     EXPECT_TRUE(refused(unknown_mode));
@@ -238,7 +238,7 @@ TEST(Choices, AreTheSingleChangesOfTheDefaultAction) {
 using Mask = std::array<std::uint8_t, tiny_choices>;
 
 std::array<Mask, 2> masks_of(const rddl_simulator& simulator) {
-    const rddl_batch_options two{2, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1};
+    const rddl_batch_options two{2, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
     rddl_batch* const batch = simulator.create(&simulator, &two);
     StateRecord state{};
     state.wear = {0.0, 12.0, 0.0};
@@ -315,7 +315,7 @@ TEST(Choices, OfIntsNeedTwoBoundsNotTooFarApart) {
 }
 
 TEST(Interface, CopiesAreIndependentAndGoOnAlike) {
-    TinyBatch original({100, 0, 42, 2, RDDL_AUTORESET_NEXT_STEP, -1});
+    TinyBatch original({100, 0, 42, 2, RDDL_AUTORESET_NEXT_STEP, -1, 0});
     for (int t = 0; t < 30; ++t) original.step();
     TinyBatch copy(functions.copy(original.get()), 100);
     for (int t = 0; t < 60; ++t) original.step();

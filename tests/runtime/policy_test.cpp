@@ -13,7 +13,7 @@ namespace {
 const rddl_simulator& functions = *simulator_with_policy();
 
 rddl_batch_options options(std::int64_t count, std::int64_t first = 0) {
-    return {count, first, 42, 1, RDDL_AUTORESET_DISABLED, 0};
+    return {count, first, 42, 1, RDDL_AUTORESET_DISABLED, 0, 0};
 }
 
 void act(TinyBatch& batch) {

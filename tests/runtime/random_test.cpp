@@ -15,10 +15,12 @@ Context<Scalar> context_of(std::uint64_t seed, std::uint64_t environment, std::u
 }
 
 TEST(UnitReals, CoverTheIntervalTheyPromise) {
-    EXPECT_EQ(unit_real(0), 0.0);
-    EXPECT_EQ(unit_real(~std::uint64_t{0}), 1.0 - 0x1p-53);
-    EXPECT_EQ(open_unit_real(0), 0x1p-53);
-    EXPECT_EQ(open_unit_real(~std::uint64_t{0}), 1.0 - 0x1p-53);
+    const std::uint64_t none = 0, all = 0xFFFFFFFF;
+    EXPECT_EQ(unit_real(none, none), 0.0);
+    EXPECT_EQ(unit_real(all, all), 1.0 - 0x1p-52);
+    EXPECT_EQ(unit_real(all << 32, none), 0.0) << "the upper halves are ignored";
+    EXPECT_EQ(open_unit_real(unit_real(none, none)), 0x1p-53);
+    EXPECT_EQ(open_unit_real(unit_real(all, all)), 1.0 - 0x1p-53);
 }
 
 TEST(StreamKeys, DependOnEachOfTheirParts) {
@@ -39,26 +41,40 @@ TEST(Draws, AreWhatTheyWere) {
     EXPECT_EQ(key.low, 1704915664u);
     EXPECT_EQ(key.high, 3053594036u);
     Draws draws(context_of(42, 7, 3, 5), {11, 13});
-    EXPECT_EQ(draws.uniform(), 0.36776241941931453);
-    EXPECT_EQ(draws.uniform(), 0.5572804209662372);
-    EXPECT_EQ(draws.uniform(), 0.36071073076087223);
+    EXPECT_EQ(draws.uniform(), 0.80028379037782216);
+    EXPECT_EQ(draws.uniform(), 0.12085953643689962);
+    EXPECT_EQ(draws.uniform(), 0.44806561113164434);
 }
 
 TEST(Draws, TakeTwoNumbersFromEachCounter) {
     const Context<Scalar> context = context_of(1, 2, 3, 4);
-    const auto block = [&](std::uint32_t number) {
-        return philox::generate({4, 5, 6, number}, {context.key.low, context.key.high});
+    const auto numbers = [&](std::uint64_t index, std::uint64_t number) {
+        const auto words = philox::generate<philox::draw_rounds>(
+            philox::Block<std::uint64_t>{4, 5, index, number},
+            philox::Key<std::uint64_t>{context.key.low, context.key.high});
+        return std::pair(unit_real(words[0], words[1]), unit_real(words[2], words[3]));
     };
-    Draws draws(context, {5, 6});
-    for (std::uint32_t number = 0; number < 3; ++number) {
-        const philox::Block words = block(number);
-        EXPECT_EQ(draws.uniform(), unit_real(std::uint64_t{words[1]} << 32 | words[0]));
-        EXPECT_EQ(draws.uniform(), unit_real(std::uint64_t{words[3]} << 32 | words[2]));
+    Draws even(context, {5, 6}), odd(context, {5, 7});
+    EXPECT_EQ(even.uniform(), numbers(3, 0).first);
+    EXPECT_EQ(odd.uniform(), numbers(3, 0).second);
+    for (std::uint64_t number = 1; number < 4; ++number) {
+        EXPECT_EQ(even.uniform(), numbers(6, number).first);
+        EXPECT_EQ(even.uniform(), numbers(6, number).second);
+        EXPECT_EQ(odd.uniform(), numbers(7, number).first);
+        EXPECT_EQ(odd.uniform(), numbers(7, number).second);
+    }
+}
+
+TEST(Draws, StartWithTheNumberOfDrawsThatNeedOne) {
+    Context<Scalar> context = context_of(1, 2, 3, 4);
+    for (const Index index : {0, 1, 2, 3, 15, 16, 17, 1000001, 7, 0}) {
+        Draws draws(context, {5, index});
+        EXPECT_EQ(uniform_at(context, {5, index}), draws.uniform()) << index;
     }
 }
 
 TEST(Draws, AreTheSameHoweverOftenAndInWhateverOrderTheyAreMade) {
-    const Context<Scalar> context = context_of(1, 2, 3, 4);
+    Context<Scalar> context = context_of(1, 2, 3, 4);
     const double first = uniform_at(context, {0, 0});
     const double second = uniform_at(context, {1, 0});
     EXPECT_NE(first, second);

@@ -15,7 +15,7 @@ TEST(Shares, CoverEverythingOnce) {
         for (int workers = 1; workers <= 9 && workers <= count; ++workers) {
             std::int64_t next = 0;
             for (int worker = 0; worker < workers; ++worker) {
-                const Range share = share_of(worker, workers, count);
+                const Range share = share_of(worker, workers, count, 64);
                 EXPECT_EQ(share.begin, next);
                 EXPECT_LT(share.begin, share.end);
                 if (count >= 64 * workers) {

@@ -99,11 +99,11 @@ struct Simulator {
     static typename L::Bool termination(Index, const State<L>& state, Context<L>&) {
         return !rddl::exists<typename L::Bool>(machines, [&](Index m) { return state.running[m]; });
     }
-    // Wear stays below 15.
+    // Wear stays below 13.
     template <class L>
     static typename L::Bool invariant(Index, const State<L>& state, Context<L>&) {
         return rddl::for_all<typename L::Bool>(machines,
-                                               [&](Index m) { return state.wear[m] < 15.0; });
+                                               [&](Index m) { return state.wear[m] < 13.0; });
     }
     // At most one repair at a time.
     template <class L>
@@ -210,7 +210,7 @@ inline constexpr rddl_fluent fluents[] = {{"wear",
 inline constexpr rddl_condition preconditions[] = {
     {"sum_{?m : machine} repair(?m) <= 1", {"tiny.rddl", 30, 9}}};
 inline constexpr rddl_condition invariants[] = {
-    {"forall_{?m : machine} wear(?m) < 15", {"tiny.rddl", 33, 9}}};
+    {"forall_{?m : machine} wear(?m) < 13", {"tiny.rddl", 33, 9}}};
 inline constexpr rddl_condition terminations[] = {
     {"~exists_{?m : machine} running(?m)", {"tiny.rddl", 36, 9}}};
 inline constexpr Action<Scalar> default_action{};
@@ -243,7 +243,8 @@ inline constexpr rddl_problem problem{.domain = "tiny",
                                       .termination_count = 1};
 
 inline const rddl_simulator* simulator() {
-    static const rddl::SimulatorTable table(problem, sites, rddl::Compiled<Simulator>());
+    static const rddl::SimulatorTable<rddl::Compiled<Simulator>, rddl::Packed<Simulator, 16>> table(
+        problem, sites, {});
     return table.get();
 }
 

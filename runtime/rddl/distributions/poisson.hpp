@@ -72,16 +72,24 @@ typename L::Int poisson(Context<L>& context, Place place, typename L::Real rate)
 template <class L>
 typename L::Int negative_binomial(Context<L>& context, Place place, typename L::Real r,
                                   typename L::Real p) {
+    constexpr std::int64_t too_large = -1;
     const auto r_is_valid = context.require(r > 0.0, FaultKind::Successes, place, r);
     const auto p_is_valid =
         context.require(p > 0.0 && p <= 1.0, FaultKind::PositiveProbability, place, p);
-    const auto kernel = [&context, place](Draws& draws, double shape, double probability) {
-        const double rate = standard_gamma(draws, shape) * ((1.0 - probability) / probability);
-        const bool fits =
-            context.require(rate <= largest_poisson_rate, FaultKind::CountTooLarge, place, rate);
-        return fits ? standard_poisson(draws, rate) : std::int64_t{0};
+    const auto valid = r_is_valid && p_is_valid;
+    const auto draw_rate = [](Draws& draws, double shape, double probability) {
+        return standard_gamma(draws, shape) * ((1.0 - probability) / probability);
     };
-    return draw_in_each_lane(context, place, r_is_valid && p_is_valid, kernel, r, p);
+    const auto draw_count = [draw_rate](Draws& draws, double shape, double probability) {
+        const double rate = draw_rate(draws, shape, probability);
+        return rate <= largest_poisson_rate ? standard_poisson(draws, rate) : too_large;
+    };
+    using Int = typename L::Int;
+    const Int count = draw_in_each_lane(context, place, valid, draw_count, r, p);
+    if (any(count == Int{too_large}))
+        context.require(count != Int{too_large}, FaultKind::CountTooLarge, place,
+                        draw_in_each_lane(context, place, valid, draw_rate, r, p));
+    return maximum(count, Int{0});
 }
 
 }  // namespace sample

@@ -1,0 +1,396 @@
+// The operators of ops.hpp on packs. Where one operand is the same in all lanes it may be a plain
+// number. Functions without a form for registers are called lane by lane.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/ops.hpp>
+#include <rddl/pack.hpp>
+#include <rddl/real.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace rddl {
+
+// ------------------------------------------------------------------------------ their types
+
+namespace detail {
+
+template <class T>
+inline constexpr int pack_width = 0;
+template <int n>
+inline constexpr int pack_width<Mask<n>> = n;
+template <class T, int n>
+inline constexpr int pack_width<Lanes<T, n>> = n;
+
+// The pack type for values of a scalar or pack type.
+template <class T, int n>
+struct Widened;
+template <int n>
+struct Widened<bool, n> {
+    using type = Mask<n>;
+};
+template <class T, int n>
+requires std::is_arithmetic_v<T>
+struct Widened<T, n> {
+    using type = Lanes<
+        std::conditional_t<std::is_floating_point_v<T>, double,
+                           std::conditional_t<std::is_unsigned_v<T>, std::uint64_t, std::int64_t>>,
+        n>;
+};
+template <int n>
+struct Widened<Mask<n>, n> {
+    using type = Mask<n>;
+};
+template <class T, int n>
+struct Widened<Lanes<T, n>, n> {
+    using type = Lanes<T, n>;
+};
+
+template <class A, class B>
+inline constexpr int common_width = pack_width<A> > pack_width<B> ? pack_width<A> : pack_width<B>;
+
+}  // namespace detail
+
+// At least one operand is a pack.
+template <class... Operands>
+concept SomePack = ((detail::pack_width<Operands> > 0) || ...);
+
+template <class T, int n>
+using LanesOf = typename detail::Widened<T, n>::type;
+
+// Calls a function of scalars for each lane.
+template <class A, class Function>
+requires SomePack<A>
+auto map_lanes(const A& a, Function function) {
+    constexpr int n = detail::pack_width<A>;
+    LanesOf<decltype(function(a[0])), n> results{};
+    for (int lane = 0; lane < n; ++lane) results.set(lane, function(a[lane]));
+    return results;
+}
+template <class A, class Function>
+requires SomePack<A>
+auto map_lanes(const A& a, const A& b, Function function) {
+    constexpr int n = detail::pack_width<A>;
+    LanesOf<decltype(function(a[0], b[0])), n> results{};
+    for (int lane = 0; lane < n; ++lane) results.set(lane, function(a[lane], b[lane]));
+    return results;
+}
+
+// ---------------------------------------------------------------------------------- choices
+
+namespace detail {
+
+template <int n>
+RDDL_INLINE Mask<n> choose(Mask<n> condition, Mask<n> a, Mask<n> b) {
+    return (condition && a) || (!condition && b);
+}
+template <class T, int n>
+RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const Lanes<T, n>& b) {
+    Lanes<T, n> result;
+    for (int p = 0; p < Lanes<T, n>::part_count; ++p) {
+        const auto bits =
+            static_cast<simd::MaskBits>(std::uint64_t{condition.bits} >> (p * simd::lanes)) &
+            simd::all_lanes;
+        result.part[p] = simd::blend(bits, a.part[p], b.part[p]);
+    }
+    return result;
+}
+
+}  // namespace detail
+
+template <int n, class A, class B>
+RDDL_INLINE auto select(Mask<n> condition, const A& a, const B& b) {
+    using Result = LanesOf<A, n>;
+    static_assert(std::is_same_v<Result, LanesOf<B, n>>);
+    return detail::choose(condition, Result(a), Result(b));
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto select(bool condition, const A& a, const B& b) {
+    using Result = LanesOf<A, detail::common_width<A, B>>;
+    return condition ? Result(a) : Result(b);
+}
+
+// Evaluates each branch that some lane takes; the others cannot fault meanwhile.
+template <int n, class Condition, class Then, class Else>
+constexpr auto branch(Context<Pack<n>>& context, Condition condition, Then&& then_value,
+                      Else&& else_value) {
+    using Result = LanesOf<decltype(then_value()), n>;
+    static_assert(std::is_same_v<Result, LanesOf<decltype(else_value()), n>>);
+    const Mask<n> chosen = condition;
+    const Mask<n> active = context.active;
+    const auto within = [&](Mask<n> lanes, auto& value) -> Result {
+        if (!any(lanes)) return Result{};
+        context.active = lanes;
+        return value();
+    };
+    const Result a = within(active && chosen, then_value);
+    const Result b = within(active && !chosen, else_value);
+    context.active = active;
+    return select(chosen, a, b);
+}
+
+// ------------------------------------------------------------------------------ conversions
+
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> to_int(Mask<n> a) {
+    return select(a, std::int64_t{1}, std::int64_t{0});
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> to_real(Mask<n> a) {
+    return select(a, 1.0, 0.0);
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int64_t, n>& a) {
+    Lanes<double, n> result;
+    for (int p = 0; p < a.part_count; ++p) result.part[p] = simd::to_reals(a.part[p]);
+    return result;
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
+    Lanes<std::int64_t, n> result;
+    for (int p = 0; p < a.part_count; ++p) result.part[p] = simd::truncate(a.part[p]);
+    return result;
+}
+
+constexpr std::uint64_t words_of(std::int64_t a) {
+    return static_cast<std::uint64_t>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> real_of_bits(const Lanes<std::uint64_t, n>& a) {
+    return std::bit_cast<Lanes<double, n>>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<std::uint64_t, n> bits_of(const Lanes<double, n>& a) {
+    return std::bit_cast<Lanes<std::uint64_t, n>>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<std::uint64_t, n> words_of(const Lanes<std::int64_t, n>& a) {
+    return std::bit_cast<Lanes<std::uint64_t, n>>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> ints_of(const Lanes<std::uint64_t, n>& a) {
+    return std::bit_cast<Lanes<std::int64_t, n>>(a);
+}
+
+template <int n>
+RDDL_INLINE Lanes<std::uint64_t, n> multiply_low_halves(const Lanes<std::uint64_t, n>& a,
+                                                        const Lanes<std::uint64_t, n>& b) {
+    return Lanes<std::uint64_t, n>::each(
+        [](auto x, auto y) { return simd::multiply_low_halves(x, y); }, a, b);
+}
+
+// --------------------------------------------------------------------------- int arithmetic
+
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto wrap_add(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return ints_of(words_of(Int(a)) + words_of(Int(b)));
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto wrap_sub(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return ints_of(words_of(Int(a)) - words_of(Int(b)));
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto wrap_mul(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return ints_of(words_of(Int(a)) * words_of(Int(b)));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> wrap_neg(const Lanes<std::int64_t, n>& a) {
+    return wrap_sub(std::int64_t{0}, a);
+}
+
+template <class A, class B>
+requires SomePack<A, B>
+auto floor_div(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return map_lanes(Int(a), Int(b),
+                     [](std::int64_t x, std::int64_t y) { return floor_div(x, y); });
+}
+template <class A, class B>
+requires SomePack<A, B>
+auto floor_mod(const A& a, const B& b) {
+    using Result = LanesOf<A, detail::common_width<A, B>>;
+    using Element = typename Result::Element;
+    return map_lanes(Result(a), Result(b), [](Element x, Element y) { return floor_mod(x, y); });
+}
+
+// ---------------------------------------------------------------------- ints and reals alike
+
+template <class T, int n>
+RDDL_INLINE Mask<n> is_nan(const Lanes<T, n>& a) {
+    return a != a;
+}
+
+template <int n>
+RDDL_INLINE Lanes<double, n> absolute(const Lanes<double, n>& a) {
+    return real_of_bits(bits_of(a) & Lanes<std::uint64_t, n>{~(std::uint64_t{1} << 63)});
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> absolute(const Lanes<std::int64_t, n>& a) {
+    return select(a < std::int64_t{0}, wrap_neg(a), a);
+}
+
+template <class T, int n>
+RDDL_INLINE Lanes<std::int64_t, n> sign(const Lanes<T, n>& a) {
+    const Lanes<T, n> zero{T{0}};
+    const auto signs = wrap_sub(to_int(a > zero), to_int(a < zero));
+    return select(is_nan(a), std::numeric_limits<std::int64_t>::min(), signs);
+}
+
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
+    using Result = LanesOf<A, detail::common_width<A, B>>;
+    const Result x(a), y(b);
+    return select(x <= y || is_nan(x), x, y);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
+    using Result = LanesOf<A, detail::common_width<A, B>>;
+    const Result x(a), y(b);
+    return select(x >= y || is_nan(x), x, y);
+}
+
+// ----------------------------------------------------------------------------- real functions
+
+template <int n>
+RDDL_INLINE Lanes<double, n> sqrt(const Lanes<double, n>& a) {
+    return Lanes<double, n>::each([](auto x) { return simd::square_root(x); }, a);
+}
+
+// Those of two operands with one of them the same in all lanes.
+#define RDDL_BROADCAST(function)                                                 \
+    template <class A, class B>                                                  \
+    requires(SomePack<A> != SomePack<B>) auto function(const A& a, const B& b) { \
+        using Real = Lanes<double, detail::common_width<A, B>>;                  \
+        return function(Real(a), Real(b));                                       \
+    }
+RDDL_BROADCAST(log)
+RDDL_BROADCAST(hypot)
+RDDL_BROADCAST(atan2)
+#undef RDDL_BROADCAST
+
+// As that of scalars: by far the most frequent exponent is a constant 2.
+template <int n>
+RDDL_INLINE Lanes<double, n> power(const Lanes<double, n>& base, double exponent) {
+    return exponent == 2.0 ? base * base : power(base, Lanes<double, n>(exponent));
+}
+template <int n>
+Lanes<double, n> power(double base, const Lanes<double, n>& exponent) {
+    return power(Lanes<double, n>(base), exponent);
+}
+
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<double, n>& a) {
+    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::nearest(x); }, a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<double, n>& a) {
+    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::floor(x); }, a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<double, n>& a) {
+    return truncate_to_int(Lanes<double, n>::each([](auto x) { return simd::ceil(x); }, a));
+}
+
+template <int n>
+Lanes<std::int64_t, n> power(Context<Pack<n>>& context, Place place,
+                             std::type_identity_t<const Lanes<std::int64_t, n>&> base,
+                             std::type_identity_t<const Lanes<std::int64_t, n>&> exponent) {
+    const Mask<n> valid = context.require(exponent >= std::int64_t{0}, FaultKind::NegativeExponent,
+                                          place, to_real(exponent));
+    const auto powers =
+        map_lanes(base, exponent, [](std::int64_t x, std::int64_t y) { return wrap_power(x, y); });
+    return select(valid, powers, std::int64_t{0});
+}
+
+template <int n>
+Lanes<double, n> ln_gamma(Context<Pack<n>>& context, Place place,
+                          std::type_identity_t<const Lanes<double, n>&> a) {
+    const Mask<n> valid = context.require(a > 0.0, FaultKind::GammaArgument, place, a);
+    return select(valid, map_lanes(a, [](double x) { return ln_absolute_gamma(x); }), 0.0);
+}
+template <int n>
+Lanes<double, n> gamma(Context<Pack<n>>& context, Place place,
+                       std::type_identity_t<const Lanes<double, n>&> a) {
+    const Mask<n> valid = context.require(a > 0.0, FaultKind::GammaArgument, place, a);
+    return select(valid, map_lanes(a, [](double x) { return std::tgamma(x); }), 0.0);
+}
+
+// --------------------------------------------------------------------------------- indexing
+
+namespace detail {
+
+// The innermost elements of nested arrays, which lie one after the other.
+template <class T>
+struct Nested {
+    using Element = T;
+    static constexpr std::int64_t count = 1;
+};
+template <class T, std::size_t n>
+struct Nested<std::array<T, n>> {
+    using Element = typename Nested<T>::Element;
+    static constexpr std::int64_t count = static_cast<std::int64_t>(n) * Nested<T>::count;
+};
+template <class Array, class Int, class First, class... Rest>
+RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
+    using Row = typename Array::value_type;
+    const Int begin = Int(first) * Int(Nested<Row>::count);
+    if constexpr (sizeof...(Rest) == 0)
+        return begin;
+    else
+        return begin + place_in<Row, Int>(rest...);
+}
+
+// The elements that each lane chooses from a table: its own where the elements are packs.
+template <int n>
+auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
+    Lanes<double, n> result;
+    for (int p = 0; p < result.part_count; ++p)
+        result.part[p] = simd::gather(elements, indices.part[p]);
+    return result;
+}
+template <class T, int n>
+requires std::is_arithmetic_v<T>
+auto gather(const T* elements, const Lanes<std::int64_t, n>& indices) {
+    return map_lanes(indices, [elements](std::int64_t place) { return elements[place]; });
+}
+template <class T, int n>
+auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) {
+    Lanes<T, n> result;
+    const T* const values = reinterpret_cast<const T*>(elements);
+    for (int p = 0; p < result.part_count; ++p) {
+        simd::Ints places = indices.part[p] * n;
+        for (int i = 0; i < simd::lanes; ++i) places[i] += p * simd::lanes + i;
+        result.part[p] = simd::gather(values, places);
+    }
+    return result;
+}
+template <int n>
+auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
+    Mask<n> result{false};
+    for (int lane = 0; lane < n; ++lane) result.set(lane, elements[indices[lane]][lane]);
+    return result;
+}
+
+}  // namespace detail
+
+// An element of a nested std::array; at least one index differs between the lanes.
+template <class Array, class... Indices>
+requires SomePack<Indices...>
+auto at(const Array& array, const Indices&... indices) {
+    constexpr int n = std::max({detail::pack_width<Indices>...});
+    const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(indices...);
+    using Element = typename detail::Nested<Array>::Element;
+    return detail::gather(reinterpret_cast<const Element*>(&array), place);
+}
+
+}  // namespace rddl

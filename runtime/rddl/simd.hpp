@@ -1,0 +1,281 @@
+// The vector registers of the processor that the compiler has been told to compile for.
+//
+// Four levels: AVX-512 (x86-64-v4), AVX2 (x86-64-v3), SSE2 (any x86-64), and 16-byte vectors as GCC
+// and Clang make them anywhere else. Arithmetic is that of the compilers' vector types; here is
+// only what they spell clumsily or translate badly. A mask is the bits of an unsigned number, lane
+// 0 lowest. Everything lives in a namespace named after the level, so that objects compiled for
+// different levels can be linked into one program.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512BW__) && defined(__AVX512VL__)
+#define RDDL_SIMD_AVX512
+#define RDDL_SIMD_LEVEL avx512
+#elif defined(__AVX2__)
+#define RDDL_SIMD_LEVEL avx2
+#elif defined(__SSE2__)
+#define RDDL_SIMD_LEVEL sse2
+#else
+#define RDDL_SIMD_LEVEL portable
+#endif
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>  // alone, since the others take the compiler a quarter of a second
+#endif
+
+#include <cmath>
+
+namespace rddl::simd::inline RDDL_SIMD_LEVEL {
+
+// ------------------------------------------------------------------------------- registers
+
+#ifdef RDDL_SIMD_AVX512
+inline constexpr const char* level = "AVX-512";
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr const char* level = "AVX2";
+inline constexpr int register_bytes = 32;
+#elif defined(__SSE2__)
+inline constexpr const char* level = "SSE2";
+inline constexpr int register_bytes = 16;
+#else
+inline constexpr const char* level = "portable";
+inline constexpr int register_bytes = 16;
+#endif
+
+// Lanes of 64 bits in a register.
+inline constexpr int lanes = register_bytes / 8;
+
+template <class T>
+struct VectorOf;
+template <>
+struct VectorOf<double> {
+    typedef double type __attribute__((vector_size(register_bytes)));
+};
+template <>
+struct VectorOf<std::int64_t> {
+    typedef std::int64_t type __attribute__((vector_size(register_bytes)));
+};
+template <>
+struct VectorOf<std::uint64_t> {
+    typedef std::uint64_t type __attribute__((vector_size(register_bytes)));
+};
+template <class T>
+using Vector = typename VectorOf<T>::type;
+
+using Reals = Vector<double>;
+using Ints = Vector<std::int64_t>;
+using Words = Vector<std::uint64_t>;
+
+// The lowest `lanes` bits count.
+using MaskBits = std::uint32_t;
+inline constexpr MaskBits all_lanes = (1u << lanes) - 1;
+
+// An unsigned number of n bits: the mask of n lanes in several registers.
+template <int n>
+struct BitsOf;
+template <>
+struct BitsOf<8> {
+    using type = std::uint8_t;
+};
+template <>
+struct BitsOf<16> {
+    using type = std::uint16_t;
+};
+template <>
+struct BitsOf<32> {
+    using type = std::uint32_t;
+};
+template <>
+struct BitsOf<64> {
+    using type = std::uint64_t;
+};
+
+// The same bits as another type of lanes.
+template <class To, class From>
+[[gnu::always_inline]] inline To reinterpret(From a) {
+    static_assert(sizeof(To) == sizeof(From));
+    return (To)a;  // between vectors of one size, this is what such a cast means
+}
+
+// ----------------------------------------------------------------------------------- masks
+
+#ifdef RDDL_SIMD_AVX512
+
+[[gnu::always_inline]] inline MaskBits less(Reals a, Reals b) {
+    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+}
+[[gnu::always_inline]] inline MaskBits less_equal(Reals a, Reals b) {
+    return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+}
+[[gnu::always_inline]] inline MaskBits equal(Reals a, Reals b) {
+    return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ);
+}
+[[gnu::always_inline]] inline MaskBits less(Ints a, Ints b) {
+    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LT);
+}
+[[gnu::always_inline]] inline MaskBits less_equal(Ints a, Ints b) {
+    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LE);
+}
+[[gnu::always_inline]] inline MaskBits equal(Ints a, Ints b) {
+    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_EQ);
+}
+
+// a where the bit is set, else b.
+template <class V>
+[[gnu::always_inline]] inline V blend(MaskBits mask, V a, V b) {
+    return (V)_mm512_mask_blend_pd(static_cast<__mmask8>(mask), (__m512d)b, (__m512d)a);
+}
+
+#else
+
+namespace detail {
+
+// All ones where the bit is set.
+[[gnu::always_inline]] inline Ints spread(MaskBits mask) {
+    Ints bit_of_lane;
+    for (int i = 0; i < lanes; ++i) bit_of_lane[i] = std::int64_t{1} << i;
+    return (bit_of_lane & static_cast<std::int64_t>(mask)) == bit_of_lane;
+}
+
+// Of lanes that are all ones or all zeros.
+[[gnu::always_inline]] inline MaskBits gathered(Ints a) {
+#if defined(__AVX2__)
+    return static_cast<MaskBits>(_mm256_movemask_pd(reinterpret<__m256d>(a)));
+#elif defined(__SSE2__)
+    return static_cast<MaskBits>(_mm_movemask_pd(reinterpret<__m128d>(a)));
+#else
+    MaskBits mask = 0;
+    for (int i = 0; i < lanes; ++i) mask |= static_cast<MaskBits>(a[i] & 1) << i;
+    return mask;
+#endif
+}
+
+}  // namespace detail
+
+template <class V>
+[[gnu::always_inline]] inline MaskBits less(V a, V b) {
+    return detail::gathered(a < b);
+}
+template <class V>
+[[gnu::always_inline]] inline MaskBits less_equal(V a, V b) {
+    return detail::gathered(a <= b);
+}
+template <class V>
+[[gnu::always_inline]] inline MaskBits equal(V a, V b) {
+    return detail::gathered(a == b);
+}
+template <class V>
+[[gnu::always_inline]] inline V blend(MaskBits mask, V a, V b) {
+    return detail::spread(mask) ? a : b;
+}
+
+#endif
+
+// ------------------------------------------------------------------------------ arithmetic
+
+// Of the lower 32 bits of each lane; all 64 bits of the products.
+[[gnu::always_inline]] inline Words multiply_low_halves(Words a, Words b) {
+#ifdef RDDL_SIMD_AVX512
+    return (Words)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
+#elif defined(__AVX2__)
+    return (Words)_mm256_mul_epu32((__m256i)a, (__m256i)b);
+#elif defined(__SSE2__)
+    return (Words)_mm_mul_epu32((__m128i)a, (__m128i)b);
+#else
+    return (a & 0xFFFFFFFFu) * (b & 0xFFFFFFFFu);
+#endif
+}
+
+// Exactly rounded.
+[[gnu::always_inline]] inline Reals square_root(Reals a) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_maskz_sqrt_pd(0xFF, a);
+#elif defined(__AVX2__)
+    return _mm256_sqrt_pd(a);
+#elif defined(__SSE2__)
+    return _mm_sqrt_pd(a);
+#else
+    for (int i = 0; i < lanes; ++i) a[i] = std::sqrt(a[i]);
+    return a;
+#endif
+}
+
+// Rounded to nearest, halves to even, for every int.
+[[gnu::always_inline]] inline Reals to_reals(Ints a) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_maskz_cvtepi64_pd(0xFF, (__m512i)a);
+#else
+    // The halves as mantissas of 2^84 and of 2^52; the sum that puts them together rounds, once.
+    const Words bits = reinterpret<Words>(a);
+    const Words high = (bits >> 32) ^ 0x4530000080000000;
+    const Words low = (bits & 0xFFFFFFFF) | 0x4330000000000000;
+    constexpr double both_offsets = 0x1p84 + 0x1p63 + 0x1p52;
+    return (reinterpret<Reals>(high) - both_offsets) + reinterpret<Reals>(low);
+#endif
+}
+
+namespace detail {
+
+// With one of the rounding modes of SSE4.1 and AVX-512.
+template <int mode, class Function>
+[[gnu::always_inline]] inline Reals rounded(Reals a, [[maybe_unused]] Function function) {
+#if defined(RDDL_SIMD_AVX512)
+    return _mm512_maskz_roundscale_pd(0xFF, a, mode);
+#elif defined(__AVX2__)
+    return _mm256_round_pd(a, mode);
+#else
+    for (int i = 0; i < lanes; ++i) a[i] = function(a[i]);
+    return a;
+#endif
+}
+
+}  // namespace detail
+
+// To whole numbers; halves go to the even neighbour.
+[[gnu::always_inline]] inline Reals nearest(Reals a) {
+    return detail::rounded<0x8>(a, [](double x) { return std::nearbyint(x); });
+}
+[[gnu::always_inline]] inline Reals floor(Reals a) {
+    return detail::rounded<0x9>(a, [](double x) { return std::floor(x); });
+}
+[[gnu::always_inline]] inline Reals ceil(Reals a) {
+    return detail::rounded<0xA>(a, [](double x) { return std::ceil(x); });
+}
+
+// Toward zero; nan and what int cannot hold give the least int.
+[[gnu::always_inline]] inline Ints truncate(Reals a) {
+#ifdef RDDL_SIMD_AVX512
+    return (Ints)_mm512_maskz_cvttpd_epi64(0xFF, a);
+#else
+    Ints result;
+    for (int i = 0; i < lanes; ++i) {
+        const bool holds = a[i] >= -0x1p63 && a[i] < 0x1p63;
+        result[i] = holds ? static_cast<std::int64_t>(a[i]) : INT64_MIN;
+    }
+    return result;
+#endif
+}
+
+// -------------------------------------------------------------------------------- gathering
+
+[[gnu::always_inline]] inline Reals gather(const double* from, Ints indices) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_mask_i64gather_pd(Reals{}, 0xFF, (__m512i)indices, from, 8);
+#elif defined(__AVX2__)
+    return _mm256_i64gather_pd(from, (__m256i)indices, 8);
+#else
+    Reals result;
+    for (int i = 0; i < lanes; ++i) result[i] = from[indices[i]];
+    return result;
+#endif
+}
+[[gnu::always_inline]] inline Ints gather(const std::int64_t* from, Ints indices) {
+    return reinterpret<Ints>(gather(reinterpret_cast<const double*>(from), indices));
+}
+
+}  // namespace rddl::simd::inline RDDL_SIMD_LEVEL
