@@ -17,6 +17,7 @@ from document import ROOT
 PARTS = (
     ("compare.py", True, True),
     ("compare_jax.py", False, True),
+    ("handwritten.py", False, True),
     ("growth.py", False, True),
     ("compile_cost.py", False, True),
 )

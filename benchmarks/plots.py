@@ -82,10 +82,10 @@ def draw_batches(results: Path):
     figure, all_axes = plt.subplots(2, 3, figsize=(10, 5.5), sharex=True)
     for axes, figures in zip(all_axes.flat, problems):
         measurements = figures["measurements"]
-        for threads in sorted({m["threads"] for m in measurements}):
-            chosen = [m for m in measurements[1:] if m["threads"] == threads]
+        for lanes, threads in sorted({(m["lanes"], m["threads"]) for m in measurements}):
+            chosen = [m for m in measurements[1:] if (m["lanes"], m["threads"]) == (lanes, threads)]
             xs, ys = ([m[key] for m in chosen] for key in ("environments", "steps_per_second"))
-            label = f"{threads} thread{'s' if threads > 1 else ''}"
+            label = f"{lanes} lane{'s' if lanes > 1 else ''}, {threads} thread{'s' if threads > 1 else ''}"
             axes.plot(xs, [y / 1e6 for y in ys], "o-", markersize=3, label=label)
         axes.set_title(figures["problem"], fontsize=9)
         axes.set_xscale("log")

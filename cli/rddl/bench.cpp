@@ -41,6 +41,15 @@ std::vector<int> thread_counts(int wanted) {
     return counts;
 }
 
+// One environment after the other in one thread, to compare with, and then as fast as it goes.
+std::vector<Stepping> steppings(const rddl_simulator& simulator, std::int64_t batch, int threads) {
+    const int lanes = batch > 1 ? simulator.lane_count : 1;
+    std::vector<Stepping> all;
+    if (lanes > 1) all.push_back({1, 1});
+    for (const int count : thread_counts(threads)) all.push_back({lanes, count});
+    return all;
+}
+
 double first_step_seconds(const rddl_simulator& simulator) {
     const auto begin = std::chrono::steady_clock::now();
     const Batch batch = create_batch(simulator, course_options(1));
@@ -52,14 +61,14 @@ double first_step_seconds(const rddl_simulator& simulator) {
 std::vector<Measurement> measure_all(const rddl_simulator& simulator,
                                      const std::vector<std::int64_t>& batches,
                                      const BenchOptions& options) {
-    std::vector<Measurement> all{
-        measure(simulator, draw_course(simulator, 1, options.seconds), 1, options.seconds)};
+    std::vector<Measurement> all{measure(simulator, draw_course(simulator, 1, options.seconds),
+                                         Stepping{}, options.seconds)};
     for (const std::int64_t batch : batches) {
         if (is_interrupted()) break;
         const RandomCourse course = draw_course(simulator, batch, options.seconds);
-        for (const int threads : thread_counts(options.threads))
+        for (const Stepping& stepping : steppings(simulator, batch, options.threads))
             if (!is_interrupted())
-                all.push_back(measure(simulator, course, threads, options.seconds));
+                all.push_back(measure(simulator, course, stepping, options.seconds));
     }
     return all;
 }
@@ -91,6 +100,8 @@ ExitStatus bench(const BenchOptions& options) {
     BenchReport report;
     report.problem = files.name;
     report.engine = load.engine;
+    report.lanes = simulator.lane_count;
+    report.instruction_set = simulator.instruction_set;
     report.costs = problem.costs;
     const double first_step = problem.costs.load_seconds + first_step_seconds(simulator);
     if (load.engine == Engine::Interpreter || problem.costs.build_seconds)

@@ -39,17 +39,21 @@ void print_costs(const BenchReport& report) {
             {"first step", seconds_text(*report.first_step_seconds) + " after the files"});
     if (report.memory_per_environment)
         table.add_row({"memory", bytes_text(*report.memory_per_environment) + " per environment"});
+    if (report.lanes > 1)
+        table.add_row(
+            {"packs", fmt::format("{} environments ({})", report.lanes, report.instruction_set)});
     fmt::print("{}\n", table.text());
 }
 
 void print_measurements(const std::vector<Measurement>& all) {
     Table table({{"environments", Align::Right},
+                 {"lanes", Align::Right},
                  {"threads", Align::Right},
                  {"steps/s", Align::Right},
                  {"one step", Align::Right},
                  {"speed-up", Align::Right}});
     for (const Measurement& m : all)
-        table.add_row({grouped(m.environments), std::to_string(m.threads),
+        table.add_row({grouped(m.environments), std::to_string(m.lanes), std::to_string(m.threads),
                        rate_text(m.steps_per_second()), seconds_text(1 / m.steps_per_second()),
                        fmt::format("{:.2f}", m.steps_per_second() / all[0].steps_per_second())});
     fmt::print("{}", table.text());
@@ -94,12 +98,15 @@ void print_peers(const BenchReport& report) {
 
 nlohmann::ordered_json to_json(const std::vector<Measurement>& all) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const Measurement& m : all)
-        out.push_back({{"environments", m.environments},
-                       {"threads", m.threads},
-                       {"steps", m.steps},
-                       {"seconds", m.seconds},
-                       {"steps_per_second", m.steps_per_second()}});
+    for (const Measurement& m : all) {
+        nlohmann::ordered_json figures{{"environments", m.environments}};
+        if (m.lanes > 0) figures["lanes"] = m.lanes;
+        figures["threads"] = m.threads;
+        figures["steps"] = m.steps;
+        figures["seconds"] = m.seconds;
+        figures["steps_per_second"] = m.steps_per_second();
+        out.push_back(std::move(figures));
+    }
     return out;
 }
 
@@ -118,6 +125,8 @@ nlohmann::ordered_json to_json(const BenchReport& report) {
                          {"measurements", to_json(peer.measurements)}});
     return {{"problem", report.problem},
             {"engine", name_of(report.engine)},
+            {"lanes", report.lanes},
+            {"instruction_set", report.instruction_set},
             {"rddlc_seconds", costs.compile_seconds},
             {"cxx_seconds", to_json(costs.build_seconds)},
             {"first_step_seconds", to_json(report.first_step_seconds)},

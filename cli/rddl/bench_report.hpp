@@ -15,6 +15,8 @@ namespace rddlc::cli {
 struct BenchReport {
     std::string problem;
     Engine engine = Engine::Compiled;
+    int lanes = 1;                // of the simulator's packs of environments
+    std::string instruction_set;  // that these are made for
     LoadCosts costs;
     std::optional<double> first_step_seconds;      // from the files; nothing if the simulator was
                                                    // taken from the cache

@@ -47,12 +47,13 @@ std::optional<std::size_t> allocated_bytes() {
 
 }  // namespace
 
-Measurement measure(const rddl_simulator& simulator, const RandomCourse& course, int threads,
-                    double seconds) {
+Measurement measure(const rddl_simulator& simulator, const RandomCourse& course,
+                    const Stepping& stepping, double seconds) {
     rddl_batch_options options = course_options(course.environments);
-    options.thread_count = threads;
+    options.lane_count = stepping.lanes;
+    options.thread_count = stepping.threads;
     Outcomes outcomes(course.environments);
-    Measurement result{course.environments, threads, 0, 0};
+    Measurement result{course.environments, stepping.lanes, stepping.threads, 0, 0};
     do {
         const Batch batch = create_batch(simulator, options);
         simulator.step(batch.get(), course.of_step(0), &outcomes.transition);

@@ -80,7 +80,8 @@ PeerFigures figures_of(const nlohmann::json& answer) {
                         answer["first_step_seconds"],
                         {}};
     for (const nlohmann::json& m : answer["measurements"])
-        figures.measurements.push_back({m["environments"], m["threads"], m["steps"], m["seconds"]});
+        figures.measurements.push_back(
+            {m["environments"], 0, m["threads"], m["steps"], m["seconds"]});
     return figures;
 }
 

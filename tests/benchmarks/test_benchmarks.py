@@ -18,6 +18,7 @@ import compare  # noqa: E402
 import compare_jax  # noqa: E402
 import document  # noqa: E402
 import growth  # noqa: E402
+import handwritten  # noqa: E402
 import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
 from random_actions import RandomActions, draw_course  # noqa: E402
@@ -137,6 +138,28 @@ class LegalActions(unittest.TestCase):
         self.assertEqual(rewards(), rewards())
 
 
+class Handwritten(unittest.TestCase):
+    def test_agrees_with_what_is_emitted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build = Path(RDDL).parents[1]
+            options = ["--build", build, "--folder", folder, "--seconds", 0.01, "--rounds", 1]
+            status, text = run_program(handwritten.main, *options)
+        self.assertEqual(status, 0, text)  # not if a result differs
+        self.assertEqual(text.count(" 1,024 "), len(handwritten.PROBLEMS), text)
+
+    def test_limits(self):
+        good = handwritten.Comparison("p 1", 1, 1e-12, 9.0, 10.0)
+        slow = handwritten.Comparison("p 1", 1024, 1e-12, 8.0, 10.0)
+        wrong = handwritten.Comparison("p 2", 1, float("inf"), 9.0, 1.0)
+        alone = [good, slow, wrong]
+        self.assertEqual(
+            handwritten.shortfalls(alone), ["p 1, 1024 environments: the ratio 0.80 is below 0.9"]
+        )
+        self.assertEqual(
+            handwritten.disagreements(alone), ["p 2, 1 environments: the results differ by inf"]
+        )
+
+
 class Growth(unittest.TestCase):
     def point(self, objects: int, seconds: float) -> growth.Point:
         return growth.Point("fire", objects, 8 * objects, seconds, 0.0, 0)
@@ -176,7 +199,7 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_page_exist(self):
         text = document.DOCUMENT.read_text()
-        for name in ("comparison", "comparison by problem", "jax", "growth", "compile cost"):
+        for name in ("comparison", "comparison by problem", "jax", "handwritten", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 

@@ -1,7 +1,7 @@
 // What `rddl bench` tells, and how it asks other simulators.
 #include "program.hpp"
 
-#include <algorithm>
+#include <array>
 #include <vector>
 
 namespace rddlc::cli {
@@ -24,9 +24,12 @@ class Bench : public Program {
     std::string asked() const { return read_file(folder_ / "asked"); }
 };
 
-std::vector<std::pair<std::int64_t, int>> shapes(const json& measurements) {
-    std::vector<std::pair<std::int64_t, int>> all;
-    for (const json& m : measurements) all.emplace_back(m["environments"], m["threads"]);
+using Shape = std::array<std::int64_t, 3>;
+
+// Environments, lanes and threads.
+std::vector<Shape> shapes(const json& measurements) {
+    std::vector<Shape> all;
+    for (const json& m : measurements) all.push_back({m["environments"], m["lanes"], m["threads"]});
     return all;
 }
 
@@ -49,9 +52,15 @@ TEST_F(Bench, TellsAsJson) {
     EXPECT_GT(bench["emitted_lines"], 50);
     EXPECT_GT(bench["emitted_bytes"], bench["emitted_lines"]);
     EXPECT_GT(bench["object_bytes"], 1000);
-    EXPECT_EQ(shapes(bench["measurements"]),
-              (std::vector<std::pair<std::int64_t, int>>{
-                  {1, 1}, {16, 1}, {16, 2}, {16, 3}, {7, 1}, {7, 2}, {7, 3}}));
+    const std::int64_t lanes = bench["lanes"];
+    EXPECT_GE(lanes, 1);
+    EXPECT_NE(bench["instruction_set"], "");
+    std::vector<Shape> expected{{1, 1, 1}};
+    for (const std::int64_t batch : {16, 7}) {
+        if (lanes > 1) expected.push_back({batch, 1, 1});
+        for (const std::int64_t threads : {1, 2, 3}) expected.push_back({batch, lanes, threads});
+    }
+    EXPECT_EQ(shapes(bench["measurements"]), expected);
     expect_speeds(bench["measurements"]);
     EXPECT_EQ(bench["peers"], json::array());
 #ifdef __GLIBC__
