@@ -12,6 +12,8 @@ enum class Block { Domain, Policy };
 
 // Values are held in dense tables; more than this is a mistake in the instance.
 constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
+// Non-fluents take as much room as they have values other than the default.
+constexpr std::int64_t max_groundings_of_tables = std::int64_t{1} << 40;
 
 std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& context) {
     if (range.text == "bool") return model::bool_type;
@@ -125,6 +127,8 @@ void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, B
 
 // False if there are too many.
 bool check_grounding_count(const model::Fluent& fluent, Context& context) {
+    const std::int64_t most =
+        fluent.role == Role::NonFluent ? max_groundings_of_tables : max_groundings;
     std::int64_t count = 1;
     for (const model::TypeId parameter : fluent.parameters) {
         const model::Type& type = context.type(parameter);
@@ -135,10 +139,9 @@ bool check_grounding_count(const model::Fluent& fluent, Context& context) {
                                                 fluent.name, type.name))
                                .note(type.span, "declared here"));
         count *= static_cast<std::int64_t>(type.objects.size());
-        if (count <= max_groundings) continue;
-        context.report(
-            {too_many_groundings, fluent.span,
-             fmt::format("'{}' has more than {} groundings", fluent.name, max_groundings)});
+        if (count <= most) continue;
+        context.report({too_many_groundings, fluent.span,
+                        fmt::format("'{}' has more than {} groundings", fluent.name, most)});
         return false;
     }
     return true;

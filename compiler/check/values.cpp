@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <unordered_map>
 #include <utility>
 
 namespace rddlc::checking {
@@ -112,8 +113,8 @@ std::optional<model::Value> value_of(const ast::Constant& constant, const model:
 
 namespace {
 
-// What the instance says about one fluent: for each grounding the assignment that set it.
-using Given = std::vector<const ast::Assignment*>;
+// What the instance says about one fluent: the assignments by the groundings that they set.
+using Given = std::unordered_map<std::int64_t, const ast::Assignment*>;
 
 struct Section {
     std::string_view name;  // "init-state", "non-fluents"
@@ -133,11 +134,10 @@ class Assigner {
         const bool from_instance = fluent.role == Role::NonFluent || fluent.role == Role::State;
         if (!from_instance || fluent.default_value || faulty_.contains(id)) return;
         const Given& given = given_[id];
-        std::size_t missing = 0;
+        const std::int64_t missing = fluent.values.size() - std::ssize(given);
         std::vector<std::string> first;
-        for (std::size_t i = 0; i < fluent.values.size(); ++i) {
-            if (!given.empty() && given[i]) continue;
-            if (++missing <= examples_shown) first.push_back(grounded_name(fluent, i));
+        for (std::int64_t i = 0; first.size() < examples_shown && i < fluent.values.size(); ++i) {
+            if (!given.contains(i)) first.push_back(grounded_name(fluent, i));
         }
         if (missing > 0) report_missing(fluent, missing, first);
     }
@@ -149,13 +149,12 @@ class Assigner {
         const model::FluentId* id = settable(assignment, section);
         if (!id || context_.names.broken_fluents.contains(*id)) return;
         model::Fluent& fluent = context_.model.fluents[*id];
-        const std::optional<std::size_t> place = place_of(assignment, fluent);
+        const std::optional<std::int64_t> place = place_of(assignment, fluent);
         if (!place) {
             faulty_.insert(*id);
             return;
         }
         Given& given = given_[*id];
-        if (given.empty()) given.resize(fluent.values.size(), nullptr);
         const ast::Assignment* earlier = std::exchange(given[*place], &assignment);
         if (draw_of(assignment)) {
             if (earlier) report_conflict(assignment, *earlier, fluent, *place);
@@ -166,11 +165,11 @@ class Assigner {
         if (!value) return;
         if (earlier && (draw_of(*earlier) || *value != fluent.values[*place]))
             report_conflict(assignment, *earlier, fluent, *place);
-        fluent.values[*place] = *value;
+        fluent.values.set(*place, *value);
     }
 
     void report_conflict(const ast::Assignment& assignment, const ast::Assignment& earlier,
-                         const model::Fluent& fluent, std::size_t place) {
+                         const model::Fluent& fluent, std::int64_t place) {
         context_.report(diagnose(conflicting_values, assignment.span,
                                  fmt::format("'{}' is set twice, to different values",
                                              grounded_name(fluent, place)))
@@ -205,13 +204,13 @@ class Assigner {
     }
 
     // The row-major index of the grounding.
-    std::optional<std::size_t> place_of(const ast::Assignment& assignment,
-                                        const model::Fluent& fluent) {
+    std::optional<std::int64_t> place_of(const ast::Assignment& assignment,
+                                         const model::Fluent& fluent) {
         if (assignment.arguments.size() != fluent.parameters.size()) {
             report_argument_count(assignment, fluent);
             return std::nullopt;
         }
-        std::size_t place = 0;
+        std::int64_t place = 0;
         bool valid = true;
         for (std::size_t i = 0; i < fluent.parameters.size(); ++i) {
             const model::TypeId type = fluent.parameters[i];
@@ -220,9 +219,7 @@ class Assigner {
             if (!fits && !context_.names.broken_types.contains(type))
                 report_argument(assignment, i, fluent, object);
             valid = valid && fits;
-            if (fits)
-                place = place * context_.type(type).objects.size() +
-                        static_cast<std::size_t>(object->index);
+            if (fits) place = place * std::ssize(context_.type(type).objects) + object->index;
         }
         if (!valid) return std::nullopt;
         return place;
@@ -264,18 +261,19 @@ class Assigner {
     }
 
     // p(a, b)
-    std::string grounded_name(const model::Fluent& fluent, std::size_t place) const {
+    std::string grounded_name(const model::Fluent& fluent, std::int64_t place) const {
         std::string arguments;
         for (auto type = fluent.parameters.rbegin(); type != fluent.parameters.rend(); ++type) {
             const std::vector<std::string>& objects = context_.type(*type).objects;
-            const std::string& object = objects[place % objects.size()];
-            place /= objects.size();
+            const std::string& object =
+                objects[static_cast<std::size_t>(place % std::ssize(objects))];
+            place /= std::ssize(objects);
             arguments = arguments.empty() ? object : object + ", " + arguments;
         }
         return arguments.empty() ? fluent.name : fmt::format("{}({})", fluent.name, arguments);
     }
 
-    void report_missing(const model::Fluent& fluent, std::size_t missing,
+    void report_missing(const model::Fluent& fluent, std::int64_t missing,
                         const std::vector<std::string>& first) const {
         const std::string_view section = fluent.role == Role::State ? "init-state" : "non-fluents";
         std::string message =
@@ -285,7 +283,7 @@ class Assigner {
                 "'{}' has no default, and the instance gives no value to {} of its {} groundings: "
                 "{}{}",
                 fluent.name, missing, fluent.values.size(), fmt::join(first, ", "),
-                missing > first.size() ? ", ..." : "");
+                missing > std::ssize(first) ? ", ..." : "");
         context_.report(
             diagnose(missing_values, fluent.span, message)
                 .with_hint(fmt::format("give the values in the instance's '{}', or a default here",
@@ -316,8 +314,8 @@ void fill_with_defaults(Context& context) {
 }  // namespace
 
 void fill_with_default(model::Fluent& fluent, Context& context) {
-    fluent.values.assign(static_cast<std::size_t>(context.model.grounding_count(fluent)),
-                         fluent.default_value.value_or(zero_of(fluent.range.kind)));
+    fluent.values = Table(context.model.grounding_count(fluent),
+                          fluent.default_value.value_or(zero_of(fluent.range.kind)));
 }
 
 void assign_values(const Blocks& blocks, Context& context) {

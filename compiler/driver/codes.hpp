@@ -13,5 +13,6 @@ inline constexpr Code no_cpp_compiler{'E', 905};
 inline constexpr Code output_is_input{'E', 906};
 inline constexpr Code undefined_external{'E', 907};
 inline constexpr Code refused_external{'E', 908};
+inline constexpr Code table_too_large{'E', 909};
 
 }  // namespace rddlc

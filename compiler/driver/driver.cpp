@@ -2,6 +2,7 @@
 
 #include "ast/print.hpp"
 #include "check/check.hpp"
+#include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
 #include "driver/version.hpp"
@@ -14,6 +15,8 @@
 #include "parse/parse.hpp"
 #include "passes/passes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -21,6 +24,19 @@
 
 namespace rddlc {
 namespace {
+
+// What the emitted file holds as a whole.
+constexpr std::int64_t most_values = std::int64_t{1} << 25;
+
+void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
+    for (const ir::Buffer& buffer : program.buffers) {
+        if (buffer.storage != ir::Storage::Constant || buffer.count() <= most_values) continue;
+        diagnostics.report({table_too_large, buffer.span,
+                            fmt::format("'{}' has {} values, and which of them are needed is known "
+                                        "only when the simulator runs",
+                                        buffer.name, buffer.count())});
+    }
+}
 
 constexpr std::array<std::string_view, 8> stage_names = {"read",   "parse",    "check", "ground",
                                                          "verify", "optimise", "emit",  "write"};
@@ -121,6 +137,7 @@ void run_stages(Run& run) {
 
     // IR -> C++.
     report_undefined_externals(*result.program, run.options, diagnostics);
+    report_large_tables(*result.program, diagnostics);
     if (diagnostics.has_errors()) return;
     result.text = run.measure(Stage::Emit, [&] {
         return emit(*result.program, result.sources, emit_options(run.options));

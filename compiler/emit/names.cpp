@@ -102,7 +102,7 @@ Names names_of(const ir::Program& program) {
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
         const bool starts = buffer.storage == Storage::State || buffer.storage == Storage::Action;
-        if (!starts || are_equal(buffer.values)) continue;
+        if (!starts || buffer.values.empty() || buffer.values.is_uniform()) continue;
         names.initial[index] = names.file.claim("initial_" + buffer.name);
     }
 

@@ -2,7 +2,6 @@
 
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
-#include "ir/fold.hpp"
 #include "ir/layout.hpp"
 #include "support/match.hpp"
 
@@ -217,8 +216,7 @@ bool is_zero(const ir::Value& value) {
 }
 
 bool are_equal(std::span<const ir::Value> values) {
-    return std::ranges::all_of(values,
-                               [&](const ir::Value& v) { return ir::identical(v, values[0]); });
+    return std::ranges::all_of(values, [&](const ir::Value& v) { return identical(v, values[0]); });
 }
 
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
@@ -279,7 +277,7 @@ std::string tables(const Unit& unit) {
         const std::string type = array_type(unit, buffer, table_type(buffer.scalar));
         text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +
                 unit.where(buffer.span) + "\n";
-        text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values);
+        text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values.dense());
     }
     return section("tables", with_joined_regions(std::move(text)));
 }

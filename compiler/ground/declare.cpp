@@ -58,7 +58,7 @@ ir::Buffer buffer_of(const model::Model& model, const Finiteness& finiteness, mo
 ir::Buffer next_of(ir::Buffer state) {
     state.storage =
         state.storage == ir::Storage::Memory ? ir::Storage::NextMemory : ir::Storage::Next;
-    state.values.clear();
+    state.values = {};
     return state;
 }
 

@@ -15,8 +15,7 @@ double as_real(const model::Value& value) {
 }
 
 bool has_finite_values(const model::Fluent& fluent) {
-    return std::ranges::all_of(fluent.values,
-                               [](const model::Value& v) { return std::isfinite(as_real(v)); });
+    return fluent.values.all_of([](const model::Value& v) { return std::isfinite(as_real(v)); });
 }
 
 bool is_small_whole_number(const model::Expr& expr) {
@@ -104,8 +103,8 @@ bool Finiteness::is_never_zero(const model::Expr& expr) const {
     }
     const auto* reference = std::get_if<model::Reference>(&expr.node);
     if (!reference || model_.fluents[reference->fluent].role != Role::NonFluent) return false;
-    return std::ranges::none_of(model_.fluents[reference->fluent].values,
-                                [](const model::Value& v) { return as_real(v) == 0; });
+    return model_.fluents[reference->fluent].values.all_of(
+        [](const model::Value& v) { return as_real(v) != 0; });
 }
 
 }  // namespace rddlc::grounding

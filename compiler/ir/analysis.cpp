@@ -205,7 +205,13 @@ class Collector {
 
     std::optional<Range> range(NodeId id) const { return known_[id.index].range; }
 
-    std::optional<Range> table_range(BufferId id) const { return range_of(program_[id].values); }
+    std::optional<Range> table_range(BufferId id) const {
+        std::vector<Value> values;
+        const Table& table = program_[id].values;
+        if (table.has_common()) values.push_back(table.common());
+        for (const auto& [index, value] : table.exceptions()) values.push_back(value);
+        return range_of(values);
+    }
 
     const Program& program_;
     std::span<const Facts> known_;

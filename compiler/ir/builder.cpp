@@ -99,12 +99,12 @@ std::optional<std::vector<Value>> constants(const Program& program,
     return values;
 }
 
-std::size_t row_major(const Buffer& buffer, const std::vector<Value>& indices) {
+std::int64_t row_major(const Buffer& buffer, const std::vector<Value>& indices) {
     std::int64_t offset = 0;
     for (std::size_t axis = 0; axis < indices.size(); ++axis) {
         offset = offset * buffer.shape[axis] + std::get<std::int64_t>(indices[axis]);
     }
-    return static_cast<std::size_t>(offset);
+    return offset;
 }
 
 Scalar result_type(Operator op, Scalar operand) {

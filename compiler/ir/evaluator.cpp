@@ -11,11 +11,15 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <set>
 #include <type_traits>
 #include <utility>
 
 namespace rddlc::ir {
 namespace {
+
+// Constant tables with more elements are looked up where they are: they are sparse.
+constexpr std::int64_t most_packed = std::int64_t{1} << 20;
 
 // Locals of different computations never live together: each computation numbers its own from 0.
 void number_lets(const Block& block, std::size_t& next, std::vector<std::size_t>& slots) {
@@ -46,10 +50,12 @@ void write(std::byte* to, T value) {
 }  // namespace
 
 void write_values(const Buffer& buffer, std::byte* to) {
-    for (const Value& value : buffer.values) {
-        match(value, [&](auto v) { write(to, v); });
-        to += size_of(buffer.scalar);
-    }
+    const auto element = static_cast<std::int64_t>(size_of(buffer.scalar));
+    const auto write_at = [&](std::int64_t index, const Value& value) {
+        match(value, [&](auto v) { write(to + index * element, v); });
+    };
+    for (std::int64_t i = 0; i < buffer.values.size(); ++i) write_at(i, buffer.values.common());
+    for (const auto& [index, value] : buffer.values.exceptions()) write_at(index, value);
 }
 
 // ---------------------------------------------------------------------------- preparation
@@ -58,6 +64,7 @@ Evaluator::Evaluator(const Program& program, ExternalFunctions functions)
     : program_(&program), functions_(std::move(functions)) {
     origins_.resize(program.buffers.size());
     for (std::size_t record = 0; record < Records{}.begin.size(); ++record) {
+        if (record == static_cast<std::size_t>(Storage::Constant)) continue;
         const RecordLayout layout = record_layout(program, static_cast<Storage>(record));
         for (const Field& field : layout.fields) {
             origins_[field.buffer.index] = {record, field.offset};
@@ -68,10 +75,24 @@ Evaluator::Evaluator(const Program& program, ExternalFunctions functions)
 }
 
 void Evaluator::pack_constants() {
-    const RecordLayout layout = record_layout(*program_, Storage::Constant);
-    constants_.resize(layout.size);
-    for (const Field& field : layout.fields) {
-        write_values((*program_)[field.buffer], constants_.data() + field.offset);
+    std::set<BufferId> passed;  // as a whole: it must lie in memory
+    for (const Block* block : blocks_of(*program_)) {
+        for_each_statement<Call>(*block, [&](const Call& call) {
+            for (const TableView& input : call.inputs) passed.insert(input.buffer);
+        });
+    }
+    for (std::uint32_t index = 0; index < program_->buffers.size(); ++index) {
+        const Buffer& buffer = program_->buffers[index];
+        if (buffer.storage != Storage::Constant) continue;
+        origins_[index] = {static_cast<std::size_t>(Storage::Constant), constants_.size()};
+        origins_[index].is_looked_up =
+            buffer.count() > most_packed && !passed.contains(BufferId{index});
+        if (origins_[index].is_looked_up) continue;
+        constexpr std::size_t alignment = 8;
+        const std::size_t bytes =
+            size_of(buffer.scalar) * static_cast<std::size_t>(buffer.count()) + alignment - 1;
+        constants_.resize(constants_.size() + bytes / alignment * alignment);
+        write_values(buffer, constants_.data() + origins_[index].offset);
     }
 }
 
@@ -197,7 +218,8 @@ void Evaluator::call(ExternalId callee, const Call& form, Frame& frame) const {
     functions_[callee.index](arguments, static_cast<std::int32_t>(form.inputs.size()), &result);
 }
 
-std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const {
+std::int64_t Evaluator::row_major(BufferId id, const std::vector<NodeId>& indices,
+                                  Frame& frame) const {
     const Buffer& buffer = (*program_)[id];
     std::int64_t index = 0;
     for (std::size_t axis = 0; axis < indices.size(); ++axis) {
@@ -206,8 +228,22 @@ std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, F
     for (std::size_t axis = indices.size(); axis < buffer.shape.size(); ++axis) {
         index *= buffer.shape[axis];
     }
+    return index;
+}
+
+template <class T>
+T Evaluator::load(const Load& form, Frame& frame) const {
+    if (!origins_[form.buffer.index].is_looked_up) {
+        return read<T>(element(form.buffer, form.indices, frame));
+    }
+    return std::get<T>(
+        (*program_)[form.buffer].values[row_major(form.buffer, form.indices, frame)]);
+}
+
+std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const {
     const Origin origin = origins_[id.index];
-    const std::size_t offset = static_cast<std::size_t>(index) * size_of(buffer.scalar);
+    const auto index = static_cast<std::size_t>(row_major(id, indices, frame));
+    const std::size_t offset = index * size_of((*program_)[id].scalar);
     return frame.records_.begin[origin.record] + origin.offset + offset;
 }
 
@@ -221,36 +257,35 @@ rddl::Place Evaluator::place(const std::optional<Place>& place, Frame& frame) co
 template <class T>
 T Evaluator::value(NodeId id, Frame& frame) const {
     constexpr bool is_int = std::is_same_v<T, std::int64_t>;
-    return match(
-        (*program_)[id].form,  //
-        [&](const Constant& form) -> T { return std::get<T>(form.value); },
-        [&](const Index& form) -> T {
-            if constexpr (is_int) return frame.slots_[form.variable.index].integer;
-            unreachable_operator();
-        },
-        [&](const Load& form) -> T { return read<T>(element(form.buffer, form.indices, frame)); },
-        [&](const Local& form) -> T {
-            return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
-        },
-        [&](const Convert& form) -> T { return convert_operand<T>(form, frame); },
-        [&](const Apply& form) -> T { return apply<T>(form, frame); },
-        [&](const Select& form) -> T {
-            return value<bool>(form.condition, frame) ? value<T>(form.then_value, frame)
-                                                      : value<T>(form.else_value, frame);
-        },
-        [&](const Reduce& form) -> T { return reduce<T>(form, frame); },
-        [&](const Sample& form) -> T { return draw<T>(form, frame); },
-        [&](const Discrete& form) -> T {
-            if constexpr (is_int) return draw(form, id, frame);
-            unreachable_operator();
-        },
-        [&](const DiscreteOver& form) -> T {
-            if constexpr (is_int) return draw(form, frame);
-            unreachable_operator();
-        },
-        [&](const Fault& form) -> T {
-            return rddl::fault<T>(frame.context_, place(form.place, frame));
-        });
+    return match((*program_)[id].form,  //
+                 [&](const Constant& form) -> T { return std::get<T>(form.value); },
+                 [&](const Index& form) -> T {
+                     if constexpr (is_int) return frame.slots_[form.variable.index].integer;
+                     unreachable_operator();
+                 },
+                 [&](const Load& form) -> T { return load<T>(form, frame); },
+                 [&](const Local& form) -> T {
+                     return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
+                 },
+                 [&](const Convert& form) -> T { return convert_operand<T>(form, frame); },
+                 [&](const Apply& form) -> T { return apply<T>(form, frame); },
+                 [&](const Select& form) -> T {
+                     return value<bool>(form.condition, frame) ? value<T>(form.then_value, frame)
+                                                               : value<T>(form.else_value, frame);
+                 },
+                 [&](const Reduce& form) -> T { return reduce<T>(form, frame); },
+                 [&](const Sample& form) -> T { return draw<T>(form, frame); },
+                 [&](const Discrete& form) -> T {
+                     if constexpr (is_int) return draw(form, id, frame);
+                     unreachable_operator();
+                 },
+                 [&](const DiscreteOver& form) -> T {
+                     if constexpr (is_int) return draw(form, frame);
+                     unreachable_operator();
+                 },
+                 [&](const Fault& form) -> T {
+                     return rddl::fault<T>(frame.context_, place(form.place, frame));
+                 });
 }
 
 template <class T>

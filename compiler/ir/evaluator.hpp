@@ -1,6 +1,6 @@
 // Evaluates expressions and statements over records of raw bytes (layout.hpp), with the runtime's
-// own functions. Constant tables are packed once; an evaluation does not allocate, unless a program
-// needs more loop indices and locals than a Workspace holds.
+// own functions. Constant tables are packed once, unless they are huge; an evaluation does not
+// allocate, unless a program needs more loop indices and locals than a Workspace holds.
 #pragma once
 
 #include "ir/external_functions.hpp"
@@ -77,12 +77,16 @@ class Evaluator {
     struct Origin {
         std::size_t record;  // index into Records::begin
         std::size_t offset;
+        bool is_looked_up = false;  // in Buffer::values: the table is too large to be packed
     };
 
     void pack_constants();
     void number_slots();
 
     // Where the element begins, or the part that the leading indices choose.
+    std::int64_t row_major(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
+    template <class T>
+    T load(const Load& form, Frame& frame) const;
     std::byte* element(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
     rddl::Place place(const std::optional<Place>& place, Frame& frame) const;
     void store(const Store& store, Frame& frame) const;

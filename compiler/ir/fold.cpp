@@ -5,7 +5,6 @@
 
 #include <rddl/reductions.hpp>
 
-#include <bit>
 #include <limits>
 
 namespace rddlc::ir {
@@ -57,13 +56,6 @@ std::optional<Value> fold_numeric(Reduction op, std::int64_t size, T body) {
 }
 
 }  // namespace
-
-bool identical(const Value& a, const Value& b) {
-    const auto* x = std::get_if<double>(&a);
-    const auto* y = std::get_if<double>(&b);
-    if (!x || !y) return a == b;
-    return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(*y);
-}
 
 Value convert(const Value& value, Scalar type) {
     return match(value, [&](auto v) -> Value {

@@ -8,9 +8,6 @@
 
 namespace rddlc::ir {
 
-// The same bits: zeros have a sign, and nan equals itself.
-bool identical(const Value& a, const Value& b);
-
 Value convert(const Value& value, Scalar type);
 
 // None where it faults.

@@ -10,6 +10,7 @@
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
 
+#include "model/table.hpp"
 #include "model/vocabulary.hpp"
 #include "support/source.hpp"
 
@@ -36,7 +37,7 @@ using SiteId = Id<struct SiteTag>;
 using ExternalId = Id<struct ExternalTag>;
 
 enum class Scalar : std::uint8_t { Bool, Int, Real };
-using Value = std::variant<bool, std::int64_t, double>;
+using Value = rddlc::Value;
 
 // A loop index, running over [0, size). Named as in the RDDL text, without "?".
 struct Variable {
@@ -66,7 +67,7 @@ struct Buffer {
     std::vector<std::uint32_t> types;
     std::optional<std::uint32_t> fluent;  // index into Program::fluents; absent: the policy's own
     // Constant: the table; State, Memory: initial; Action: defaults.
-    std::vector<Value> values;
+    Table values;
     Span span;
     // No element is ever inf or nan, as long as no sum or product overflows and actions are finite.
     bool finite = true;

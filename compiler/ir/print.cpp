@@ -177,12 +177,13 @@ class Printer {
     }
 
     // One for all where they are equal.
-    static std::string values(const std::vector<Value>& values) {
+    static std::string values(const Table& values) {
+        if (values.is_uniform()) return text_of(values[0]);
         std::vector<std::string> texts;
-        for (const Value& value : values) texts.push_back(text_of(value));
-        const bool uniform =
-            std::ranges::adjacent_find(texts, std::not_equal_to<>()) == texts.end();
-        return uniform ? texts.front() : fmt::format("{{{}}}", shortened(texts));
+        const std::int64_t shown = std::min(values.size(), std::int64_t{printed_values});
+        for (std::int64_t i = 0; i < shown; ++i) texts.push_back(text_of(values[i]));
+        if (values.size() > shown) texts.push_back(fmt::format("... ({})", values.size()));
+        return fmt::format("{{{}}}", fmt::join(texts, " "));
     }
 
     void bounds() {
@@ -204,7 +205,7 @@ class Printer {
     }
 
     static std::string limits(const std::vector<double>& limits) {
-        return values({limits.begin(), limits.end()});
+        return values(std::vector<Value>(limits.begin(), limits.end()));
     }
 
     void sites() {

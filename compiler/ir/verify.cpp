@@ -70,14 +70,13 @@ class Verifier {
         const StorageSet with_values = {Storage::Constant, Storage::State, Storage::Action,
                                         Storage::Memory};
         const bool has_values = with_values.contains(buffer.storage);
-        const std::size_t expected = has_values ? static_cast<std::size_t>(buffer.count()) : 0;
+        const std::int64_t expected = has_values ? buffer.count() : 0;
         require(buffer.values.size() == expected, "'{}' has {} values instead of {}", buffer.name,
                 buffer.values.size(), expected);
         const auto typed = [&](const Value& value) {
             return value.index() == static_cast<std::size_t>(buffer.scalar);
         };
-        require(std::ranges::all_of(buffer.values, typed), "'{}' has values of another type",
-                buffer.name);
+        require(buffer.values.all_of(typed), "'{}' has values of another type", buffer.name);
     }
 
     std::ptrdiff_t count_like(const Buffer& model, Storage storage) const {

@@ -4,16 +4,17 @@
 // (apart from "valid RDDL, not supported yet", which ground/ reports).
 #pragma once
 
+#include "model/table.hpp"
+#include "model/vocabulary.hpp"
+#include "support/box.hpp"
+#include "support/source.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "model/vocabulary.hpp"
-#include "support/box.hpp"
-#include "support/source.hpp"
 
 namespace rddlc::model {
 
@@ -40,7 +41,7 @@ inline constexpr ValueType int_type{ValueType::Kind::Int};
 inline constexpr ValueType real_type{ValueType::Kind::Real};
 
 // Objects are held as int64 indices.
-using Value = std::variant<bool, std::int64_t, double>;
+using Value = rddlc::Value;
 
 struct Fluent {
     std::string name;
@@ -53,7 +54,7 @@ struct Fluent {
     // Model::initial_draws has one; action-fluents: the
     // default for every grounding; others: empty. Row-major over the parameters' objects, each
     // already of the range's type (bool, int64 or double).
-    std::vector<Value> values;
+    Table values;
 };
 
 // A parameter of a CPF or a variable of an aggregation. Every binder has a variable of its own.
@@ -76,7 +77,7 @@ struct VariableValue {  // ?x as a value
 };
 struct Reference {
     FluentId fluent;
-    bool next = false;  // primed
+    bool next = false;            // primed
     std::vector<Expr> arguments;  // one per parameter, each of exactly the parameter's Object type
 };
 // bool -> int, bool -> real or int -> real, to Expr::type.
@@ -96,7 +97,7 @@ struct If {  // lazy: only the branch taken is evaluated
     ExprBox condition, then_branch, else_branch;
 };
 struct Switch {
-    ExprBox subject;  // of an enumerated type
+    ExprBox subject;                            // of an enumerated type
     std::vector<std::optional<ExprBox>> cases;  // one per member, absent: default
     std::optional<ExprBox> default_case;
 };
@@ -126,7 +127,7 @@ struct Determinant {
     ExprBox element;
 };
 struct MatrixFunction {
-    MatrixOperator op;  // not Determinant
+    MatrixOperator op;       // not Determinant
     VariableId row, column;  // bound by the enclosing scope
     ExprBox element;
 };
@@ -149,9 +150,9 @@ struct RandomVector {
     std::vector<VectorReference> arguments;
 };
 
-using ExprNode =
-    std::variant<Constant, VariableValue, Reference, Convert, TypeFault, Apply, If, Switch, Aggregate,
-                 Sample, Discrete, DiscreteOver, Determinant, MatrixFunction, External, RandomVector>;
+using ExprNode = std::variant<Constant, VariableValue, Reference, Convert, TypeFault, Apply, If,
+                              Switch, Aggregate, Sample, Discrete, DiscreteOver, Determinant,
+                              MatrixFunction, External, RandomVector>;
 
 struct Expr {
     ValueType type;
@@ -162,7 +163,7 @@ struct Expr {
 struct Cpf {
     FluentId fluent;  // for a state-fluent: defines its next value
     std::vector<VariableId> parameters;
-    Expr body;        // of exactly the fluent's range
+    Expr body;  // of exactly the fluent's range
     Span span;
 };
 
@@ -192,8 +193,8 @@ struct Model {
     std::vector<Variable> variables;
 
     std::vector<InitialDraw> initial_draws;  // of different groundings, in the order written
-    std::vector<Cpf> cpfs;  // in evaluation order (semantics 4.6)
-    Expr reward;            // real
+    std::vector<Cpf> cpfs;                   // in evaluation order (semantics 4.6)
+    Expr reward;                             // real
     // Each of type bool. State-action constraints are not kept: nothing enforces them.
     std::vector<Expr> action_preconditions;
     std::vector<Expr> state_invariants;

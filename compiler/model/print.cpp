@@ -35,23 +35,25 @@ std::string type_line(const Type& type) {
                        shortened(names));
 }
 
+std::int64_t count_of_others(const Table& values, const Value& value) {
+    std::int64_t count = 0;
+    for (const auto& [index, exception] : values.exceptions()) count += exception != value;
+    if (values.common() != value) count += values.size() - std::ssize(values.exceptions());
+    return count;
+}
+
 // " = 0.5" where all are the same, otherwise the first few.
 std::string value_summary(const Model& model, const Fluent& fluent) {
-    const std::vector<Value>& values = fluent.values;
+    const Table& values = fluent.values;
     if (values.empty()) return "";
-    const bool uniform =
-        std::ranges::all_of(values, [&](const Value& v) { return v == values[0]; });
-    if (uniform) return " = " + text_of(model, fluent.range, values[0]);
-    std::vector<std::string> words;
-    for (std::size_t i = 0; i < std::min(values.size(), values_shown); ++i)
-        words.push_back(text_of(model, fluent.range, values[i]));
-    words.resize(values.size());
-    std::string text = shortened(words);
-    if (values.size() > values_shown && fluent.default_value)
-        text += fmt::format(", {} not the default",
-                            std::ranges::count_if(values, [&](const Value& value) {
-                                return value != *fluent.default_value;
-                            }));
+    if (values.is_uniform()) return " = " + text_of(model, fluent.range, values[0]);
+    const std::int64_t shown = std::min(values.size(), std::int64_t{values_shown});
+    std::string text;
+    for (std::int64_t i = 0; i < shown; ++i)
+        text += (i == 0 ? "" : ", ") + text_of(model, fluent.range, values[i]);
+    if (values.size() > shown) text += fmt::format(", ... {} in all", values.size());
+    if (values.size() > shown && fluent.default_value)
+        text += fmt::format(", {} not the default", count_of_others(values, *fluent.default_value));
     return fmt::format(" = [{}]", text);
 }
 

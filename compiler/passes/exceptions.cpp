@@ -10,6 +10,8 @@ namespace {
 
 // In operations (Facts::cost), of evaluating one expression for many assignments.
 constexpr double affordable_cost = 4e6;
+// Tables in which most elements are exceptions are looked through up to this size.
+constexpr std::int64_t most_elements = std::int64_t{1} << 22;
 // Relations with more of all possible tuples than this do not help.
 constexpr double sparse = 0.5;
 
@@ -54,6 +56,7 @@ std::optional<Relation> Exceptions::of(ir::NodeId id, const ir::Value& value) co
         [&](const ir::Reduce& form) { return of(form, value); },
         [&](const ir::Sample& form) { return of(form, value); },
         [](const auto&) { return Found(); });
+    if (!found && facts(id).uniform) found = of_common_elements(id, value);
     if (found && !is_sparse(*found)) found.reset();
     return found;
 }
@@ -124,13 +127,54 @@ std::optional<Relation> Exceptions::of(const ir::Load& load, const ir::Value& va
     std::ranges::sort(sorted);
     if (std::ranges::adjacent_find(sorted) != sorted.end()) return std::nullopt;
     Relation result{std::move(axes), {}};
-    for (std::size_t i = 0; i < table.values.size(); ++i) {
-        if (table.values[i] != value) {
-            result.tuples.push_back(static_cast<std::int64_t>(i));
+    if (table.values.common() == value) {
+        for (const auto& [index, exception] : table.values.exceptions()) {
+            if (exception != value) result.tuples.push_back(index);
+        }
+    } else {
+        if (table.values.size() > most_elements) return std::nullopt;
+        for (std::int64_t i = 0; i < table.values.size(); ++i) {
+            if (table.values[i] != value) result.tuples.push_back(i);
         }
     }
     if (!is_sparse(result)) return std::nullopt;
     return ordered(result, std::move(sorted));
+}
+
+// Where all tables have their common elements, the expression has one value: if it is the given
+// one, then the exceptions are among those of the tables.
+std::optional<Relation> Exceptions::of_common_elements(ir::NodeId id,
+                                                       const ir::Value& value) const {
+    const Found found = exceptions_of_tables(id);
+    if (!found || !is_sparse(*found)) return std::nullopt;
+    const Found all = unite(Relation{axes_of(id), {}}, *found);
+    if (!all) return std::nullopt;
+    std::int64_t common = 0;  // a tuple that is no exception
+    while (common < all->count() && all->tuples[static_cast<std::size_t>(common)] == common) {
+        ++common;
+    }
+    if (common == volume(all->axes) || evaluate(id, all->axes, common) != value) return {};
+    return narrowed(*all, id, value);
+}
+
+// The assignments for which some table of the expression has not its common element; none where
+// objects are used otherwise than to choose elements.
+std::optional<Relation> Exceptions::exceptions_of_tables(ir::NodeId id) const {
+    const ir::Node& node = program()[id];
+    if (facts(id).free_variables.empty()) return Relation{};
+    if (std::holds_alternative<ir::Index>(node.form)) return std::nullopt;
+    if (const auto* load = std::get_if<ir::Load>(&node.form)) {
+        return of(*load, program()[load->buffer].values.common());
+    }
+    if (ir::bound_variable(node)) return std::nullopt;
+    Found all = Relation{};
+    for (ir::NodeId operand : ir::operands_of(node)) {
+        const Found some = exceptions_of_tables(operand);
+        if (!some) return std::nullopt;
+        all = unite(*all, *some);
+        if (!all) return std::nullopt;
+    }
+    return all;
 }
 
 // ----------------------------------------------------------------------------- expressions

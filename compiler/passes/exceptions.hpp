@@ -42,6 +42,8 @@ class Exceptions {
     Found of(const ir::Select& select, const ir::Value& value) const;
     Found of(const ir::Reduce& reduce, const ir::Value& value) const;
     Found of(const ir::Sample& sample, const ir::Value& value) const;
+    Found of_common_elements(ir::NodeId id, const ir::Value& value) const;
+    Found exceptions_of_tables(ir::NodeId id) const;
     Found of_equality(ir::NodeId a, ir::NodeId b) const;
     Found of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero) const;
 

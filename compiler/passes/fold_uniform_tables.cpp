@@ -1,6 +1,5 @@
 #include "passes/fold_uniform_tables.hpp"
 
-#include "ir/fold.hpp"
 #include "ir/rewrite.hpp"
 
 #include <algorithm>
@@ -11,10 +10,7 @@ namespace rddlc::passes {
 namespace {
 
 bool is_uniform_table(const ir::Buffer& buffer) {
-    return buffer.storage == ir::Storage::Constant && !buffer.values.empty() &&
-           std::ranges::all_of(buffer.values, [&](const ir::Value& value) {
-               return ir::identical(value, buffer.values.front());
-           });
+    return buffer.storage == ir::Storage::Constant && buffer.values.is_uniform();
 }
 
 }  // namespace
@@ -34,7 +30,7 @@ ir::Program fold_uniform_tables(ir::Program program, Report& report) {
             };
             if (!std::ranges::all_of(load->indices, droppable)) return std::nullopt;
             replaced.insert(load->buffer);
-            return builder.constant(builder.program()[load->buffer].values.front());
+            return builder.constant(builder.program()[load->buffer].values[0]);
         });
     report["tables made scalars"] += static_cast<std::int64_t>(replaced.size());
     return program;

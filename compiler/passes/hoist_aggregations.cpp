@@ -2,6 +2,7 @@
 
 #include "ir/call.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/new_tables.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -209,19 +210,9 @@ class Hoisting {
                 "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
         if (buffer.types.size() != buffer.shape.size()) buffer.types.clear();
-        buffer.name = unused_name(buffer.name);
+        buffer.name = unused_name(program_, buffer.name);
         program_.buffers.push_back(std::move(buffer));
         return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
-    }
-
-    std::string unused_name(const std::string& wish) const {
-        std::string name = wish;
-        for (int number = 2;
-             std::ranges::find(program_.buffers, name, &ir::Buffer::name) != program_.buffers.end();
-             ++number) {
-            name = wish + "-" + std::to_string(number);
-        }
-        return name;
     }
 
     // The node with elements of tables in it.

@@ -148,7 +148,7 @@ class Rewriting {
             values.push_back(*value);
         }
         const auto is_like_first = [&](const ir::Value& value) {
-            return ir::identical(value, values.front());
+            return identical(value, values.front());
         };
         if (std::ranges::all_of(values, is_like_first)) return builder_.constant(values.front());
         return load("-entries", program_[id].type, std::move(values), scope);

@@ -1,7 +1,5 @@
 #include "passes/new_tables.hpp"
 
-#include "ir/fold.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +9,7 @@ namespace {
 bool are_alike(const ir::Buffer& a, const ir::Buffer& b) {
     return a.storage == ir::Storage::Constant && b.storage == ir::Storage::Constant &&
            a.scalar == b.scalar && a.shape == b.shape && a.types == b.types &&
-           std::ranges::equal(a.values, b.values, ir::identical);
+           identical(a.values, b.values);
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ std::optional<OnlyObjects::Column> OnlyObjects::column(ir::NodeId id,
 std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::NodeId value) {
     const ir::Buffer& table = program_[column.table];
     std::vector<std::int64_t> entries;
-    for (const ir::Value& entry : table.values) entries.push_back(std::get<std::int64_t>(entry));
+    for (const ir::Value& entry : table.values.dense())
+        entries.push_back(std::get<std::int64_t>(entry));
     const std::set<std::int64_t> different(entries.begin(), entries.end());
     if (different.size() != entries.size()) return std::nullopt;
     const std::int64_t first = *different.begin(), last = *different.rbegin();

@@ -18,8 +18,8 @@ constexpr double entries_for_an_operation = 32;
 // In operations (Facts::cost), for the whole table.
 constexpr double affordable_cost = 4e6;
 
-bool are_finite(const std::vector<ir::Value>& values) {
-    return std::ranges::all_of(values, [](const ir::Value& value) {
+bool are_finite(const rddlc::Table& values) {
+    return values.all_of([](const ir::Value& value) {
         const auto* real = std::get_if<double>(&value);
         return !real || std::isfinite(*real);
     });

@@ -80,7 +80,7 @@ constexpr std::string_view grid = R"(
     }
 )";
 
-TEST(Values, AreDenseRowMajorAndOfTheRange) {
+TEST(Values, AreRowMajorAndOfTheRange) {
     const Checked checked = check_text(std::string(grid));
     ASSERT_TRUE(checked.model) << checked.rendered();
     const model::Model& model = *checked.model;

@@ -159,7 +159,7 @@ TEST_F(VerifyTest, FindsLocalsUsedOutsideOfTheirBlock) {
 }
 
 TEST_F(VerifyTest, FindsTablesOfTheWrongSize) {
-    w.program.buffers[w.connected.index].values.pop_back();
+    w.program.buffers[w.connected.index].values = {true, false};
     EXPECT_EQ(complaint(), "'CONNECTED' has 2 values instead of 3");
 }
 

@@ -1,0 +1,60 @@
+// The values of a fluent, or a constant table: one value that most elements have, and the others.
+// So a table over all pairs of 10,000 objects takes as much room as it has exceptions.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <variant>
+#include <vector>
+
+namespace rddlc {
+
+using Value = std::variant<bool, std::int64_t, double>;
+
+// The same bits: zeros have a sign, and nan equals itself.
+bool identical(const Value& a, const Value& b);
+
+class Table {
+  public:
+    Table() = default;  // without elements
+    Table(std::int64_t size, Value common) : size_(size), common_(common) {}
+    Table(const std::vector<Value>& values);
+    Table(std::initializer_list<Value> values) : Table(std::vector<Value>(values)) {}
+
+    std::int64_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const Value& operator[](std::int64_t index) const;
+    void set(std::int64_t index, Value value);
+
+    // Every element that is not among the exceptions, which are by index, none identical to it.
+    const Value& common() const { return common_; }
+    const std::map<std::int64_t, Value>& exceptions() const { return exceptions_; }
+    bool has_common() const { return std::ssize(exceptions_) < size_; }
+
+    // All elements are the same, bit by bit.
+    bool is_uniform() const;
+    std::vector<Value> dense() const;
+
+    // Of each value that occurs.
+    template <class Holds>
+    bool all_of(const Holds& holds) const {
+        if (has_common() && !holds(common_)) return false;
+        for (const auto& [index, value] : exceptions_) {
+            if (!holds(value)) return false;
+        }
+        return true;
+    }
+
+    bool operator==(const Table& other) const { return dense() == other.dense(); }
+
+  private:
+    std::int64_t size_ = 0;
+    Value common_;
+    std::map<std::int64_t, Value> exceptions_;
+};
+
+// Of the same size and elements, bit by bit.
+bool identical(const Table& a, const Table& b);
+
+}  // namespace rddlc
