@@ -179,7 +179,6 @@ struct Simulator {
     static void ignites(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                         rddl::Context<L>& context) {
         using Bool = typename L::Bool;
-        using Int = typename L::Int;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
@@ -194,7 +193,7 @@ struct Simulator {
                                     state.burning[ignites_n[entry]][ignites_m[entry]],
                                     ignites_entries[entry], 1.0);
                             });
-                        const Int number = rddl::wrap_add(rddl::wrap_mul(c, 5), r);
+                        const rddl::Index number = rddl::wrap_add(rddl::wrap_mul(c, 5), r);
                         const Real term = 1.0 - 0.9995 * product;
                         return rddl::sample::bernoulli(context, {1, number}, term);
                     });
