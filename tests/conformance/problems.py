@@ -73,8 +73,9 @@ def problems_without_metadata() -> dict[str, Path]:
     """Folders of rddlrepository that its manager does not know, under the names of `rddl list`: one
     for each problem and competition, such as Name_p3_ippc2018."""
     manager = RDDLRepoManager()
-    known = {Path(manager.get_problem(p).get_domain()).parent for p in manager.list_problems()}
-    archive = Path(rddlrepository.__path__[0], "archive")
+    domains = (Path(manager.get_problem(problem).get_domain()) for problem in manager.list_problems())
+    known = {domain.resolve().parent for domain in domains}
+    archive = Path(rddlrepository.__path__[0], "archive").resolve()
     folders = {path.parent for path in archive.rglob("domain.rddl")} - known
     problems = {}
     for folder in sorted(folders):
