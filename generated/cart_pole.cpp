@@ -78,15 +78,16 @@ struct Simulator {
     // All CPFs, each after those that it depends on.
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+                     State<L>& next, Observation<L>& /*observation*/,
+                     rddl::Context<L>& /*context*/) {
         angle(state, next);
         friction(state, scratch);
         position(state, next);
-        drive(state, action, scratch, context);
+        drive(state, action, scratch);
         turn(state, scratch);
         angle_change(state, scratch, next);
-        pressure(state, scratch, context);
-        speed_up(state, action, scratch, context);
+        pressure(state, scratch);
+        speed_up(state, action, scratch);
         velocity(state, scratch, next);
     }
 
@@ -110,19 +111,16 @@ struct Simulator {
 
     // drive  (domain.rddl:49)
     template <class L>
-    static void drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                      rddl::Context<L>& context) {
+    static void drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = 0.05 * rddl::power(state.angle_change, 2.0);
-        const Real term_2 = rddl::branch(
-            context, term == 0.0, [&] { return term; },
-            [&] {
-                const Real term_3 = rddl::branch(
-                    context, scratch.friction == 0.0, [&] { return scratch.friction; },
-                    [&] { return scratch.friction * rddl::cos(state.angle); });
-                return term * (rddl::sin(state.angle) + term_3);
-            });
-        scratch.drive = (rddl::select(action.push_right, 10.0, -10.0) + term_2) / 1.1;
+        const Real term_2 = scratch.friction * rddl::cos(state.angle);
+        const Real term_3 = rddl::select(scratch.friction == 0.0, scratch.friction, term_2);
+        const Real term_4 = rddl::sin(state.angle) + term_3;
+        const Real term_5 = term * term_4;
+        const Real term_6 = rddl::select(term == 0.0, term, term_5);
+        const Real term_7 = rddl::select(action.push_right, 10.0, -10.0) + term_6;
+        scratch.drive = term_7 / 1.1;
     }
 
     // turn  (domain.rddl:55)
@@ -150,33 +148,29 @@ struct Simulator {
 
     // pressure  (domain.rddl:64)
     template <class L>
-    static void pressure(const State<L>& state, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void pressure(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = rddl::power(state.angle_change, 2.0);
-        const Real term_2 = rddl::branch(
-            context, scratch.turn == 0.0, [&] { return scratch.turn; },
-            [&] { return scratch.turn * rddl::sin(state.angle); });
-        const Real term_3 = rddl::branch(
-            context, term == 0.0, [&] { return term; },
-            [&] { return term * rddl::cos(state.angle); });
-        scratch.pressure = 10.780000000000001 - 0.05 * (term_2 + term_3);
+        const Real term_2 =
+            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * rddl::sin(state.angle));
+        const Real term_3 = term_2 + rddl::select(term == 0.0, term, term * rddl::cos(state.angle));
+        const Real term_4 = 0.05 * term_3;
+        scratch.pressure = 10.780000000000001 - term_4;
     }
 
     // speed-up  (domain.rddl:68)
     template <class L>
-    static void speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                         rddl::Context<L>& context) {
+    static void speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = rddl::power(state.angle_change, 2.0);
-        const Real term_2 = rddl::branch(
-            context, term == 0.0, [&] { return term; },
-            [&] { return term * rddl::sin(state.angle); });
-        const Real term_3 = rddl::branch(
-            context, scratch.turn == 0.0, [&] { return scratch.turn; },
-            [&] { return scratch.turn * rddl::cos(state.angle); });
-        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
-                            0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure;
-        scratch.speed_up = term_4 / 1.1;
+        const Real term_2 = rddl::select(term == 0.0, term, term * rddl::sin(state.angle));
+        const Real term_3 =
+            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * rddl::cos(state.angle));
+        const Real term_4 = term_2 - term_3;
+        const Real term_5 = 0.05 * term_4;
+        const Real term_6 = rddl::select(action.push_right, 10.0, -10.0) + term_5 -
+                            scratch.friction * scratch.pressure;
+        scratch.speed_up = term_6 / 1.1;
     }
 
     // velocity'  (domain.rddl:75)

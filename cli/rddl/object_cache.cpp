@@ -65,7 +65,8 @@ std::string extern_text(const std::vector<fs::path>& headers) {
 
 // Everything that the compiled code depends on.
 std::string content_key(const std::string& text, const CacheOptions& options) {
-    const auto command = shared_object_command("simulator.cpp", "simulator.so");
+    const auto command =
+        shared_object_command("simulator.cpp", "simulator.so", Processors::LikeThis);
     return sha256(fmt::format("{}\n{}\n{}\n{}\n{}", text, runtime_text(),
                               extern_text(options.extern_headers), fmt::join(command, " "),
                               compiler_version(command)));
@@ -138,7 +139,8 @@ void build(const std::string& text, const fs::path& target, const CacheOptions& 
     Diagnostics diagnostics;
     bool built = false;
     try {
-        built = build_shared_object(source, object, options.extern_headers, diagnostics);
+        built = build_shared_object(source, object, Processors::LikeThis, options.extern_headers,
+                                    diagnostics);
     } catch (const std::logic_error&) {
         // Ctrl-C reaches the compiler, too.
         if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);

@@ -41,7 +41,7 @@ struct Arguments {
     std::string format = "text";
     std::string color = "auto";
     std::string standard = "pyrddlgym";
-    std::string lanes = "1";
+    int lanes = 16;
     std::string real = "double";
     std::string explained;
     std::vector<std::string> without;
@@ -116,8 +116,11 @@ void declare(CLI::App& program, Arguments& arguments) {
     program.add_option("--color", arguments.color, "auto, always or never")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->type_name("WHEN");
-    program.add_option("--lanes", arguments.lanes, "environments that one step computes at once")
-        ->check(CLI::PositiveNumber)
+    program
+        .add_option("--lanes", arguments.lanes,
+                    "environments that a step of a batch computes at once: 8, 16 (the default), "
+                    "32, 64, or 1")
+        ->check(CLI::IsMember({1, 8, 16, 32, 64}).description(""))
         ->type_name("N");
     program.add_option("--real", arguments.real, "double or float")
         ->check(CLI::IsMember({"double", "float"}))
@@ -281,6 +284,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
     options.line_directives = arguments.line_directives;
+    options.lane_count = arguments.lanes;
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
     options.standard = *standard_named(arguments.standard);
@@ -303,7 +307,6 @@ Options options_of(const Arguments& arguments) {
     }
     options.statistics = statistics_format(arguments.statistics);
     options.compile = compile_options(arguments);
-    if (arguments.lanes != "1") options.not_supported_yet.push_back("--lanes=" + arguments.lanes);
     if (arguments.real != "double") options.not_supported_yet.push_back("--real=" + arguments.real);
     return options;
 }

@@ -89,6 +89,7 @@ EmitOptions emit_options(const CompileOptions& options) {
     const std::string name = options.output ? options.output->filename().string() : "simulator.cpp";
     return {.header = output_kind(name) == OutputKind::Header,
             .line_directives = options.line_directives,
+            .lane_count = options.lane_count,
             .output_name = name,
             .compiler_version = version,
             .extern_headers = include_paths(options)};

@@ -1,6 +1,7 @@
 // The compiler as one function: the table of contents of everything below compiler/.
 #pragma once
 
+#include "emit/emit.hpp"
 #include "ir/ir.hpp"
 #include "model/model.hpp"
 #include "passes/passes.hpp"
@@ -38,6 +39,7 @@ struct CompileOptions {
     std::set<Form> print;
     Stage stop_after = Stage::Write;
     bool line_directives = false;
+    int lane_count = EmitOptions{}.lane_count;
     // A make rule that names the inputs of the output.
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;

@@ -76,21 +76,23 @@ std::optional<fs::path> runtime_include_folder() {
     return std::nullopt;
 }
 
-std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output) {
+std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output,
+                                               Processors processors) {
     const char* compiler = std::getenv("CXX");
     std::vector<std::string> command = words(compiler ? compiler : "");
     if (command.empty()) command = {"c++"};
-    for (const char* flag : {"-std=c++20", "-O3", "-shared", "-fPIC", "-ffp-contract=off",
-                             "-DRDDL_ENTRY=rddl_simulator_entry"}) {
+    for (const char* flag : {"-std=c++20", "-O3", "-shared", "-fPIC", "-fvisibility-inlines-hidden",
+                             "-ffp-contract=off", "-DRDDL_ENTRY=rddl_simulator_entry"}) {
         command.push_back(flag);
     }
-    if (const char* level = processor_level()) command.push_back("-march=" + std::string(level));
+    const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
+    if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
     command.insert(command.end(), {"-o", output.string(), source.string()});
     return command;
 }
 
-bool build_shared_object(const fs::path& source, const fs::path& output,
+bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
                          const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics) {
     if (!runtime_include_folder()) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
@@ -100,7 +102,7 @@ bool build_shared_object(const fs::path& source, const fs::path& output,
                                           "rddl/simulator.hpp"));
         return false;
     }
-    const std::vector<std::string> command = shared_object_command(source, output);
+    const std::vector<std::string> command = shared_object_command(source, output, processors);
     const auto result = run_process(command);
     if (!result) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,

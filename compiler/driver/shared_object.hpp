@@ -14,14 +14,19 @@ namespace rddlc {
 // program, or that of the source tree from which it was built. Nothing if there is none.
 std::optional<std::filesystem::path> runtime_include_folder();
 
+// For which processors: any of the architecture, or those with the vector registers of this one.
+enum class Processors { Any, LikeThis };
+
 // The compiler and its arguments: $CXX (split at blanks) or c++.
 std::vector<std::string> shared_object_command(const std::filesystem::path& source,
-                                               const std::filesystem::path& output);
+                                               const std::filesystem::path& output,
+                                               Processors processors);
 
 // False, with the reason reported, if there is no compiler or no runtime, or if the compiler
 // refuses a text that includes the user's headers. Without headers that is never the user's
 // mistake: it throws std::logic_error with the compiler's messages.
 bool build_shared_object(const std::filesystem::path& source, const std::filesystem::path& output,
+                         Processors processors,
                          const std::vector<std::filesystem::path>& extern_headers,
                          Diagnostics& diagnostics);
 

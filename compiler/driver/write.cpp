@@ -34,7 +34,8 @@ void write_shared_object(const std::filesystem::path& output, const std::string&
     TemporaryFile source(output, ".cpp");
     TemporaryFile object(output, ".so");
     if (!source.write(text)) return diagnostics.report(cannot_write(output, errno));
-    if (!build_shared_object(source.path(), object.path(), options.extern_headers, diagnostics)) {
+    if (!build_shared_object(source.path(), object.path(), Processors::Any, options.extern_headers,
+                             diagnostics)) {
         return;
     }
     if (!object.rename_to_final()) diagnostics.report(cannot_write(output, errno));

@@ -25,7 +25,7 @@ Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
 }
 
 bool Unit::is_lazy(const ir::Select& select) const {
-    return !ir::is_cheap(facts_of(select.then_value)) || !ir::is_cheap(facts_of(select.else_value));
+    return ir::is_lazy(program, select, facts_of(select.then_value), facts_of(select.else_value));
 }
 
 std::string Unit::size_of(const ir::Variable& variable) const {

@@ -326,6 +326,25 @@ bool is_cheap(const Facts& facts) {
     return is_droppable(facts) && facts.cost <= cheap_cost;
 }
 
+namespace {
+
+// t == 0 ? t : t * x
+bool is_guarded_product(const Program& program, const Select& select) {
+    const auto* test = std::get_if<Apply>(&program[select.condition].form);
+    const auto* product = std::get_if<Apply>(&program[select.else_value].form);
+    return test && product && test->op == Operator::Equal && product->op == Operator::Multiply &&
+           std::ranges::find(test->operands, select.then_value) != test->operands.end() &&
+           std::ranges::find(product->operands, select.then_value) != product->operands.end();
+}
+
+}  // namespace
+
+bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
+             const Facts& else_facts) {
+    if (is_cheap(then_facts) && is_cheap(else_facts)) return false;
+    return !is_droppable(else_facts) || !is_guarded_product(program, select);
+}
+
 std::vector<NodeId> operands_of(const Node& node) {
     const auto with_place = [](const std::optional<Place>& place, std::vector<NodeId> operands) {
         if (place) operands.push_back(place->index);

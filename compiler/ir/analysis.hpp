@@ -37,6 +37,11 @@ double cost_of_step(const Program& program);
 // Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
 // no more than a handful of operations. A Select of two cheap branches needs no branch.
 bool is_cheap(const Facts& facts);
+// Should a Select evaluate only the branch it takes? Not where both are cheap; nor for `t == 0 ? t
+// : t * x`, which `ground` makes of products: the test hardly ever holds, so x is evaluated in any
+// case, may be shared with others, and needs no branch.
+bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
+             const Facts& else_facts);
 // The value may be forgotten without anybody noticing.
 inline bool is_droppable(const Facts& facts) {
     return !facts.may_fault && !facts.random;

@@ -138,9 +138,11 @@ class Sharing {
         }
     }
 
-    static bool is_lazy(const ir::Node& node, ir::NodeId operand) {
+    bool is_lazy(const ir::Node& node, ir::NodeId operand) const {
         const auto* select = std::get_if<ir::Select>(&node.form);
-        return select && operand != select->condition;
+        return select && operand != select->condition &&
+               ir::is_lazy(program_, *select, builder_.facts(select->then_value),
+                           builder_.facts(select->else_value));
     }
 
     static bool is_body(const ir::Node& node, ir::NodeId operand) {

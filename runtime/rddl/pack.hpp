@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <utility>
 
-#define RDDL_INLINE __attribute__((always_inline)) constexpr
+#define RDDL_INLINE RDDL_ALWAYS_INLINE constexpr
 
 namespace rddl::inline RDDL_SIMD_LEVEL {
 

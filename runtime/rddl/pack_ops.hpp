@@ -68,7 +68,7 @@ using LanesOf = typename detail::Widened<T, n>::type;
 // Calls a function of scalars for each lane.
 template <class A, class Function>
 requires SomePack<A>
-auto map_lanes(const A& a, Function function) {
+[[gnu::noinline]] auto map_lanes(const A& a, Function function) {
     constexpr int n = detail::pack_width<A>;
     LanesOf<decltype(function(a[0])), n> results{};
     for (int lane = 0; lane < n; ++lane) results.set(lane, function(a[lane]));
@@ -76,7 +76,7 @@ auto map_lanes(const A& a, Function function) {
 }
 template <class A, class Function>
 requires SomePack<A>
-auto map_lanes(const A& a, const A& b, Function function) {
+[[gnu::noinline]] auto map_lanes(const A& a, const A& b, Function function) {
     constexpr int n = detail::pack_width<A>;
     LanesOf<decltype(function(a[0], b[0])), n> results{};
     for (int lane = 0; lane < n; ++lane) results.set(lane, function(a[lane], b[lane]));

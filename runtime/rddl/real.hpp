@@ -23,6 +23,9 @@
 #error "rddl needs IEEE arithmetic: compile without -ffast-math"
 #endif
 
+// For what is small, or constant in most calls, when lanes are packs: passing packs costs more.
+#define RDDL_ALWAYS_INLINE __attribute__((always_inline)) inline
+
 namespace rddl {
 
 constexpr std::uint64_t bits_of(double a) {

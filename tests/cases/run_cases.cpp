@@ -109,7 +109,7 @@ class LoadedSimulator {
   public:
     LoadedSimulator(const std::string& name, const fs::path& include_folder) {
         const fs::path object = fs::absolute(name + ".so");
-        auto command = shared_object_command(name + ".cpp", object);
+        auto command = shared_object_command(name + ".cpp", object, Processors::Any);
         command.insert(command.end() - 1, {"-O1", "-Wall", "-Wextra", "-Wshadow", "-Werror",
                                            "-I" + include_folder.string()});
         const auto result = run_process(command);

@@ -102,7 +102,7 @@ TEST_F(CommandLine, TellsWhereTheTimeGoes) {
 }
 
 TEST_F(CommandLine, RefusesWhatIsPlannedButNotThere) {
-    for (const char* option : {"--lanes=4", "--real=float"}) {
+    for (const char* option : {"--real=float"}) {
         const Result result = rddlc({"domain.rddl", "instance.rddl", option, "-o", "sim.cpp"});
         EXPECT_EQ(result.status, 1);
         EXPECT_NE(result.output.find(std::string(option) + " is not supported yet [E0904]"),

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -101,6 +103,76 @@ TEST(Trajectories, DoNotDependOnTheLanes) {
         const auto few = trajectories(3, 5, 1, functions, functions->lane_count);
         EXPECT_EQ(few, std::vector<Trajectory>(reference().begin() + 3, reference().begin() + 8));
     }
+}
+
+// The values of a record as a row of a matrix.
+template <class Number>
+void append(std::vector<Number>& row, const ActionRecord& action) {
+    for (const bool repair : action.repair) row.push_back(repair);
+    row.push_back(static_cast<Number>(action.set_mode));
+    row.push_back(static_cast<Number>(action.hazard));
+}
+template <class Number>
+void append(std::vector<Number>& row, const StateRecord& state) {
+    for (const double wear : state.wear) row.push_back(static_cast<Number>(wear));
+    for (const bool running : state.running) row.push_back(running);
+    row.push_back(static_cast<Number>(state.mode));
+    row.push_back(static_cast<Number>(state.repairs));
+}
+
+template <class Number>
+void expect_matrices_like_records(rddl_number number, std::int64_t count) {
+    const rddl_batch_options options{count, 0, 42, 1, RDDL_AUTORESET_SAME_STEP, -1, 0};
+    TinyBatch records(options), matrices(options);
+    ASSERT_EQ(simulator()->action_value_count(simulator()), machines + 2);
+    ASSERT_EQ(simulator()->observation_value_count(simulator()), 2 * machines + 2);
+    const auto width = static_cast<std::size_t>(2 * machines + 2);
+    std::vector<Number> observations(records.size() * width);
+    for (int time = 0; time < step_count; ++time) {
+        std::vector<Number> actions, expected;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            records.actions[i] = action_of(static_cast<std::int64_t>(i), time);
+            append(actions, records.actions[i]);
+        }
+        records.step();
+        for (const StateRecord& state : records.observations) append(expected, state);
+        const rddl_transition out{nullptr, matrices.rewards.data(), nullptr, nullptr, nullptr,
+                                  nullptr};
+        ASSERT_EQ(simulator()->step_values(matrices.get(), number, actions.data(),
+                                           observations.data(), &out),
+                  RDDL_OK);
+        EXPECT_EQ(matrices.rewards, records.rewards);
+        EXPECT_EQ(observations, expected);
+        std::ranges::fill(observations, Number{-1});
+        ASSERT_EQ(simulator()->get_observation_values(matrices.get(), number, observations.data()),
+                  RDDL_OK);
+        EXPECT_EQ(observations, expected);
+    }
+}
+
+TEST(Matrices, StepLikeRecords) {
+    for (const std::int64_t count : {1, 7, 40}) {
+        expect_matrices_like_records<double>(RDDL_DOUBLE, count);
+        expect_matrices_like_records<float>(RDDL_FLOAT, count);
+    }
+}
+
+TEST(Matrices, OfActionsThatAreNoneAreRefused) {
+    TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    const rddl_transition out{};
+    const auto status_of = [&](double repair, double mode) {
+        const double row[] = {repair, 0, 0, mode, 0};
+        return simulator()->step_values(batch.get(), RDDL_DOUBLE, row, nullptr, &out);
+    };
+    EXPECT_EQ(status_of(1, 1), RDDL_OK);
+    EXPECT_EQ(status_of(std::nan(""), 1), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(status_of(1, 2), RDDL_BAD_ARGUMENT) << "there are two modes";
+    EXPECT_EQ(status_of(1, -1), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(simulator()->step_values(batch.get(), RDDL_DOUBLE, nullptr, nullptr, &out),
+              RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(
+        simulator()->step_values(batch.get(), static_cast<rddl_number>(7), nullptr, nullptr, &out),
+        RDDL_BAD_ARGUMENT);
 }
 
 TEST(Trajectories, DependOnTheSeed) {

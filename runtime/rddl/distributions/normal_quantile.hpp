@@ -18,7 +18,7 @@ struct Fraction {
 
 // Within 0.425 of the median, for q = p - 1/2.
 template <class R>
-Fraction<R> normal_quantile_centre(R q) {
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_centre(R q) {
     constexpr double numerator[] = {3.3871328727963666080e0, 1.3314166789178437745e2,
                                     1.9715909503065514427e3, 1.3731693765509461125e4,
                                     4.5921953931549871457e4, 6.7265770927008700853e4,
@@ -37,7 +37,7 @@ Fraction<R> normal_quantile_centre(R q) {
 
 // For r = sqrt(-ln(tail probability)) up to 5, and beyond.
 template <class R>
-Fraction<R> normal_quantile_tail(R r) {
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_tail(R r) {
     constexpr double numerator[] = {1.42343711074968357734e0,  4.63033784615654529590e0,
                                     5.76949722146069140550e0,  3.64784832476320460504e0,
                                     1.27045825245236838258e0,  2.41780725177450611770e-1,
@@ -53,7 +53,7 @@ Fraction<R> normal_quantile_tail(R r) {
     return {polynomial(numerator, r - 1.6), polynomial(denominator, r - 1.6)};
 }
 template <class R>
-Fraction<R> normal_quantile_far_tail(R r) {
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_far_tail(R r) {
     constexpr double numerator[] = {6.65790464350110377720e0,  5.46378491116411436990e0,
                                     1.78482653991729133580e0,  2.96560571828504891230e-1,
                                     2.65321895265761230930e-2, 1.24266094738807843860e-3,
@@ -70,13 +70,14 @@ Fraction<R> normal_quantile_far_tail(R r) {
 }
 
 template <class R, class Mask>
-Fraction<R> select_fraction(Mask mask, const Fraction<R>& a, const Fraction<R>& b) {
+RDDL_ALWAYS_INLINE Fraction<R> select_fraction(Mask mask, const Fraction<R>& a,
+                                               const Fraction<R>& b) {
     return {select(mask, a.dividend, b.dividend), select(mask, a.divisor, b.divisor)};
 }
 
 // Farther from the median.
 template <class R>
-Fraction<R> normal_quantile_outside(R p, R q) {
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_outside(R p, R q) {
     const R r = sqrt(-ln(select(q < 0.0, p, 1.0 - p)));
     const auto far = r > 5.0;  // once in 4e10 draws
     Fraction<R> tail = normal_quantile_tail(r);

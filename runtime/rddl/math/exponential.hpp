@@ -39,7 +39,7 @@ struct Exponential {
 
 // e^(high + low), for |high| <= 750 and |low| < 2^-43.
 template <class R>
-Exponential<R> exponential(R high, R low) {
+RDDL_ALWAYS_INLINE Exponential<R> exponential(R high, R low) {
     const R exponent = nearest_integer(high * one_over_ln_2);
     const R linear = high - exponent * ln_2_high;
     const R correction = low - exponent * ln_2_low;
@@ -49,14 +49,14 @@ Exponential<R> exponential(R high, R low) {
 
 // The value with `first` in place of 1, for |first| >= 0.5 or 0.
 template <class R>
-R value(const Exponential<R>& e, R first) {
+RDDL_ALWAYS_INLINE R value(const Exponential<R>& e, R first) {
     const Pair<R> sum = sum_exactly(first, e.linear);
     return scale(sum.high + (sum.low + e.rest), e.exponent);
 }
 
 // The value / 2^exponent + shift, for |shift| <= 1.
 template <class R>
-Pair<R> shifted(const Exponential<R>& e, R shift) {
+RDDL_ALWAYS_INLINE Pair<R> shifted(const Exponential<R>& e, R shift) {
     const Pair<R> first = sum_exactly(R{1.0}, shift);
     const Pair<R> sum = sum_exactly(first.high, e.linear);
     return {sum.high, sum.low + (first.low + e.rest)};

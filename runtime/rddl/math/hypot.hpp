@@ -12,7 +12,7 @@ namespace detail {
 
 // sqrt(a^2 + b^2) for a >= b >= 0 whose squares neither overflow nor vanish.
 template <class R>
-R root_of_squares(R a, R b) {
+RDDL_ALWAYS_INLINE R root_of_squares(R a, R b) {
     const Pair<R> a_square = multiply_exactly(a, a), b_square = multiply_exactly(b, b);
     const Pair<R> sum = sum_exactly(a_square.high, b_square.high);
     const R low = sum.low + (a_square.low + b_square.low);

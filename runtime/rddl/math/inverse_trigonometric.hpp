@@ -34,7 +34,7 @@ inline constexpr double atan_coefficients[] = {
 // The arc in [0, pi / 6] that asin and acos are made of: asin of a magnitude up to 1/2, else of the
 // root of (1 - magnitude) / 2, which is the sine of half the arc from 1.
 template <class R>
-Pair<R> arc_of_sine(R magnitude) {
+RDDL_ALWAYS_INLINE Pair<R> arc_of_sine(R magnitude) {
     const auto great = magnitude > 0.5;
     const R square = select(great, 0.5 * (1.0 - magnitude), magnitude * magnitude);
     const R root = sqrt(square);
@@ -45,7 +45,7 @@ Pair<R> arc_of_sine(R magnitude) {
 
 // quarters pi / 2 + factor arc. The first is the greater one, or 0.
 template <class R>
-R turned(R quarters, R factor, Pair<R> arc) {
+RDDL_ALWAYS_INLINE R turned(R quarters, R factor, Pair<R> arc) {
     const Pair<R> sum = sum_exactly(quarters * half_pi.high, factor * arc.high);
     return sum.high + (sum.low + quarters * half_pi.low + factor * arc.low);
 }
@@ -53,7 +53,7 @@ R turned(R quarters, R factor, Pair<R> arc) {
 // quarters pi / 2 + sign atan(a / b), for 0 <= a <= b, b > 0, both finite and not extreme:
 // atan(a / b) = atan(c) + atan((a - c b) / (b + c a)), with c = 0, 1/2 or 1.
 template <class R>
-R turned_arc_of_tangent(R quarters, R sign, R a, R b) {
+RDDL_ALWAYS_INLINE R turned_arc_of_tangent(R quarters, R sign, R a, R b) {
     const auto from_half = a > 0.4142 * b;
     const auto from_one = a > 0.7 * b;
     const auto choose = [&](double zero, double half, double one) {
@@ -74,7 +74,7 @@ R turned_arc_of_tangent(R quarters, R sign, R a, R b) {
 // The legs a <= b times the power of two that keeps b from overflow and underflow. Of infinite
 // ones, or if both are 0, legs of the same direction.
 template <class R>
-Pair<R> of_usual_size(R a, R b) {
+RDDL_ALWAYS_INLINE Pair<R> of_usual_size(R a, R b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto tiny = b < 0x1p-500;
     const auto huge = b > 0x1p500;

@@ -28,7 +28,7 @@ struct Binary {
 
 // For positive, finite a.
 template <class R>
-Binary<R> binary(R a) {
+RDDL_ALWAYS_INLINE Binary<R> binary(R a) {
     constexpr std::uint64_t least_significand = bits_of(0.70710678118654752);
     const auto subnormal = a < 0x1p-1022;
     const R normal = select(subnormal, a * 0x1p54, a);
@@ -44,7 +44,7 @@ Binary<R> binary(R a) {
 // With a = 2^k (1 + f) and s = f / (2 + f), ln(1 + f) = f - (f^2 / 2 - s (f^2 / 2 + z (...))): the
 // great terms come without division, hence without its rounding.
 template <class R>
-R ln_of_positive(R a, R correction) {
+RDDL_ALWAYS_INLINE R ln_of_positive(R a, R correction) {
     const auto [exponent, significand] = binary(a);
     const R f = significand - 1.0;
     const R s = f / (2.0 + f);
@@ -57,7 +57,7 @@ R ln_of_positive(R a, R correction) {
 
 // `logarithm` where `a` is positive and finite; elsewhere that of zero, infinity, or nan.
 template <class R>
-R with_rare_logarithms(R a, R logarithm) {
+RDDL_ALWAYS_INLINE R with_rare_logarithms(R a, R logarithm) {
     const auto ordinary = a > 0.0 && a <= greatest_real;
     if (!any(!ordinary)) return logarithm;
     constexpr double infinity = std::numeric_limits<double>::infinity();

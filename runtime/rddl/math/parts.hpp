@@ -24,20 +24,20 @@ struct Pair {
 
 // a + b without rounding, for |a| >= |b| or a = 0.
 template <class R>
-Pair<R> sum_exactly(R a, R b) {
+RDDL_ALWAYS_INLINE Pair<R> sum_exactly(R a, R b) {
     const R high = a + b;
     return {high, b - (high - a)};
 }
 
 // All but the last bits of the significand.
 template <class R>
-R without_last_bits(R a, int count) {
+RDDL_ALWAYS_INLINE R without_last_bits(R a, int count) {
     return real_of_bits(bits_of(a) & (~std::uint64_t{0} << count));
 }
 
 // a * b up to 2^-105 of it, unless it overflows or nearly vanishes.
 template <class R>
-Pair<R> multiply_exactly(R a, R b) {
+RDDL_ALWAYS_INLINE Pair<R> multiply_exactly(R a, R b) {
     const R a_high = without_last_bits(a, 27);
     const R b_high = without_last_bits(b, 27);
     const R a_low = a - a_high;
@@ -48,7 +48,7 @@ Pair<R> multiply_exactly(R a, R b) {
 
 // What sqrt(square) is more than `root`, its rounded value.
 template <class R>
-R lost_by_root(R square, R root) {
+RDDL_ALWAYS_INLINE R lost_by_root(R square, R root) {
     const Pair<R> again = multiply_exactly(root, root);
     const R remainder = (square - again.high) - again.low;
     return remainder / select(root == 0.0, R{1.0}, 2.0 * root);
@@ -56,7 +56,7 @@ R lost_by_root(R square, R root) {
 
 // Of sums whose first part is the greater one; rounded nearly as if by one division.
 template <class R>
-R quotient(Pair<R> dividend, Pair<R> divisor) {
+RDDL_ALWAYS_INLINE R quotient(Pair<R> dividend, Pair<R> divisor) {
     const Pair<R> a = sum_exactly(dividend.high, dividend.low);
     const Pair<R> b = sum_exactly(divisor.high, divisor.low);
     const R reciprocal = 1.0 / b.high;
@@ -72,19 +72,19 @@ inline constexpr double rounder = 0x1.8p52;
 
 // For |a| < 2^51; halves go to the even neighbour.
 template <class R>
-R nearest_integer(R a) {
+RDDL_ALWAYS_INLINE R nearest_integer(R a) {
     return (a + rounder) - rounder;
 }
 
 // For an integer from -1022 to 1023.
 template <class R>
-R power_of_two(R exponent) {
+RDDL_ALWAYS_INLINE R power_of_two(R exponent) {
     return real_of_bits((bits_of(exponent + rounder) + std::uint64_t{1023}) << 52);
 }
 
 // a 2^exponent for an integer from -2000 to 2000; rounds once if a is neither subnormal nor huge.
 template <class R>
-R scale(R a, R exponent) {
+RDDL_ALWAYS_INLINE R scale(R a, R exponent) {
     const R scaled = a * power_of_two(exponent);
     const auto far = absolute(exponent) > 1000.0;
     if (!any(far)) return scaled;
@@ -94,20 +94,21 @@ R scale(R a, R exponent) {
 
 // nan stays nan.
 template <class R>
-R clamp(R a, double lowest, double highest) {
+RDDL_ALWAYS_INLINE R clamp(R a, double lowest, double highest) {
     return select(a < lowest, R{lowest}, select(a > highest, R{highest}, a));
 }
 
 // `magnitude`, which is not negative, with the sign of `a`.
 template <class R>
-R with_sign_of(R a, R magnitude) {
+RDDL_ALWAYS_INLINE R with_sign_of(R a, R magnitude) {
     return real_of_bits(bits_of(magnitude) | (bits_of(a) & sign_bit));
 }
 
 // By Estrin's scheme: p(x) = low(x) + x^half high(x), and so on. It has shorter chains of dependent
 // operations than Horner's.
 template <std::size_t first, std::size_t count, class R, std::size_t n, std::size_t powers>
-R polynomial_part(const double (&coefficients)[n], const R (&x_to_power_of_two)[powers]) {
+RDDL_ALWAYS_INLINE R polynomial_part(const double (&coefficients)[n],
+                                     const R (&x_to_power_of_two)[powers]) {
     if constexpr (count == 1) {
         return R{coefficients[first]};
     } else {
@@ -121,7 +122,7 @@ R polynomial_part(const double (&coefficients)[n], const R (&x_to_power_of_two)[
 
 // The coefficients are those of 1, x, x^2, ...
 template <class R, std::size_t n>
-R polynomial(const double (&coefficients)[n], R x) {
+RDDL_ALWAYS_INLINE R polynomial(const double (&coefficients)[n], R x) {
     static_assert(n <= 16);
     const R square = x * x;
     const R fourth = square * square;

@@ -14,7 +14,7 @@ namespace detail {
 
 // s = f / (2 + f) for 1 + f = significand: 16 bits, and the rest up to 2^-66 of s.
 template <class R>
-Pair<R> half_angle(R significand) {
+RDDL_ALWAYS_INLINE Pair<R> half_angle(R significand) {
     const R f = significand - 1.0;
     const R divisor = significand + 1.0;
     const R reciprocal = 1.0 / divisor;
@@ -29,7 +29,7 @@ Pair<R> half_angle(R significand) {
 // 2 s and 2/3 s^3 need more than a double. The cube of the 16 bits of s and its product with 21/32,
 // which is 2/3 - 1/96, are exact.
 template <class R>
-Pair<R> ln_as_pair(R a) {
+RDDL_ALWAYS_INLINE Pair<R> ln_as_pair(R a) {
     const auto [exponent, significand] = binary(a);
     const auto [s_high, s_low] = half_angle(significand);
     const R s = s_high + s_low;
@@ -46,7 +46,7 @@ Pair<R> ln_as_pair(R a) {
 
 // For positive, finite base.
 template <class R>
-R power_of_positive(R base, R exponent) {
+RDDL_ALWAYS_INLINE R power_of_positive(R base, R exponent) {
     const Pair<R> logarithm = ln_as_pair(base);
     // Beyond, powers of all bases but 1 are 0 or infinity.
     const R bounded = clamp(exponent, -0x1p80, 0x1p80);
@@ -58,7 +58,7 @@ R power_of_positive(R base, R exponent) {
 
 // All reals from 2^52 on are integers.
 template <class R>
-auto is_integer(R a) {
+RDDL_ALWAYS_INLINE auto is_integer(R a) {
     const R magnitude = absolute(a);
     return magnitude >= 0x1p52 || (magnitude + 0x1p52) - 0x1p52 == magnitude;
 }
@@ -66,7 +66,7 @@ auto is_integer(R a) {
 // IEEE's pow for bases that are zero, negative, infinite or nan, and for exponents that are nan.
 // `of_magnitude` is the power of a negative base's magnitude.
 template <class R>
-R rare_power(R base, R exponent, R of_magnitude) {
+RDDL_ALWAYS_INLINE R rare_power(R base, R exponent, R of_magnitude) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const R magnitude = absolute(base);
     const auto odd = is_integer(exponent) && !is_integer(0.5 * exponent);

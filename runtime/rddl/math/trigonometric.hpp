@@ -40,7 +40,7 @@ struct Angle {
 // W. J. Cody, W. Waite, "Software manual for the elementary functions" (1980): subtracts the parts
 // of pi / 2 one by one. For |a| <= greatest_angle, so that no more than 60 bits can cancel.
 template <class R>
-Angle<R> angle(R a) {
+RDDL_ALWAYS_INLINE Angle<R> angle(R a) {
     const R rounded = a * two_over_pi + rounder;
     const R quadrants = rounded - rounder;
     const R first = a - quadrants * half_pi_parts[0];
@@ -52,12 +52,12 @@ Angle<R> angle(R a) {
 
 // Of high + low, |high| <= pi / 4.
 template <class R>
-Pair<R> sine(Pair<R> a) {
+RDDL_ALWAYS_INLINE Pair<R> sine(Pair<R> a) {
     const R z = a.high * a.high;
     return {a.high, a.low + z * (a.high * polynomial(sin_coefficients, z) - 0.5 * a.low)};
 }
 template <class R>
-Pair<R> cosine(Pair<R> a) {
+RDDL_ALWAYS_INLINE Pair<R> cosine(Pair<R> a) {
     const R z = a.high * a.high;
     const Pair<R> head = sum_exactly(R{1.0}, -0.5 * z);
     return {head.high, head.low + (z * z * polynomial(cos_coefficients, z) - a.high * a.low)};
@@ -66,7 +66,7 @@ Pair<R> cosine(Pair<R> a) {
 // The first where the last bit of `quadrants` is 0, else the second; by bits, because an
 // unforeseeable branch would cost more.
 template <class R, class Bits>
-R first_if_even(Bits quadrants, R first, R second) {
+RDDL_ALWAYS_INLINE R first_if_even(Bits quadrants, R first, R second) {
     const Bits odd = Bits{0} - (quadrants & std::uint64_t{1});
     const Bits bits = bits_of(first);
     return real_of_bits(bits ^ ((bits ^ bits_of(second)) & odd));
@@ -74,13 +74,13 @@ R first_if_even(Bits quadrants, R first, R second) {
 
 // Negated where the given bit is set.
 template <class R, class Bits>
-R negated_by_bit(Bits bits, int place, R a) {
+RDDL_ALWAYS_INLINE R negated_by_bit(Bits bits, int place, R a) {
     return real_of_bits(bits_of(a) ^ ((bits << (63 - place)) & sign_bit));
 }
 
 // `result` for angles that `angle` can reduce, else that of the C library's function.
 template <class R, class Function>
-R with_great_angles(R a, R result, Function function) {
+RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
     const auto great = absolute(a) > greatest_angle;
     if (!any(great)) return result;
     return select(great, map_lanes(a, function), result);
