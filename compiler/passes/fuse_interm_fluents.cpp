@@ -75,13 +75,15 @@ class Fusion {
             return readers.variables.contains(variable);
         };
         if (std::ranges::any_of(bound, is_bound_there)) return false;
-        // The place of a draw is known to the compiler.
-        const auto is_plain = [&](ir::NodeId load) {
-            return std::ranges::all_of(
-                std::get<ir::Load>(program_[load].form).indices,
-                [&](ir::NodeId index) { return builder_.facts(index).uniform; });
+        // A fault of an index would be lost where the value does not depend on it. The place of a
+        // draw is known to the compiler.
+        const auto is_plain = [&](ir::NodeId index) {
+            const ir::Facts& known = builder_.facts(index);
+            return !known.may_fault && (!facts.random || known.uniform);
         };
-        return !facts.random || std::ranges::all_of(readers.loads, is_plain);
+        return std::ranges::all_of(readers.loads, [&](ir::NodeId load) {
+            return std::ranges::all_of(std::get<ir::Load>(program_[load].form).indices, is_plain);
+        });
     }
 
     // There, share_subexpressions could give it no name.

@@ -78,7 +78,7 @@ TEST_F(InterpreterTest, DrawsInitialValues) {
     interpreter.reset(bytes(again), context);
     EXPECT_EQ(state.level, again.level);
     EXPECT_EQ(state.count, 7);
-    context.key = rddl::stream_key(1, 2, 4);
+    context = {rddl::stream_key(1, 2, 4), 0, {}};
     interpreter.reset(bytes(other), context);
     EXPECT_NE(state.level, other.level) << "of another episode";
 }

@@ -170,9 +170,6 @@ TEST(Matrices, OfActionsThatAreNoneAreRefused) {
     EXPECT_EQ(status_of(1, -1), RDDL_BAD_ARGUMENT);
     EXPECT_EQ(simulator()->step_values(batch.get(), RDDL_DOUBLE, nullptr, nullptr, &out),
               RDDL_BAD_ARGUMENT);
-    EXPECT_EQ(
-        simulator()->step_values(batch.get(), static_cast<rddl_number>(7), nullptr, nullptr, &out),
-        RDDL_BAD_ARGUMENT);
 }
 
 TEST(Trajectories, DependOnTheSeed) {
