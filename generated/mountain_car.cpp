@@ -30,33 +30,18 @@ inline constexpr rddl::Index segment_count = 9;  // s1, s2, s3, s4, s5, s6, s7, 
 
 // ---------------------------------------------------------------------------------- tables
 
-// LEFT-X, domain.rddl:21
+// position-breaks, domain.rddl:66
 // clang-format off
-inline constexpr std::array<double, segment_count> LEFT_X = {
-    -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4
+inline constexpr std::array<double, 9> position_breaks = {
+    -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6
 };
 // clang-format on
 
-// RIGHT-X, domain.rddl:23
+// position-values, domain.rddl:66
 // clang-format off
-inline constexpr std::array<double, segment_count> RIGHT_X = {
-    -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6
-};
-// clang-format on
-
-// slope-table, domain.rddl:52
-// clang-format off
-inline constexpr std::array<double, segment_count> slope_table = {
-    -0.584, -0.534, -0.29899999999999993, 0.041999999999999926, 0.3670000000000001, 0.565, 0.565,
-    0.3670000000000001, 0.041999999999999926
-};
-// clang-format on
-
-// slope-table-2, domain.rddl:52
-// clang-format off
-inline constexpr std::array<double, segment_count> slope_table_2 = {
-    0.19999999999999996, 0.19999999999999996, 0.20000000000000007, 0.19999999999999996, 0.2, 0.2,
-    0.2, 0.2, 0.19999999999999996
+inline constexpr std::array<double, 10> position_values = {
+    0, -2.9200000000000004, -2.670000000000001, -1.4949999999999992, 0.2099999999999997,
+    1.8350000000000004, 2.8249999999999997, 1.8350000000000004, 0.2099999999999997, 0
 };
 // clang-format on
 
@@ -118,11 +103,9 @@ struct Simulator {
     // slope  (domain.rddl:52)
     template <class L>
     static void slope(const State<L>& state, Scratch<L>& scratch) {
-        using Real = typename L::Real;
-        scratch.slope = rddl::sum<Real>(segment_count, [&](rddl::Index s) {
-            return rddl::to_real(LEFT_X[s] <= state.position && state.position < RIGHT_X[s]) *
-                   slope_table[s] / slope_table_2[s];
-        });
+        using Int = typename L::Int;
+        scratch.slope =
+            rddl::at(position_values, rddl::search<Int>(position_breaks, state.position));
     }
 
     // speed  (domain.rddl:57)
@@ -153,7 +136,7 @@ struct Simulator {
                                    const Scratch<L>& /*scratch*/, const State<L>& next,
                                    rddl::Context<L>& /*context*/) {
         return 100.0 * rddl::to_real(next.position >= 0.5) -
-               0.1 * rddl::power(action.throttle, 2.0);
+               0.1 * (action.throttle * action.throttle);
     }
 
     // An episode ends where one of these holds.

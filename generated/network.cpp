@@ -95,7 +95,7 @@ struct Simulator {
                     const Int number =
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
                     const Real term = rddl::to_real(number);
-                    const Real term_2 = term / 2.0;
+                    const Real term_2 = term * 0.5;
                     const Real term_3 = 0.5 * term_2;
                     const Real term_4 = 0.45 + term_3;
                     return rddl::sample::bernoulli(context, {0, c}, term_4);

@@ -229,7 +229,7 @@ struct Simulator {
             observation.range[b] = rddl::branch(
                 context, scratch.answers[b],
                 [&] {
-                    const Real term = rddl::power(0.05 * scratch.range_to[b], 2.0);
+                    const Real term = 0.05 * scratch.range_to[b] * (0.05 * scratch.range_to[b]);
                     return rddl::sample::normal(context, {4, b}, scratch.range_to[b], term);
                 },
                 [&] { return 0.0; });

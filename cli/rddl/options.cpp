@@ -60,6 +60,8 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("PASS");
+    command.add_flag("--fast-math", options.passes.fast_math,
+                     "Compute with reals as if they were not rounded, and never inf or nan");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");
 }

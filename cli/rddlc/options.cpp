@@ -45,6 +45,7 @@ struct Arguments {
     std::string real = "double";
     std::string explained;
     std::vector<std::string> without;
+    bool fast_math = false;
     std::string statistics;  // "true" without a format
     bool verbose = false;
 };
@@ -131,6 +132,8 @@ void declare(CLI::App& program, Arguments& arguments) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("PASS");
+    program.add_flag("--fast-math", arguments.fast_math,
+                     "compute with reals as if they were not rounded, and never inf or nan");
     program.add_flag("--stats", arguments.statistics,
                      "tell what each optimisation did; --stats=json as JSON");
     program.add_option("--explain", arguments.explained, "explain a diagnostic and exit")
@@ -261,6 +264,7 @@ std::vector<std::filesystem::path> extern_headers(const Arguments& arguments) {
 
 PassOptions pass_options(const Arguments& arguments) {
     PassOptions options;
+    options.fast_math = arguments.fast_math;
     for (const std::string& name : arguments.without) {
         if (const auto complaint = complaint_about_pass(name)) throw usage(*complaint);
         options.without.insert(name);

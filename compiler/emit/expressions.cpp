@@ -84,6 +84,12 @@ Spelled Expressions::spell(const ir::Node&, const ir::Index& index) {
     return {variables_.at(index.variable), Level::Primary};
 }
 
+Spelled Expressions::spell(const ir::Node& node, const ir::Search& search) {
+    return {"rddl::search<" + type(node.type) + ">(" + record(search.table) + ", " +
+                text(search.value) + ")",
+            Level::Primary};
+}
+
 Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
     return {locals_.at(local.local), Level::Primary};
 }

@@ -88,6 +88,7 @@ class Expressions {
     Spelled spell(const ir::Node& node, const ir::Constant& constant);
     Spelled spell(const ir::Node& node, const ir::Index& index);
     Spelled spell(const ir::Node& node, const ir::Load& load);
+    Spelled spell(const ir::Node& node, const ir::Search& search);
     Spelled spell(const ir::Node& node, const ir::Local& local);
     Spelled spell(const ir::Node& node, const ir::Convert& convert);
     Spelled spell(const ir::Node& node, const ir::Apply& apply);

@@ -112,6 +112,12 @@ class Collector {
         return Range{0, static_cast<double>(program_.types[*type].objects.size()) - 1};
     }
 
+    void describe(Scalar, const Search& search) {
+        const auto size = static_cast<double>(program_[search.table].count());
+        facts_.cost += 2 * std::ceil(std::log2(size + 1));
+        facts_.range = Range{0, size};
+    }
+
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
         facts_.finite = false;
@@ -355,6 +361,7 @@ std::vector<NodeId> operands_of(const Node& node) {
         [](const Index&) { return std::vector<NodeId>{}; },
         [](const Local&) { return std::vector<NodeId>{}; },
         [](const Load& load) { return load.indices; },
+        [](const Search& search) { return std::vector{search.value}; },
         [](const Convert& convert) { return std::vector{convert.operand}; },
         [&](const Apply& apply) { return with_place(apply.place, apply.operands); },
         [](const Select& select) {

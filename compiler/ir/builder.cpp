@@ -46,6 +46,10 @@ class Key {
             [&](auto v) { add(static_cast<std::uint64_t>(v)); });
     }
     void add(const Index& form) { add(form.variable); }
+    void add(const Search& form) {
+        add(form.table);
+        add(form.value);
+    }
     void add(const Load& form) {
         add(form.buffer);
         add(form.indices);
@@ -168,6 +172,13 @@ NodeId Builder::load(BufferId id, std::vector<NodeId> indices) {
     return intern({buffer.scalar, Load{id, std::move(indices)}});
 }
 
+NodeId Builder::search(BufferId table, NodeId value) {
+    if (const auto* known = std::get_if<Constant>(&program_[value].form)) {
+        return constant(count_at_most(program_[table].values, known->value));
+    }
+    return intern({Scalar::Int, Search{table, value}});
+}
+
 NodeId Builder::local(LocalId id, Scalar type) {
     return intern({type, Local{id}});
 }
@@ -241,6 +252,7 @@ NodeId Builder::rebuild(const Node& node) {
         node.form, [&](const Constant& form) { return constant(form.value); },
         [&](const Index& form) { return index(form.variable); },
         [&](const Load& form) { return load(form.buffer, form.indices); },
+        [&](const Search& form) { return search(form.table, form.value); },
         [&](const Local& form) { return local(form.local, node.type); },
         [&](const Convert& form) { return convert(form.operand, node.type); },
         [&](const Apply& form) { return apply(form.op, form.operands, form.place); },

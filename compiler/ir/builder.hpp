@@ -29,6 +29,7 @@ class Builder {
     // 0 for a variable over one object.
     NodeId index(VariableId variable);
     NodeId load(BufferId buffer, std::vector<NodeId> indices);
+    NodeId search(BufferId table, NodeId value);
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type);
     // `place` for exactly the operators that may fault (model/vocabulary.hpp).

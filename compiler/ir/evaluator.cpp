@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
+#include "ir/fold.hpp"
 #include "ir/layout.hpp"
 #include "ir/table_kernels.hpp"
 #include "support/match.hpp"
@@ -264,6 +265,10 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                      unreachable_operator();
                  },
                  [&](const Load& form) -> T { return load<T>(form, frame); },
+                 [&](const Search& form) -> T {
+                     if constexpr (is_int) return search(form, frame);
+                     unreachable_operator();
+                 },
                  [&](const Local& form) -> T {
                      return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
                  },
@@ -286,6 +291,13 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                  [&](const Fault& form) -> T {
                      return rddl::fault<T>(frame.context_, place(form.place, frame));
                  });
+}
+
+std::int64_t Evaluator::search(const Search& form, Frame& frame) const {
+    const Buffer& table = (*program_)[form.table];
+    if (table.scalar == Scalar::Real)
+        return count_at_most(table.values, value<double>(form.value, frame));
+    return count_at_most(table.values, value<std::int64_t>(form.value, frame));
 }
 
 template <class T>

@@ -99,6 +99,7 @@ class Evaluator {
     template <class T>
     T apply(const Apply& form, Frame& frame) const;
     bool apply_to_bools(const Apply& form, Frame& frame) const;
+    std::int64_t search(const Search& form, Frame& frame) const;
     template <class T>
     T convert_operand(const Convert& form, Frame& frame) const;
     rddl::IndexRange range(const Reduce& form, Frame& frame) const;

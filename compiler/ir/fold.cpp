@@ -57,6 +57,15 @@ std::optional<Value> fold_numeric(Reduction op, std::int64_t size, T body) {
 
 }  // namespace
 
+std::int64_t count_at_most(const Table& sorted, const Value& value) {
+    std::int64_t count = 0;
+    for (std::int64_t length = sorted.size(); length > 0; length /= 2) {
+        const std::int64_t half = (length + 1) / 2;
+        if (sorted[count + half - 1] <= value) count += half;
+    }
+    return count;
+}
+
 Value convert(const Value& value, Scalar type) {
     return match(value, [&](auto v) -> Value {
         switch (type) {

@@ -8,6 +8,9 @@
 
 namespace rddlc::ir {
 
+// How many elements of a sorted table are at most this value; 0 for nan.
+std::int64_t count_at_most(const Table& sorted, const Value& value);
+
 Value convert(const Value& value, Scalar type);
 
 // None where it faults.

@@ -104,6 +104,12 @@ struct Load {
     std::vector<NodeId> indices;  // Int, one per dimension, in range by construction
     bool operator==(const Load&) const = default;
 };
+// How many entries of a sorted constant table are at most the value; 0 for nan. Int.
+struct Search {
+    BufferId table;  // of one dimension, Int or Real as the value
+    NodeId value;
+    bool operator==(const Search&) const = default;
+};
 struct Local {  // the value of an enclosing Let
     LocalId local;
     bool operator==(const Local&) const = default;
@@ -167,8 +173,8 @@ struct Fault {
 
 struct Node {
     Scalar type;
-    std::variant<Constant, Index, Load, Local, Convert, Apply, Select, Reduce, Sample, Discrete,
-                 DiscreteOver, Fault>
+    std::variant<Constant, Index, Load, Search, Local, Convert, Apply, Select, Reduce, Sample,
+                 Discrete, DiscreteOver, Fault>
         form;
     bool operator==(const Node&) const = default;
 };

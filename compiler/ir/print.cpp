@@ -318,6 +318,9 @@ class Printer {
     std::string text(const Load& form, Scalar, Precedence) const {
         return element(form.buffer, form.indices);
     }
+    std::string text(const Search& form, Scalar, Precedence) const {
+        return fmt::format("search({}, {})", element(form.table, {}), expression(form.value));
+    }
     std::string text(const Local& form, Scalar, Precedence) const {
         return fmt::format("%{}", form.local.index);
     }

@@ -37,6 +37,7 @@ void change_operands(Node& node, const Change& change) {
     match(
         node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {},
         [&](Load& load) { change_all(load.indices, change); },
+        [&](Search& search) { change(search.value); },
         [&](Convert& convert) { change(convert.operand); },
         [&](Apply& apply) {
             change_all(apply.operands, change);
@@ -97,6 +98,7 @@ void change_roots(Program& program, const Change& change) {
 void change_buffers(Program& program, const std::function<void(BufferId&)>& change) {
     for (Node& node : program.nodes) {
         if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
+        if (auto* search = std::get_if<Search>(&node.form)) change(search->table);
     }
     for (Definition* definition : definitions_of(program)) {
         change(definition->target);

@@ -110,6 +110,7 @@ class Verifier {
             require(load->buffer.index < program_.buffers.size(), "there is no buffer {}",
                     load->buffer.index);
         }
+        if (const auto* search = std::get_if<Search>(&node.form)) id_is_known(search->table);
         if (const auto* local = std::get_if<Local>(&node.form)) {
             require(local->local.index < program_.local_count, "there is no local {}",
                     local->local.index);
@@ -206,6 +207,18 @@ class Verifier {
     bool fits(const Load& form, Scalar type) const {
         const Buffer& buffer = program_[form.buffer];
         return type == buffer.scalar && are_indices(buffer, form.indices);
+    }
+    static bool is_sorted(const Table& table) {
+        for (std::int64_t i = 1; i < table.size(); ++i) {
+            if (table[i] < table[i - 1]) return false;
+        }
+        return true;
+    }
+    bool fits(const Search& form, Scalar result) const {
+        const Buffer& table = program_[form.table];
+        return result == Scalar::Int && type(form.value) == table.scalar &&
+               table.scalar != Scalar::Bool && table.storage == Storage::Constant &&
+               table.shape.size() == 1 && is_sorted(table.values);
     }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
     bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }

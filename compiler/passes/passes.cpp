@@ -3,13 +3,17 @@
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
 #include "passes/factor_aggregations.hpp"
+#include "passes/fast_math.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/fuse_interm_fluents.hpp"
 #include "passes/hoist_aggregations.hpp"
 #include "passes/index_directly.hpp"
 #include "passes/make_aggregations_sparse.hpp"
+#include "passes/reduce_strength.hpp"
 #include "passes/remove_unused_buffers.hpp"
+#include "passes/search_intervals.hpp"
+#include "passes/share_across_definitions.hpp"
 #include "passes/share_subexpressions.hpp"
 #include "passes/tabulate_constant_fluents.hpp"
 #include "passes/tabulate_constants.hpp"
@@ -24,6 +28,7 @@ struct Pass {
     const char* name;
     const char* summary;
     ir::Program (*run)(ir::Program, passes::Report&);
+    bool only_fast_math = false;
 };
 
 // A pass may stand here several times.
@@ -34,11 +39,17 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"fast_math", "only with --fast-math: what is right for real numbers, if not for floating ones",
+     passes::fast_math, true},
+    {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
+     passes::reduce_strength},
     {"fuse_interm_fluents",
      "interm-fluents read once, or cheap ones, are computed where they are read",
      passes::fuse_interm_fluents},
     {"index_directly", "an aggregation to which one object contributes takes that object",
      passes::index_directly},
+    {"search_intervals", "what depends on the interval of a number becomes a binary search",
+     passes::search_intervals},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
@@ -47,10 +58,15 @@ constexpr Pass in_order[] = {
      passes::make_aggregations_sparse},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
+    {"share_across_definitions", "what several CPFs compute is computed once",
+     passes::share_across_definitions},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",
      passes::remove_unused_buffers},
     {"share_subexpressions", "what is used twice, or does not change in a loop, gets a name",
      passes::share_subexpressions},
+    // Again, as what has a name is cheap now.
+    {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
+     passes::reduce_strength},
 };
 
 PassRun measured(const Pass& pass, ir::Program& program) {
@@ -81,6 +97,7 @@ ProgramSize size_of(const ir::Program& program) {
 ir::Program optimise(ir::Program program, const PassOptions& options, std::vector<PassRun>* runs) {
     for (const Pass& pass : in_order) {
         if (options.without.contains(pass.name)) continue;
+        if (pass.only_fast_math && !options.fast_math) continue;
         const ProgramSize before = runs ? size_of(program) : ProgramSize{};
         PassRun run = measured(pass, program);
         if (runs) {

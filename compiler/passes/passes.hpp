@@ -1,5 +1,5 @@
 // The optimisations. Each keeps the value of every fluent bit for bit, except where its header says
-// that sums of reals may be rounded differently.
+// that sums of reals may be rounded differently; fast_math, which runs on request, keeps less.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -22,6 +22,7 @@ std::vector<PassDescription> all_passes();
 
 struct PassOptions {
     std::set<std::string, std::less<>> without;  // names of passes that are left out
+    bool fast_math = false;                      // --fast-math
 };
 
 // How large a program is.

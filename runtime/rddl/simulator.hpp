@@ -10,6 +10,7 @@
 #include <rddl/linear_algebra.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/reductions.hpp>
+#include <rddl/search.hpp>
 #include <rddl/simulator.h>
 #include <rddl/sites.hpp>
 #include <rddl/tables.hpp>

@@ -169,6 +169,15 @@ TEST_F(BuilderTest, FoldsReductionsOverOneOrNoObject) {
     EXPECT_EQ(w.builder().reduce(Reduction::Exists, w.none, up()), w.boolean(false));
 }
 
+TEST_F(BuilderTest, SearchesConstants) {
+    const BufferId ends = w.add("ENDS", Storage::Constant, Scalar::Real, true, {1.0, 2.0, 4.0});
+    EXPECT_EQ(text(w.builder().search(ends, level())), "search(ENDS, state.level)");
+    EXPECT_EQ(w.builder().search(ends, w.real(0.5)), w.integer(0));
+    EXPECT_EQ(w.builder().search(ends, w.real(2)), w.integer(2));
+    EXPECT_EQ(w.builder().search(ends, w.real(9)), w.integer(3));
+    EXPECT_EQ(w.builder().search(ends, w.real(std::nan(""))), w.integer(0));
+}
+
 TEST_F(BuilderTest, ConvertsBoolToRealInOneStep) {
     const NodeId as_int = w.builder().convert(up(), Scalar::Int);
     EXPECT_EQ(w.builder().convert(as_int, Scalar::Real), w.builder().convert(up(), Scalar::Real));

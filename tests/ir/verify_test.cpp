@@ -57,6 +57,13 @@ TEST_F(VerifyTest, FindsBoundsThatDifferBetweenLanes) {
     EXPECT_EQ(complaint(), "types do not fit in 'sum[d in 0 .. state.count](state.level)'");
 }
 
+TEST_F(VerifyTest, FindsSearchesInTablesThatAreNotSorted) {
+    const BufferId ends = w.add("ENDS", Storage::Constant, Scalar::Real, true, {1.0, 4.0, 2.0});
+    const NodeId place = w.builder().search(ends, w.load(w.level));
+    store_of_level().value = w.builder().convert(place, Scalar::Real);
+    EXPECT_EQ(complaint(), "types do not fit in 'search(ENDS, state.level)'");
+}
+
 TEST_F(VerifyTest, FindsExtremesThatMayBeEmpty) {
     const Bounds bounds{w.integer(0), w.integer(2)};
     store_of_level().value = w.builder().reduce(Reduction::Minimum, w.d, w.load(w.level), bounds);

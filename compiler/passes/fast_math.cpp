@@ -1,0 +1,112 @@
+#include "passes/fast_math.hpp"
+
+#include "ir/rewrite.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost): what costs more is not written down twice.
+constexpr double cheap = 6;
+
+class Relaxing {
+  public:
+    explicit Relaxing(ir::Builder& builder) : builder_(builder) {}
+
+    std::optional<ir::NodeId> relaxed(const ir::Node& node) {
+        if (node.type != ir::Scalar::Real) return std::nullopt;
+        if (const auto* select = std::get_if<ir::Select>(&node.form)) return product(*select);
+        const auto* apply = std::get_if<ir::Apply>(&node.form);
+        if (!apply) return std::nullopt;
+        const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
+        switch (apply->op) {
+            case Operator::Multiply:
+                return product(a, b);
+            case Operator::Divide:
+                return quotient(a, b);
+            case Operator::Power:
+                return power(a, b);
+            default:
+                return std::nullopt;
+        }
+    }
+
+  private:
+    std::optional<ir::NodeId> product(ir::NodeId a, ir::NodeId b) {
+        const auto first = constant(a), second = constant(b);
+        if (!first && !second) return std::nullopt;
+        if (first && second) return std::nullopt;  // the builder has folded it
+        return scaled(first ? b : a, first ? *first : *second);
+    }
+
+    std::optional<ir::NodeId> quotient(ir::NodeId a, ir::NodeId b) {
+        const auto divisor = constant(b);
+        if (!divisor || !std::isnormal(*divisor) || !std::isnormal(1 / *divisor))
+            return std::nullopt;
+        if (const auto simpler = scaled(a, 1 / *divisor)) return simpler;
+        return multiply(a, builder_.constant(1 / *divisor));
+    }
+
+    // x * factor, where that is simpler than a product.
+    std::optional<ir::NodeId> scaled(ir::NodeId x, double factor) {
+        if (factor == 0 && ir::is_droppable(builder_.facts(x))) return builder_.constant(0.0);
+        const auto* apply = std::get_if<ir::Apply>(&builder_.program()[x].form);
+        if (!apply || apply->op != Operator::Multiply) return std::nullopt;
+        const ir::NodeId a = apply->operands[0], b = apply->operands[1];
+        if (const auto inner = constant(b)) return multiply(a, builder_.constant(*inner * factor));
+        if (const auto inner = constant(a)) return multiply(builder_.constant(*inner * factor), b);
+        return std::nullopt;
+    }
+
+    // The test for zero of a product that RDDL makes 0 even if the other factor is inf or nan.
+    std::optional<ir::NodeId> product(const ir::Select& select) {
+        const ir::Program& program = builder_.program();
+        const auto* test = std::get_if<ir::Apply>(&program[select.condition].form);
+        const auto* apply = std::get_if<ir::Apply>(&program[select.else_value].form);
+        if (!test || test->op != Operator::Equal || !apply || apply->op != Operator::Multiply)
+            return std::nullopt;
+        const ir::NodeId factor = select.then_value;
+        const auto zero = constant(test->operands[1]);
+        const bool is_test = test->operands[0] == factor && zero && *zero == 0;
+        const bool is_first = apply->operands[0] == factor;
+        const ir::NodeId other = apply->operands[is_first ? 1 : 0];
+        if (!is_test || (!is_first && apply->operands[1] != factor)) return std::nullopt;
+        if (!ir::is_droppable(builder_.facts(other))) return std::nullopt;
+        return select.else_value;
+    }
+
+    std::optional<ir::NodeId> power(ir::NodeId base, ir::NodeId exponent) {
+        const auto value = constant(exponent);
+        if (value && *value == 0.5) return builder_.apply(Operator::Sqrt, {base});
+        if (!value || *value != 3 || builder_.facts(base).cost > cheap) return std::nullopt;
+        return multiply(multiply(base, base), base);
+    }
+
+    std::optional<double> constant(ir::NodeId id) const {
+        const auto* form = std::get_if<ir::Constant>(&builder_.program()[id].form);
+        const double* value = form ? std::get_if<double>(&form->value) : nullptr;
+        return value ? std::optional(*value) : std::nullopt;
+    }
+
+    ir::NodeId multiply(ir::NodeId a, ir::NodeId b) {
+        return builder_.apply(Operator::Multiply, {a, b});
+    }
+
+    ir::Builder& builder_;
+};
+
+}  // namespace
+
+ir::Program fast_math(ir::Program program, Report& report) {
+    return ir::rewrite(
+        std::move(program),
+        [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
+            const auto simpler = Relaxing(builder).relaxed(node);
+            if (simpler) ++report["expressions relaxed"];
+            return simpler;
+        });
+}
+
+}  // namespace rddlc::passes

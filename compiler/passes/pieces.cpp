@@ -1,0 +1,141 @@
+#include "passes/pieces.hpp"
+
+#include "passes/constant_values.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr std::size_t most_breaks = 10'000;
+
+// The next number, if there is one.
+std::optional<ir::Value> next(const ir::Value& value) {
+    return match(
+        value, [](bool) { return std::optional<ir::Value>(); },
+        [](std::int64_t v) -> std::optional<ir::Value> {
+            if (v == std::numeric_limits<std::int64_t>::max()) return std::nullopt;
+            return v + 1;
+        },
+        [](double v) -> std::optional<ir::Value> {
+            if (v == HUGE_VAL) return std::nullopt;
+            return std::nextafter(v, HUGE_VAL);
+        });
+}
+
+// Below it there is another number.
+bool is_possible_break(const ir::Value& value) {
+    return match(
+        value, [](bool) { return false; },
+        [](std::int64_t v) { return v > std::numeric_limits<std::int64_t>::min(); },
+        [](double v) { return v > -HUGE_VAL; });
+}
+
+std::optional<Operator> mirrored(Operator op) {
+    switch (op) {
+        case Operator::Less:
+            return Operator::Greater;
+        case Operator::LessEqual:
+            return Operator::GreaterEqual;
+        case Operator::Greater:
+            return Operator::Less;
+        case Operator::GreaterEqual:
+            return Operator::LessEqual;
+        case Operator::Equal:
+        case Operator::NotEqual:
+            return op;
+        default:
+            return std::nullopt;
+    }
+}
+
+class Collector {
+  public:
+    Collector(const ir::Builder& builder, const ir::Evaluator& evaluator)
+        : builder_(builder), evaluator_(evaluator) {}
+
+    // False if there is something else that is not constant.
+    bool visit(ir::NodeId id) {
+        if (builder_.facts(id).uniform) return !builder_.facts(id).may_fault;
+        if (!visited_.insert(id).second) return true;
+        const ir::Node& node = program()[id];
+        if (const auto* apply = std::get_if<ir::Apply>(&node.form)) {
+            if (mirrored(apply->op) && program()[apply->operands[0]].type != ir::Scalar::Bool)
+                return compare(apply->op, apply->operands[0], apply->operands[1]);
+        }
+        const bool is_operation = std::holds_alternative<ir::Apply>(node.form) ||
+                                  std::holds_alternative<ir::Convert>(node.form) ||
+                                  std::holds_alternative<ir::Select>(node.form) ||
+                                  std::holds_alternative<ir::Reduce>(node.form);
+        if (!is_operation || ir::place_of(node)) return false;
+        return std::ranges::all_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return visit(operand); });
+    }
+
+    std::optional<Pieces> result() const {
+        if (!number_ || breaks_.empty() || breaks_.size() > most_breaks) return std::nullopt;
+        return Pieces{*number_, {breaks_.begin(), breaks_.end()}};
+    }
+
+  private:
+    bool compare(Operator op, ir::NodeId a, ir::NodeId b) {
+        if (builder_.facts(a).uniform) return compare(*mirrored(op), b, a);
+        const ir::Facts& facts = builder_.facts(a);
+        if (!facts.free_variables.empty() || facts.may_fault) return false;
+        if (number_ && *number_ != a) return false;
+        number_ = a;
+        return builder_.facts(b).uniform && add_breaks(op, b);
+    }
+
+    bool add_breaks(Operator op, ir::NodeId bound) {
+        const auto values =
+            constant_values(evaluator_, program(), bound, builder_.facts(bound).free_variables);
+        if (!values || values->size() > most_breaks) return false;
+        const bool before = op != Operator::LessEqual && op != Operator::Greater;
+        const bool behind = op != Operator::Less && op != Operator::GreaterEqual;
+        return std::ranges::all_of(*values, [&](const ir::Value& value) {
+            if (value != value) return true;  // nan: all comparisons have one result
+            return (!before || add(value)) && (!behind || add(next(value)));
+        });
+    }
+
+    bool add(const std::optional<ir::Value>& value) {
+        if (!value) return true;
+        breaks_.insert(*value);
+        return is_possible_break(*value);
+    }
+
+    const ir::Program& program() const { return builder_.program(); }
+
+    const ir::Builder& builder_;
+    const ir::Evaluator& evaluator_;
+    std::optional<ir::NodeId> number_;
+    std::set<ir::Value> breaks_;
+    std::set<ir::NodeId> visited_;
+};
+
+ir::Value below(const ir::Value& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole - 1;
+    return std::nextafter(std::get<double>(value), -HUGE_VAL);
+}
+
+}  // namespace
+
+std::vector<ir::Value> Pieces::representatives() const {
+    std::vector<ir::Value> values = {below(breaks.front())};
+    values.insert(values.end(), breaks.begin(), breaks.end());
+    return values;
+}
+
+std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
+                                ir::NodeId id) {
+    Collector collector(builder, evaluator);
+    if (!collector.visit(id)) return std::nullopt;
+    return collector.result();
+}
+
+}  // namespace rddlc::passes

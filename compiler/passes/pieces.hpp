@@ -1,0 +1,30 @@
+// Expressions that look at one number only by comparing it with constants.
+//
+//     sum[s in segment](SLOPE[s] * real(state.x >= LEFT[s] && state.x < RIGHT[s]))
+//
+// is constant between the ends of the segments. `x <= c` changes behind c: at the next number.
+#pragma once
+
+#include "ir/builder.hpp"
+#include "ir/evaluator.hpp"
+#include "ir/ir.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace rddlc::passes {
+
+struct Pieces {
+    ir::NodeId number;              // Int or Real; depends on no variable of the expression
+    std::vector<ir::Value> breaks;  // where the expression may change; sorted, each once
+
+    // A number below the first break, then each break: one for each piece.
+    std::vector<ir::Value> representatives() const;
+};
+
+// None if the expression looks at anything else that is not constant, if it may fault or if there
+// are no breaks or too many.
+std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
+                                ir::NodeId id);
+
+}  // namespace rddlc::passes

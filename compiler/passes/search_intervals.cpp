@@ -1,0 +1,203 @@
+#include "passes/search_intervals.hpp"
+
+#include "ir/rewrite.hpp"
+#include "passes/constant_values.hpp"
+#include "passes/new_tables.hpp"
+#include "passes/pieces.hpp"
+#include "passes/take_only_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost), of evaluating an expression for all pieces.
+constexpr double affordable_cost = 1e7;
+// What costs less than this many times a search stays as it is.
+constexpr double worth_a_search = 2;
+
+bool are_identical(const std::vector<ir::Value>& a, const std::vector<ir::Value>& b) {
+    return std::ranges::equal(
+        a, b, [](const ir::Value& x, const ir::Value& y) { return identical(x, y); });
+}
+
+// The values of an expression for numbers from all pieces.
+class Trying {
+  public:
+    Trying(ir::Builder& builder, const ir::Evaluator& evaluator)
+        : builder_(builder), evaluator_(evaluator) {}
+
+    bool is_affordable(ir::NodeId id, const Pieces& pieces) const {
+        const auto count = static_cast<double>(pieces.breaks.size() + 2);
+        return builder_.facts(id).cost * count <= affordable_cost;
+    }
+
+    // Each by the objects of the variables, row-major. None if nan behaves like no piece.
+    std::optional<std::vector<std::vector<ir::Value>>> of(
+        ir::NodeId id, const Pieces& pieces, const std::vector<ir::VariableId>& variables) {
+        std::vector<std::vector<ir::Value>> values;
+        for (const ir::Value& number : pieces.representatives())
+            values.push_back(with(id, pieces, number, variables));
+        // A search puts nan below all breaks.
+        if (builder_.program()[pieces.number].type == ir::Scalar::Real) {
+            const double nan = std::numeric_limits<double>::quiet_NaN();
+            if (!are_identical(with(id, pieces, nan, variables), values.front()))
+                return std::nullopt;
+        }
+        return values;
+    }
+
+  private:
+    std::vector<ir::Value> with(ir::NodeId id, const Pieces& pieces, const ir::Value& number,
+                                const std::vector<ir::VariableId>& variables) {
+        std::map<ir::NodeId, ir::NodeId> known = {{pieces.number, builder_.constant(number)}};
+        const ir::NodeId value = ir::replace_in(builder_, id, known);
+        return *constant_values(evaluator_, builder_.program(), value, variables);
+    }
+
+    ir::Builder& builder_;
+    const ir::Evaluator& evaluator_;
+};
+
+std::string name_of_number(const ir::Program& program, ir::NodeId number) {
+    const auto* load = std::get_if<ir::Load>(&program[number].form);
+    if (load) return program[load->buffer].name;
+    for (ir::NodeId operand : ir::operands_of(program[number])) {
+        const std::string name = name_of_number(program, operand);
+        if (!name.empty()) return name;
+    }
+    return "";
+}
+
+// A table over the pieces or their breaks.
+ir::BufferId new_table(ir::Program& program, const Pieces& pieces, const std::string& suffix,
+                       std::vector<ir::Value> values) {
+    const auto is_finite = [](const ir::Value& value) {
+        const auto* real = std::get_if<double>(&value);
+        return !real || std::isfinite(*real);
+    };
+    ir::Buffer table{.name = name_of_number(program, pieces.number) + suffix,
+                     .storage = ir::Storage::Constant,
+                     .scalar = static_cast<ir::Scalar>(values.front().index()),
+                     .shape = {static_cast<std::int64_t>(values.size())},
+                     .types = {},
+                     .fluent = {},
+                     .values = std::move(values),
+                     .span = program.reward.span};
+    table.finite = table.values.all_of(is_finite);
+    return constant_table(program, std::move(table));
+}
+
+// Joins neighbours of equal values. The values are those of the pieces that are left.
+std::vector<ir::Value> joined(Pieces& pieces, const std::vector<ir::Value>& values) {
+    std::vector<ir::Value> breaks, left = {values.front()};
+    for (std::size_t k = 0; k < pieces.breaks.size(); ++k) {
+        if (identical(values[k], values[k + 1])) continue;
+        breaks.push_back(pieces.breaks[k]);
+        left.push_back(values[k + 1]);
+    }
+    pieces.breaks = std::move(breaks);
+    return left;
+}
+
+ir::NodeId search(ir::Program& program, ir::Builder& builder, const Pieces& pieces) {
+    return builder.search(new_table(program, pieces, "-breaks", pieces.breaks), pieces.number);
+}
+
+// ------------------------------------------------------------------------- constant pieces
+
+// Replaces the outermost expressions that are constant in each piece.
+class Tabulation {
+  public:
+    Tabulation(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {}
+
+    ir::Program run() && {
+        ir::change_roots(program_, [&](ir::NodeId& root) { root = rewritten(root); });
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    ir::NodeId rewritten(ir::NodeId id) {
+        if (const auto known = done_.find(id); known != done_.end()) return known->second;
+        if (const auto found = looked_up(id)) return done_[id] = *found;
+        ir::Node node = program_[id];
+        ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
+        return done_[id] = builder_.rebuild(node);
+    }
+
+    std::optional<ir::NodeId> looked_up(ir::NodeId id) {
+        const ir::Facts facts = builder_.facts(id);
+        if (facts.uniform || !facts.free_variables.empty() || facts.may_fault) return std::nullopt;
+        auto pieces = pieces_of(builder_, evaluator_, id);
+        if (!pieces) return std::nullopt;
+        Trying trying(builder_, evaluator_);
+        if (!trying.is_affordable(id, *pieces)) return std::nullopt;
+        const auto tried = trying.of(id, *pieces, {});
+        if (!tried) return std::nullopt;
+        std::vector<ir::Value> values;
+        for (const auto& of_piece : *tried) values.push_back(of_piece.front());
+        values = joined(*pieces, values);
+        if (pieces->breaks.empty()) return builder_.constant(values.front());
+        const double steps = std::log2(static_cast<double>(pieces->breaks.size())) + 1;
+        if (facts.cost - builder_.facts(pieces->number).cost < worth_a_search * (2 * steps + 1))
+            return std::nullopt;
+        ++report_["aggregations made a search"];
+        const ir::NodeId place = search(program_, builder_, *pieces);
+        return builder_.load(new_table(program_, *pieces, "-values", std::move(values)), {place});
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    ir::Evaluator evaluator_;
+    std::map<ir::NodeId, ir::NodeId> done_;
+};
+
+// -------------------------------------------------------------- one object in each piece
+
+// The object that fulfils the condition in each piece.
+std::optional<OnlyObject> only_object(ir::Program& program, ir::Builder& builder,
+                                      const Condition& condition, ir::VariableId variable) {
+    const ir::Facts facts = builder.facts(condition.id);
+    const bool is_only_variable = facts.free_variables == std::vector{variable};
+    if (facts.uniform || !is_only_variable || facts.may_fault) return std::nullopt;
+    const ir::Evaluator evaluator(program);
+    const auto pieces = pieces_of(builder, evaluator, condition.id);
+    Trying trying(builder, evaluator);
+    if (!pieces || !trying.is_affordable(condition.id, *pieces)) return std::nullopt;
+    const auto tried = trying.of(condition.id, *pieces, {variable});
+    if (!tried) return std::nullopt;
+
+    std::vector<ir::Value> objects, exists;
+    for (const std::vector<ir::Value>& values : *tried) {
+        const auto count = std::ranges::count(values, ir::Value(condition.needed));
+        if (count > 1) return std::nullopt;
+        const auto object = std::ranges::find(values, ir::Value(condition.needed));
+        objects.emplace_back(count == 0 ? std::int64_t{0} : object - values.begin());
+        exists.emplace_back(count == 1);
+    }
+    const ir::NodeId place = search(program, builder, *pieces);
+    return OnlyObject{
+        builder.load(new_table(program, *pieces, "-object", std::move(objects)), {place}),
+        builder.load(new_table(program, *pieces, "-is-there", std::move(exists)), {place})};
+}
+
+}  // namespace
+
+ir::Program search_intervals(ir::Program program, Report& report) {
+    program = Tabulation(std::move(program), report).run();
+    return take_only_objects(
+        std::move(program), [&](ir::Program& changed, ir::Builder& builder,
+                                const Condition& condition, ir::VariableId variable) {
+            const auto object = only_object(changed, builder, condition, variable);
+            if (object) ++report["aggregations replaced by the object of an interval"];
+            return object;
+        });
+}
+
+}  // namespace rddlc::passes

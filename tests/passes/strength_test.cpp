@@ -1,0 +1,58 @@
+#include "passes/fast_math.hpp"
+#include "passes/reduce_strength.hpp"
+#include "texts.hpp"
+
+namespace rddlc {
+namespace {
+
+std::string reduced(const std::string& cpf_of_x) {
+    return of_x(cpf_of_x, passes::reduce_strength).after;
+}
+std::string relaxed(const std::string& cpf_of_x) {
+    return of_x(cpf_of_x, passes::fast_math).after;
+}
+
+TEST(ReduceStrength, MultipliesInsteadOfDividingByPowersOfTwo) {
+    EXPECT_EQ(reduced("x / 4 + x / -0.5"), "state.x * 0.25 + state.x * -2.0");
+    EXPECT_EQ(reduced("x / 3"), "state.x / 3.0") << "1/3 is not exact";
+}
+
+TEST(ReduceStrength, MultipliesInsteadOfRaising) {
+    EXPECT_EQ(reduced("pow[x, 2]"), "state.x * state.x");
+    EXPECT_EQ(reduced("pow[x, 3]"), "power(state.x, 3.0)") << "rounded once, not twice";
+    EXPECT_EQ(reduced("sum_{?o : obj} pow[E(?o), 3]"), "real(sum[o in obj](E[o] * E[o] * E[o]))");
+    EXPECT_EQ(reduced("pow[exp[x], 2]"), "power(exp(state.x), 2.0)");
+}
+
+TEST(ReduceStrength, DropsZeroTimesABool) {
+    EXPECT_EQ(reduced("x + sum_{?o : obj} [0.0 * p(?o)]"), "state.x + 0.0");
+    EXPECT_EQ(reduced("sum_{?o : obj} [0.0 * v(?o)]"), "sum[o in obj](0.0 * state.v[o])");
+}
+
+TEST(FastMath, MultipliesByReciprocals) {
+    EXPECT_EQ(relaxed("x / 5"), "state.x * 0.2");
+    EXPECT_EQ(relaxed("x * 3 / 2"), "state.x * 1.5");
+    EXPECT_EQ(relaxed("2 * x * 4"), "8.0 * state.x");
+    EXPECT_EQ(relaxed("x / 0"), "state.x / 0.0");
+}
+
+TEST(FastMath, DropsZeroTimesAnything) {
+    EXPECT_EQ(relaxed("x + sum_{?o : obj} [0.0 * v(?o)]"), "state.x + 0.0");
+    EXPECT_EQ(relaxed("0.0 * sum_{?o : obj} Normal(0, 1)"),
+              "0.0 * sum[o in obj](sample normal@0[o](0.0, 1.0))");
+}
+
+TEST(FastMath, TestsNoFactorForZero) {
+    const Texts x = of_x("x * exp[x]", passes::fast_math);
+    EXPECT_EQ(x.before, "select(state.x == 0.0, state.x, state.x * exp(state.x))");
+    EXPECT_EQ(x.after, "state.x * exp(state.x)");
+    EXPECT_EQ(relaxed("x * lngamma[x]"),
+              "select(state.x == 0.0, state.x, state.x * ln_gamma@0[0](state.x))");
+}
+
+TEST(FastMath, KnowsSmallPowers) {
+    EXPECT_EQ(relaxed("pow[x, 3] + pow[x, 0.5]"), "state.x * state.x * state.x + sqrt(state.x)");
+}
+
+}  // namespace
+}  // namespace rddlc
