@@ -11,6 +11,8 @@ namespace {
 
 // A table from values to objects has at most this many entries for each object.
 constexpr std::int64_t most_entries_an_object = 4;
+// Tables in which the entries that count are not the exceptions are looked through up to this size.
+constexpr std::int64_t most_elements = 1'000'000;
 
 // The elements of a table in groups that differ in the index of one axis only.
 struct Lines {
@@ -18,13 +20,36 @@ struct Lines {
         for (std::size_t d = axis + 1; d < table.shape.size(); ++d) stride *= table.shape[d];
         count = length == 0 ? 0 : table.count() / length;
     }
-    std::size_t element(std::int64_t line, std::int64_t place) const {
-        const std::int64_t outer = line / stride, inner = line % stride;
-        return static_cast<std::size_t>((outer * length + place) * stride + inner);
+    std::int64_t place_of(std::int64_t element) const { return element / stride % length; }
+    std::int64_t line_of(std::int64_t element) const {
+        return element / stride / length * stride + element % stride;
     }
 
     std::int64_t length, stride, count;
 };
+
+// The place of that entry in each line, -1 where there is none; none if a line has several.
+std::optional<std::vector<std::int64_t>> only_places(const Table& table, const Lines& lines,
+                                                     bool entry) {
+    std::vector<std::int64_t> places(static_cast<std::size_t>(lines.count), -1);
+    const auto is_only = [&](std::int64_t element) {
+        std::int64_t& place = places[static_cast<std::size_t>(lines.line_of(element))];
+        const bool is_first = place < 0;
+        place = lines.place_of(element);
+        return is_first;
+    };
+    if (table.common() != ir::Value(entry)) {
+        for (const auto& [element, value] : table.exceptions()) {
+            if (value == ir::Value(entry) && !is_only(element)) return std::nullopt;
+        }
+        return places;
+    }
+    if (table.size() > most_elements) return std::nullopt;
+    for (std::int64_t element = 0; element < table.size(); ++element) {
+        if (table[element] == ir::Value(entry) && !is_only(element)) return std::nullopt;
+    }
+    return places;
+}
 
 }  // namespace
 
@@ -114,18 +139,12 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
 // By tables of the other axes.
 std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool entry) {
     const ir::Buffer& table = program_[column.table];
-    const Lines lines(table, column.axis);
+    const auto places = only_places(table.values, Lines(table, column.axis), entry);
+    if (!places) return std::nullopt;
     std::vector<ir::Value> objects, exists;
-    for (std::int64_t line = 0; line < lines.count; ++line) {
-        std::int64_t object = 0, found = 0;
-        for (std::int64_t place = 0; place < lines.length; ++place) {
-            if (std::get<bool>(table.values[lines.element(line, place)]) != entry) continue;
-            object = place;
-            ++found;
-        }
-        if (found > 1) return std::nullopt;
-        objects.emplace_back(object);
-        exists.emplace_back(found == 1);
+    for (const std::int64_t place : *places) {
+        objects.emplace_back(std::max<std::int64_t>(place, 0));
+        exists.emplace_back(place >= 0);
     }
     ir::Buffer like = table;
     like.shape.erase(like.shape.begin() + static_cast<std::ptrdiff_t>(column.axis));
