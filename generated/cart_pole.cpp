@@ -42,11 +42,13 @@ struct Action {
 // What the CPFs tell each other within a step.
 template <class L>
 struct Scratch {
-    typename L::Real friction;  // domain.rddl:32
-    typename L::Real drive;     // domain.rddl:33
-    typename L::Real turn;      // domain.rddl:34
-    typename L::Real pressure;  // domain.rddl:35
-    typename L::Real speed_up;  // domain.rddl:36
+    typename L::Real friction;   // domain.rddl:32
+    typename L::Real drive;      // domain.rddl:33
+    typename L::Real turn;       // domain.rddl:34
+    typename L::Real pressure;   // domain.rddl:35
+    typename L::Real speed_up;   // domain.rddl:36
+    typename L::Real cos_angle;  // domain.rddl:49
+    typename L::Real sin_angle;  // domain.rddl:49
 };
 
 template <class L>
@@ -112,32 +114,35 @@ struct Simulator {
     // drive  (domain.rddl:49)
     template <class L>
     static void drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        using Bool = typename L::Bool;
         using Real = typename L::Real;
-        const Real term = 0.05 * rddl::power(state.angle_change, 2.0);
-        const Real term_2 = scratch.friction * rddl::cos(state.angle);
-        const Real term_3 = rddl::select(scratch.friction == 0.0, scratch.friction, term_2);
-        const Real term_4 = rddl::sin(state.angle) + term_3;
-        const Real term_5 = term * term_4;
-        const Real term_6 = rddl::select(term == 0.0, term, term_5);
-        const Real term_7 = rddl::select(action.push_right, 10.0, -10.0) + term_6;
-        scratch.drive = term_7 / 1.1;
+        scratch.sin_angle = rddl::sin(state.angle);
+        scratch.cos_angle = rddl::cos(state.angle);
+        const Real term = scratch.friction * scratch.cos_angle;
+        const Real term_2 = rddl::select(scratch.friction == 0.0, scratch.friction, term);
+        const Real term_3 = scratch.sin_angle + term_2;
+        const Real term_4 = 0.05 * (state.angle_change * state.angle_change) * term_3;
+        const Bool condition = 0.05 * (state.angle_change * state.angle_change) == 0.0;
+        const Real term_5 =
+            rddl::select(condition, 0.05 * (state.angle_change * state.angle_change), term_4);
+        const Real term_6 = rddl::select(action.push_right, 10.0, -10.0) + term_5;
+        scratch.drive = term_6 / 1.1;
     }
 
     // turn  (domain.rddl:55)
     template <class L>
     static void turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
-        const Real term = rddl::cos(state.angle);
-        const Real term_2 = 0.1 * term;
-        const Real term_3 =
-            rddl::select(term == 0.0, term, term * (scratch.drive - scratch.friction * 9.8));
-        const Real term_4 =
-            9.8 * rddl::sin(state.angle) - term_3 - 2e-06 * state.angle_change / 0.05;
+        const Real term = scratch.cos_angle * (scratch.drive - scratch.friction * 9.8);
+        const Real term_2 = rddl::select(scratch.cos_angle == 0.0, scratch.cos_angle, term);
+        const Real term_3 = 9.8 * scratch.sin_angle - term_2 - 2e-06 * state.angle_change / 0.05;
+        const Real term_4 = 0.1 * scratch.cos_angle * (scratch.cos_angle - scratch.friction);
         const Real term_5 =
-            rddl::select(term_2 == 0.0, term_2, term_2 * (term - scratch.friction)) / 1.1;
-        const Real term_6 = 1.3333333333333333 - term_5;
-        const Real term_7 = 0.5 * term_6;
-        scratch.turn = term_4 / term_7;
+            rddl::select(0.1 * scratch.cos_angle == 0.0, 0.1 * scratch.cos_angle, term_4);
+        const Real term_6 = term_5 / 1.1;
+        const Real term_7 = 1.3333333333333333 - term_6;
+        const Real term_8 = 0.5 * term_7;
+        scratch.turn = term_3 / term_8;
     }
 
     // angle-change'  (domain.rddl:77)
@@ -149,23 +154,28 @@ struct Simulator {
     // pressure  (domain.rddl:64)
     template <class L>
     static void pressure(const State<L>& state, Scratch<L>& scratch) {
+        using Bool = typename L::Bool;
         using Real = typename L::Real;
-        const Real term = rddl::power(state.angle_change, 2.0);
-        const Real term_2 =
-            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * rddl::sin(state.angle));
-        const Real term_3 = term_2 + rddl::select(term == 0.0, term, term * rddl::cos(state.angle));
-        const Real term_4 = 0.05 * term_3;
-        scratch.pressure = 10.780000000000001 - term_4;
+        const Bool condition = state.angle_change * state.angle_change == 0.0;
+        const Real term = state.angle_change * state.angle_change * scratch.cos_angle;
+        const Real term_2 = rddl::select(condition, state.angle_change * state.angle_change, term);
+        const Real term_3 =
+            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.sin_angle);
+        const Real term_4 = term_3 + term_2;
+        const Real term_5 = 0.05 * term_4;
+        scratch.pressure = 10.780000000000001 - term_5;
     }
 
     // speed-up  (domain.rddl:68)
     template <class L>
     static void speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+        using Bool = typename L::Bool;
         using Real = typename L::Real;
-        const Real term = rddl::power(state.angle_change, 2.0);
-        const Real term_2 = rddl::select(term == 0.0, term, term * rddl::sin(state.angle));
+        const Bool condition = state.angle_change * state.angle_change == 0.0;
+        const Real term = state.angle_change * state.angle_change * scratch.sin_angle;
+        const Real term_2 = rddl::select(condition, state.angle_change * state.angle_change, term);
         const Real term_3 =
-            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * rddl::cos(state.angle));
+            rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.cos_angle);
         const Real term_4 = term_2 - term_3;
         const Real term_5 = 0.05 * term_4;
         const Real term_6 = rddl::select(action.push_right, 10.0, -10.0) + term_5 -
