@@ -108,6 +108,22 @@ TEST(MakeAggregationsSparse, LeavesTermsThatMayFault) {
         "real(select(state.p[2], sample bernoulli@0[2](state.v[2]), false))");
 }
 
+TEST(MakeAggregationsSparse, TakesTablesThatAreTooLargeToTryAll) {
+    Problem problem = with_links(
+        "sum_{?a : obj, ?b : obj, ?c : obj, ?d : obj, ?e : obj, ?f : obj, ?g : obj, ?h : obj, "
+        "?i : obj, ?j : obj, ?k : obj, ?l : obj, ?m : obj, ?n : obj} "
+        "[FAR(?a, ?b, ?c, ?d, ?e, ?f, ?g, ?h, ?i, ?j, ?k, ?l, ?m, ?n) > 1.5 ^ p(?n)]");
+    problem.pvariables +=
+        "FAR(obj, obj, obj, obj, obj, obj, obj, obj, obj, obj, obj, obj, obj, obj) : "
+        "{ non-fluent, real, default = 0.5 };\n";
+    problem.non_fluents +=
+        "FAR(b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b3) = 2.5;\n"
+        "FAR(b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b2, b1) = 1.0;\n"
+        "FAR(b2, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b2, b2) = 4.0;\n";
+    EXPECT_EQ(value_of_x(made_sparse(grounded(problem))),
+              "real(sum[entry in 0 .. 2](int(state.p[FAR-n[entry]])))");
+}
+
 TEST(MakeAggregationsSparse, LeavesDenseTables) {
     const std::string sum = "sum_{?o : obj, ?u : obj} [~LINK(?o, ?u) ^ p(?u)]";
     EXPECT_EQ(sparse(sum), value_of_x(grounded(with_links(sum))));
