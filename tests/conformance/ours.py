@@ -92,7 +92,7 @@ def trace(
 
 def problem_words(case: Case) -> list:
     functions = ["--extern", case.header] if case.header else []
-    return [case.domain_path, case.instance_path, *functions]
+    return [case.domain_path, case.instance_path, *functions, *case.options]
 
 
 def request_line(problem: Problem, state: Values, action: Values, **more) -> str:

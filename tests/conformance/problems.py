@@ -35,6 +35,7 @@ class Case:
     instance: str
     domain_path: Path
     instance_path: Path
+    options: tuple[str, ...] = ()  # with which ours is compiled: --without=PASS, --fast-math
 
     @property
     def label(self) -> str:

@@ -4,6 +4,7 @@
     .venv/bin/python tests/conformance/run.py --all                    all of rddlrepository
     .venv/bin/python tests/conformance/run.py Wildfire_MDP_ippc2014    some problems
     .venv/bin/python tests/conformance/run.py --write                  and docs/conformance.md
+    .venv/bin/python tests/conformance/run.py --all --without-each     with each optimisation left out
 
 docs/conformance.md says what is compared and how. Exit status: 0 if all agree, else 1.
 """
@@ -13,12 +14,13 @@ import multiprocessing
 import os
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from compare import Findings, compare_draws, compare_transitions, describe_start, judge_draws
 from ours import Replayed, ReplayFailure, faults, replay, trace
 from model import DrawPoint
+from passes import cases_without_each
 from problems import CORE, ROOT, Case, all_problems, example_cases, probe_cases
 from problems import repository_cases, smallest_median_largest
 from recordings import recording_of, refusals_of
@@ -136,13 +138,25 @@ def compare_bit_for_bit(
 
 
 def chosen_cases(options) -> list[Case]:
+    """With the options with which each is compiled."""
+    if options.without_each:
+        rddlc = options.rddl.with_name("rddlc")
+        return cases_without_each(rddlc, named_cases(options), options.cases_each)
+    words = [f"--without={name}" for name in options.without]
+    words += ["--fast-math"] if options.fast_math else []
+    return [replace(case, options=tuple(words)) for case in named_cases(options)]
+
+
+def named_cases(options) -> list[Case]:
     if options.examples:
         return example_cases()
     if options.probes:
         return probe_cases()
     problems = options.problems or (all_problems() if options.all else CORE)
     by_problem = [repository_cases(problem) for problem in problems]
-    if options.smallest_median_largest:
+    if options.without_each:
+        by_problem = [smallest_median_largest(cases)[:1] for cases in by_problem]
+    elif options.smallest_median_largest:
         by_problem = [smallest_median_largest(cases) for cases in by_problem]
     return [case for cases in by_problem for case in cases]
 
@@ -156,6 +170,15 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument(
         "--smallest-median-largest", action="store_true", help="up to three instances a problem"
     )
+    parser.add_argument("--without", action="append", default=[], help="leave out an optimisation")
+    parser.add_argument("--fast-math", action="store_true")
+    parser.add_argument(
+        "--without-each",
+        action="store_true",
+        help="leave out each optimisation in turn, in the smallest instances of the problems in"
+        " which it saves most; and take in --fast-math",
+    )
+    parser.add_argument("--cases-each", type=int, default=3, help="of --without-each (3)")
     parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
     parser.add_argument("--engine", action="append", choices=ENGINES, help="default: both")
     parser.add_argument("--draws", type=int, default=Plan.draws, help="of each state and action")
@@ -172,6 +195,8 @@ def parse_arguments() -> argparse.Namespace:
     )
     options = parser.parse_args()
     options.engine = tuple(options.engine or ENGINES)
+    if options.write and (options.without or options.fast_math or options.without_each):
+        parser.error("--write tells of all optimisations together")
     if not options.rddl.exists():
         parser.error(f"{options.rddl} is not there: build it, or give its place by --rddl")
     return options
@@ -184,9 +209,13 @@ def main() -> int:
     begin = time.perf_counter()
     print(table_head())
     reports = []
+    compiled_with: tuple[str, ...] = ()
     with multiprocessing.get_context("spawn").Pool(options.workers) as pool:
         for report in pool.imap(compare_case, [(case, options, rate) for case in cases]):
             reports.append(report)
+            if report.case.options != compiled_with:
+                compiled_with = report.case.options
+                print(" ".join(compiled_with))
             print(row_text(report), flush=True)
             print(failure_text(report), end="", flush=True)
     failed = [report for report in reports if report.failures]
