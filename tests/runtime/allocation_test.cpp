@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 namespace {
 std::atomic<std::int64_t> allocations = 0;
@@ -53,27 +54,52 @@ TEST(Allocations, AreCounted) {
     EXPECT_GT(allocations, before);
 }
 
+void expect_no_allocations(const rddl_batch_options& options) {
+    TinyBatch batch(options);
+    const std::int64_t before = allocations;
+    for (int time = 0; time < steps; ++time) {
+        for (std::size_t i = 0; i < batch.size(); ++i)
+            batch.actions[i] = action_of(static_cast<std::int64_t>(i), time);
+        batch.step();
+    }
+    std::int32_t violated[environments];
+    std::uint8_t masks[environments * 5];
+    rddl_fault fault;
+    ASSERT_EQ(simulator()->action_choice_count(simulator()), 5);
+    simulator()->action_mask(batch.get(), masks);
+    simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);
+    simulator()->get_fault(batch.get(), 13, &fault);
+    simulator()->set_state(batch.get(), 0, environments, batch.observations.data());
+    simulator()->reset(batch.get(), nullptr, batch.observations.data());
+    EXPECT_EQ(allocations, before) << options.thread_count << " threads, mode " << options.autoreset
+                                   << ", lanes " << options.lane_count;
+}
+
 TEST(Allocations, DoNotHappenInSteps) {
-    for (const int threads : {1, 2})
-        for (const rddl_autoreset mode : {RDDL_AUTORESET_NEXT_STEP, RDDL_AUTORESET_SAME_STEP}) {
-            TinyBatch batch({environments, 0, 42, threads, mode, -1, 0});
-            const std::int64_t before = allocations;
-            for (int time = 0; time < steps; ++time) {
-                for (std::size_t i = 0; i < batch.size(); ++i)
-                    batch.actions[i] = action_of(static_cast<std::int64_t>(i), time);
-                batch.step();
-            }
-            std::int32_t violated[environments];
-            std::uint8_t masks[environments * 5];
-            rddl_fault fault;
-            ASSERT_EQ(simulator()->action_choice_count(simulator()), 5);
-            simulator()->action_mask(batch.get(), masks);
-            simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);
-            simulator()->get_fault(batch.get(), 13, &fault);
-            simulator()->set_state(batch.get(), 0, environments, batch.observations.data());
-            simulator()->reset(batch.get(), nullptr, batch.observations.data());
-            EXPECT_EQ(allocations, before) << threads << " threads, mode " << mode;
-        }
+    ASSERT_GT(simulator()->lane_count, 1);
+    for (const int lanes : {1, simulator()->lane_count})
+        for (const int threads : {1, 2})
+            for (const rddl_autoreset mode : {RDDL_AUTORESET_NEXT_STEP, RDDL_AUTORESET_SAME_STEP})
+                expect_no_allocations({environments, 0, 42, threads, mode, -1, lanes});
+}
+
+TEST(Allocations, DoNotHappenInStepsWithMatrices) {
+    const auto action_count =
+        static_cast<std::size_t>(simulator()->action_value_count(simulator()));
+    const auto observation_count =
+        static_cast<std::size_t>(simulator()->observation_value_count(simulator()));
+    std::vector<float> actions(environments * action_count);
+    std::vector<float> observations(environments * observation_count);
+    for (const int lanes : {1, simulator()->lane_count}) {
+        TinyBatch batch({environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, lanes});
+        const rddl_transition out{};
+        const std::int64_t before = allocations;
+        for (int time = 0; time < 1000; ++time)
+            ASSERT_EQ(simulator()->step_values(batch.get(), RDDL_FLOAT, actions.data(),
+                                               observations.data(), &out),
+                      RDDL_OK);
+        EXPECT_EQ(allocations, before) << lanes << " lanes";
+    }
 }
 
 TEST(Allocations, DoNotHappenInDecisions) {

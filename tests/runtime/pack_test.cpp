@@ -1,0 +1,186 @@
+// Operators on packs give in each lane the bits that they give for the scalars there. This file is
+// also built for other instruction sets than the compiler's default (CMakeLists.txt).
+#include <rddl/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+constexpr int width = 16;
+using Reals = Pack<width>::Real;
+using Ints = Pack<width>::Int;
+using Bools = Pack<width>::Bool;
+
+std::uint64_t bits(double a) {
+    return std::isnan(a) ? 1 : std::bit_cast<std::uint64_t>(a);  // no nan but the one
+}
+std::uint64_t bits(std::int64_t a) {
+    return static_cast<std::uint64_t>(a);
+}
+std::uint64_t bits(bool a) {
+    return a;
+}
+
+std::vector<double> reals(unsigned seed) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> result = {0.0,   -0.0,     1.0,       -1.0,     0.5,       -0.5,   1.5,
+                                  2.5,   infinity, -infinity, NAN,      0x1p-1074, 0x1p63, -0x1p63,
+                                  1e300, -1e300,   0x1p52,    0x1.8p52, 0x1p62,    3.0};
+    std::mt19937_64 random(seed);
+    while (result.size() < 4000) {
+        const double bounded = std::uniform_real_distribution<>(-20, 20)(random);
+        result.push_back(random() % 4 ? bounded : std::bit_cast<double>(random()));
+    }
+    std::shuffle(result.begin(), result.end(), random);
+    return result;
+}
+
+std::vector<std::int64_t> ints(unsigned seed) {
+    using Limits = std::numeric_limits<std::int64_t>;
+    std::vector<std::int64_t> result = {
+        0, 1, -1, Limits::min(), Limits::max(), 1ll << 53, (1ll << 53) + 1, (1ll << 62) + 1};
+    std::mt19937_64 random(seed);
+    while (result.size() < 4000)
+        result.push_back(static_cast<std::int64_t>(random()) >> (random() % 64));
+    std::shuffle(result.begin(), result.end(), random);
+    return result;
+}
+
+template <class Function, class First, class... Others>
+void expect_bits_of_scalars(const char* name, Function function, const std::vector<First>& first,
+                            const std::vector<Others>&... others) {
+    for (std::size_t i = 0; i + width <= first.size(); i += width) {
+        const auto found = function(LanesOf<First, width>::load(&first[i]),
+                                    LanesOf<Others, width>::load(&others[i])...);
+        for (int lane = 0; lane < width; ++lane) {
+            const std::size_t at = i + static_cast<std::size_t>(lane);
+            ASSERT_EQ(bits(found[lane]), bits(function(first[at], others[at]...)))
+                << name << " of " << first[at] << " on " << simd::level;
+        }
+    }
+}
+
+#define EXPECT_BITS_OF_SCALARS(expression, ...) \
+    expect_bits_of_scalars(                     \
+        #expression, [](auto... x) { return expression; }, __VA_ARGS__)
+
+#ifdef RDDL_EXPECTED_LEVEL
+TEST(Packs, UseTheRegistersAskedFor) {
+    EXPECT_STREQ(simd::level, RDDL_EXPECTED_LEVEL);
+}
+#endif
+
+TEST(Packs, ComputeWithRealsAsScalarsDo) {
+    const std::vector<double> a = reals(1), b = reals(2);
+    EXPECT_BITS_OF_SCALARS((x + ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x - ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x * ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x / ...), a, b);
+    EXPECT_BITS_OF_SCALARS(-(x + ...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(absolute(x...), a);
+    EXPECT_BITS_OF_SCALARS(sign(x...), a);
+    EXPECT_BITS_OF_SCALARS(floor_mod(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(truncate_to_int(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::round(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::floor(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::ceil(x...), a);
+}
+
+TEST(Packs, ComputeElementaryFunctionsAsScalarsDo) {
+    const std::vector<double> a = reals(3), b = reals(4);
+    EXPECT_BITS_OF_SCALARS(rddl::sqrt(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::exp(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::ln(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::sin(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::cos(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::tan(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::tanh(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::atan(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::power(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(rddl::hypot(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(rddl::atan2(x...), a, b);
+}
+
+TEST(Packs, ComputeWithIntsAsScalarsDo) {
+    const std::vector<std::int64_t> a = ints(5), b = ints(6);
+    EXPECT_BITS_OF_SCALARS(wrap_add(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_sub(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_mul(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_neg(x...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(absolute(x...), a);
+    EXPECT_BITS_OF_SCALARS(sign(x...), a);
+    EXPECT_BITS_OF_SCALARS(to_real(x...), a);
+}
+
+// The six comparisons, each once, of a and b.
+template <class T>
+void expect_comparisons_of_scalars(const std::vector<T>& a, const std::vector<T>& b) {
+    expect_bits_of_scalars(
+        "<", [](auto x, auto y) { return x < y; }, a, b);
+    expect_bits_of_scalars(
+        "<=", [](auto x, auto y) { return x <= y; }, a, b);
+    expect_bits_of_scalars(
+        "==", [](auto x, auto y) { return x == y; }, a, b);
+    expect_bits_of_scalars(
+        "!=", [](auto x, auto y) { return x != y; }, a, b);
+    expect_bits_of_scalars(
+        ">", [](auto x, auto y) { return x > y; }, a, b);
+    expect_bits_of_scalars(
+        ">=", [](auto x, auto y) { return x >= y; }, a, b);
+    expect_bits_of_scalars(
+        "select", [](auto x, auto y) { return select(x < y && !(y == x), y, x); }, a, b);
+}
+
+TEST(Packs, CompareAsScalarsDo) {
+    expect_comparisons_of_scalars(reals(7), reals(8));
+    expect_comparisons_of_scalars(ints(9), ints(10));
+    expect_comparisons_of_scalars(reals(7), reals(7));
+    expect_comparisons_of_scalars(ints(9), ints(9));
+}
+
+TEST(Packs, CountLanesOfMasks) {
+    for (const std::uint64_t pattern : {0x0000u, 0x0001u, 0x8000u, 0xA5A5u, 0xFFFFu}) {
+        const Bools mask = Bools::of_bits(pattern);
+        const Ints numbers = to_int(mask);
+        std::uint64_t visited = 0;
+        for_each_lane(mask, [&](int lane) { visited |= std::uint64_t{1} << lane; });
+        EXPECT_EQ(visited, pattern);
+        EXPECT_EQ(any(mask), pattern != 0);
+        EXPECT_EQ(all(mask), pattern == 0xFFFF);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(numbers[lane], static_cast<std::int64_t>(pattern >> lane & 1));
+    }
+}
+
+TEST(Packs, ReadTablesInEachLane) {
+    std::array<double, 37> table;
+    std::array<std::int64_t, 37> numbers;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table[i] = 0.1 * static_cast<double>(i);
+        numbers[i] = -static_cast<std::int64_t>(i * i);
+    }
+    std::vector<std::int64_t> indices = ints(11);
+    for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{37});
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(table, i); }, indices);
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(numbers, i); }, indices);
+}
+
+}  // namespace
+}  // namespace rddl
