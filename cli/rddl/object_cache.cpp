@@ -132,15 +132,32 @@ bool is_sealed(const fs::path& object) {
     return sha256(std::string_view(content).substr(0, end)) == content.substr(end);
 }
 
+// What all simulators link, made on the first use; nothing if it cannot be made.
+std::optional<fs::path> cached_batches() {
+    const auto command = batches_command("batches.o");
+    const std::string key = sha256(fmt::format("{}\n{}\n{}", runtime_text(),
+                                               fmt::join(command, " "), compiler_version(command)));
+    const fs::path target = cache_folder() / (key + ".o");
+    if (fs::exists(target)) return target;
+    const WorkFolder work(target.parent_path());
+    const fs::path object = work.path() / "batches.o";
+    const auto result = run_process(batches_command(object));
+    if (!result || result->status != 0) return std::nullopt;
+    fs::rename(object, target);
+    return target;
+}
+
 void build(const std::string& text, const fs::path& target, const CacheOptions& options) {
     const WorkFolder work(target.parent_path());
     const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
     std::ofstream(source, std::ios::binary) << text;
+    const auto batches = cached_batches();
+    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
     Diagnostics diagnostics;
     bool built = false;
     try {
         built = build_shared_object(source, object, Processors::LikeThis, options.extern_headers,
-                                    diagnostics);
+                                    diagnostics, batches);
     } catch (const std::logic_error&) {
         // Ctrl-C reaches the compiler, too.
         if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);

@@ -61,6 +61,32 @@ Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::strin
     return diagnostic;
 }
 
+// The compiler and what all its calls have in common.
+std::vector<std::string> compiler_command(Processors processors) {
+    const char* compiler = std::getenv("CXX");
+    std::vector<std::string> command = words(compiler ? compiler : "");
+    if (command.empty()) command = {"c++"};
+    command.insert(command.end(), {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off"});
+    const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
+    if (level) command.push_back("-march=" + std::string(level));
+    if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
+    return command;
+}
+
+// What is linked saves most of the time. Where it is refused (not if it is interrupted), all is
+// compiled.
+std::optional<ProcessResult> compile(const std::vector<std::string>& command,
+                                     const std::optional<fs::path>& batches) {
+    if (batches) {
+        std::vector<std::string> linking = command;
+        linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", batches->string()});
+        const auto result = run_process(linking);
+        const bool is_refused = result && result->status != 0 && result->status < 128;
+        if (!is_refused) return result;
+    }
+    return run_process(command);
+}
+
 }  // namespace
 
 std::optional<fs::path> runtime_include_folder() {
@@ -78,22 +104,24 @@ std::optional<fs::path> runtime_include_folder() {
 
 std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output,
                                                Processors processors) {
-    const char* compiler = std::getenv("CXX");
-    std::vector<std::string> command = words(compiler ? compiler : "");
-    if (command.empty()) command = {"c++"};
-    for (const char* flag : {"-std=c++20", "-O3", "-shared", "-fPIC", "-fvisibility-inlines-hidden",
-                             "-ffp-contract=off", "-DRDDL_ENTRY=rddl_simulator_entry"}) {
-        command.push_back(flag);
-    }
-    const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
-    if (level) command.push_back("-march=" + std::string(level));
-    if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
-    command.insert(command.end(), {"-o", output.string(), source.string()});
+    std::vector<std::string> command = compiler_command(processors);
+    command.insert(command.end(),
+                   {"-shared", "-fvisibility-inlines-hidden", "-DRDDL_ENTRY=rddl_simulator_entry",
+                    "-o", output.string(), source.string()});
+    return command;
+}
+
+std::vector<std::string> batches_command(const fs::path& output) {
+    std::vector<std::string> command = compiler_command(Processors::LikeThis);
+    const fs::path source = runtime_include_folder().value_or("") / "rddl" / "batches.cpp";
+    command.insert(command.end(),
+                   {"-fvisibility=hidden", "-c", "-o", output.string(), source.string()});
     return command;
 }
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
-                         const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics) {
+                         const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics,
+                         const std::optional<fs::path>& batches) {
     if (!runtime_include_folder()) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},
@@ -103,7 +131,7 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
         return false;
     }
     const std::vector<std::string> command = shared_object_command(source, output, processors);
-    const auto result = run_process(command);
+    const auto result = compile(command, batches);
     if (!result) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},

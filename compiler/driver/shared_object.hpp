@@ -22,12 +22,19 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
                                                const std::filesystem::path& output,
                                                Processors processors);
 
+// Compiles what is the same for all simulators, rddl/batches.cpp, for processors like this one.
+std::vector<std::string> batches_command(const std::filesystem::path& output);
+
+// Links `batches`, the output of that command, if it is given and can be linked; else all is
+// compiled.
+//
 // False, with the reason reported, if there is no compiler or no runtime, or if the compiler
 // refuses a text that includes the user's headers. Without headers that is never the user's
 // mistake: it throws std::logic_error with the compiler's messages.
 bool build_shared_object(const std::filesystem::path& source, const std::filesystem::path& output,
                          Processors processors,
                          const std::vector<std::filesystem::path>& extern_headers,
-                         Diagnostics& diagnostics);
+                         Diagnostics& diagnostics,
+                         const std::optional<std::filesystem::path>& batches = {});
 
 }  // namespace rddlc

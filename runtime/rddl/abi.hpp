@@ -1,13 +1,14 @@
-// The C interface (simulator.h) over Batch<Engine>: arguments are checked here, faults are put
+// The C interface (simulator.h) over batches: arguments are checked here, faults are put
 // into words, and no exception passes.
 #pragma once
 
 #include <rddl/action_choices.hpp>
+#include <rddl/any_engine.hpp>
 #include <rddl/batch.hpp>
-#include <rddl/engine.hpp>
+#include <rddl/fault_text.hpp>
 #include <rddl/record_checks.hpp>
 #include <rddl/simulator.h>
-#include <rddl/sites.hpp>
+#include <rddl/simulator_table.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -44,43 +45,30 @@ inline std::optional<BatchOptions> checked_options(const rddl_problem& problem,
                         .partially_observed = problem.partially_observed != 0};
 }
 
-// A simulator for C: description, sites and engine, and the table of functions over them. The
-// description and the sites must outlive it; it must outlive its batches. An emitted file ends in
-//
-//     extern "C" const rddl_simulator* rddl_simulator_entry() {
-//         static const rddl::SimulatorTable<rddl::Compiled<Simulator>> table(problem, sites, {});
-//         return table.get();
-//     }
-//
-// Packed is an engine of the same simulator for packs, where there is one: for larger batches.
-template <Engine E, Engine Packed = E>
-class SimulatorTable {
+// The functions of the table, for simulators whose engine for larger batches has the lane type L.
+template <class L>
+class Functions {
   public:
-    // `policy` describes the engine's policy and must outlive it, too; null if it has none.
-    SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine,
-                   const rddl_policy* policy = nullptr)
-        : problem_(&problem), sites_(sites), engine_(std::move(engine)), policy_(policy) {}
-    SimulatorTable(const SimulatorTable&) = delete;
-    SimulatorTable& operator=(const SimulatorTable&) = delete;
-
-    const rddl_simulator* get() const { return &table_; }
+    static rddl_simulator table(const SimulatorParts<L>& parts);
 
   private:
-    static constexpr bool has_packs = Packed::Lane::width > 1;
-    using AnyBatch = std::conditional_t<has_packs, std::variant<Batch<E>, Batch<Packed>>,
-                                        std::variant<Batch<E>>>;
+    using Parts = SimulatorParts<L>;
+    static constexpr bool has_packs = L::width > 1;
+    using OneByOne = Batch<AnyEngine<Scalar>>;
+    using AnyBatch = std::conditional_t<has_packs, std::variant<OneByOne, Batch<AnyEngine<L>>>,
+                                        std::variant<OneByOne>>;
 
     // What an rddl_batch is.
     struct Handle {
         template <class Kind, class OneEngine>
-        Handle(const SimulatorTable& its_maker, std::in_place_type_t<Kind> kind,
-               const OneEngine& engine, const BatchOptions& options)
-            : maker(&its_maker), batch(kind, engine, *its_maker.problem_, options) {}
+        Handle(const Parts& of_maker, std::in_place_type_t<Kind> kind, const OneEngine& engine,
+               const BatchOptions& options)
+            : maker(&of_maker), batch(kind, engine, *of_maker.problem, options) {}
 
-        const SimulatorTable* maker;
+        const Parts* maker;
         AnyBatch batch;
 
-        const rddl_problem& problem() const { return *maker->problem_; }
+        const rddl_problem& problem() const { return *maker->problem; }
         template <class Use>
         decltype(auto) use(Use&& use) {
             return std::visit(use, batch);
@@ -108,16 +96,15 @@ class SimulatorTable {
     }
 
     template <class OneEngine>
-    bool sizes_agree(const OneEngine& engine) const {
-        using L = typename OneEngine::Lane;
+    static bool sizes_agree(const rddl_problem& problem, const OneEngine& engine) {
         const auto agree = [&](rddl_role role, std::int64_t row_size, std::size_t block_size) {
-            const Columns columns = columns_of<L>(*problem_, role, row_size);
+            const Columns columns = columns_of<typename OneEngine::Lane>(problem, role, row_size);
             return columns.block_size == static_cast<std::int64_t>(block_size);
         };
-        return agree(RDDL_STATE, problem_->state_size, engine.state_size()) &&
-               agree(RDDL_ACTION, problem_->action_size, engine.action_size()) &&
-               agree(problem_->partially_observed != 0 ? RDDL_OBSERVATION : RDDL_STATE,
-                     problem_->observation_size, engine.observation_size());
+        return agree(RDDL_STATE, problem.state_size, engine.state_size()) &&
+               agree(RDDL_ACTION, problem.action_size, engine.action_size()) &&
+               agree(problem.partially_observed != 0 ? RDDL_OBSERVATION : RDDL_STATE,
+                     problem.observation_size, engine.observation_size());
     }
 
     // Packs wait for their slowest lane and have more to start and to end, so one environment is
@@ -126,31 +113,32 @@ class SimulatorTable {
         return options.lane_count == 0 ? options.environment_count > 1 : options.lane_count > 1;
     }
 
-    Site site_of(const FaultRecord& fault) const {
-        if (fault.kind == FaultKind::ActionLimit) return {policy_->source, "the policy", {}};
-        return sites_[fault.place.site];
+    static Site site_of(const Parts& parts, const FaultRecord& fault) {
+        if (fault.kind == FaultKind::ActionLimit) return {parts.policy->source, "the policy", {}};
+        return parts.sites[fault.place.site];
     }
 
     static rddl_batch* create(const rddl_simulator* simulator, const rddl_batch_options* options) {
         if (simulator == nullptr || options == nullptr) return nullptr;
-        const auto& maker = *static_cast<const SimulatorTable*>(simulator->self);
-        const auto checked = checked_options(*maker.problem_, *options);
-        const bool lanes_exist = options->lane_count == 0 || options->lane_count == 1 ||
-                                 options->lane_count == Packed::Lane::width;
+        const auto& maker = *static_cast<const Parts*>(simulator->self);
+        const auto checked = checked_options(*maker.problem, *options);
+        const bool lanes_exist =
+            options->lane_count == 0 || options->lane_count == 1 || options->lane_count == L::width;
         if (!checked || !lanes_exist) return nullptr;
         try {
             if constexpr (has_packs)
-                if (wants_packs(*options)) return maker.make(maker.packed_engine_, *checked);
-            return maker.make(maker.engine_, *checked);
+                if (wants_packs(*options)) return make(maker, maker.packed_engine, *checked);
+            return make(maker, maker.engine, *checked);
         } catch (...) {
             return nullptr;
         }
     }
     template <class OneEngine>
-    rddl_batch* make(const OneEngine& engine, const BatchOptions& options) const {
-        if (!sizes_agree(engine)) return nullptr;
+    static rddl_batch* make(const Parts& maker, const OneEngine& engine,
+                            const BatchOptions& options) {
+        if (!sizes_agree(*maker.problem, engine)) return nullptr;
         const auto kind = std::in_place_type<Batch<OneEngine>>;
-        return reinterpret_cast<rddl_batch*>(new Handle(*this, kind, engine, options));
+        return reinterpret_cast<rddl_batch*>(new Handle(maker, kind, engine, options));
     }
 
     static rddl_batch* copy(const rddl_batch* batch) {
@@ -266,8 +254,7 @@ class SimulatorTable {
         if (batch == nullptr) return RDDL_BAD_ARGUMENT;
         const rddl_problem& problem = handle(batch).problem();
         if (actions == nullptr && problem.action_size > 0) return RDDL_BAD_ARGUMENT;
-        if constexpr (PolicyEngine<E>)
-            std::get<Batch<E>>(handle(batch).batch).act(static_cast<std::byte*>(actions));
+        std::get<OneByOne>(handle(batch).batch).act(static_cast<std::byte*>(actions));
         return RDDL_OK;
     }
 
@@ -334,45 +321,48 @@ class SimulatorTable {
             const FaultRecord* const record = all.fault(i);
             fault->faulty = record != nullptr;
             if (record == nullptr) return;
-            const Site site = handle(batch).maker->site_of(*record);
+            const Site site = site_of(*handle(batch).maker, *record);
             fault->step = static_cast<std::int32_t>(all.steps_before_fault(i));
             fault->source = site.source;
             describe_fault(*record, site, fault->message);
         });
     }
-
-    const rddl_problem* problem_;
-    std::span<const Site> sites_;
-    E engine_;
-    [[no_unique_address]] std::conditional_t<has_packs, Packed, std::monostate> packed_engine_;
-    const rddl_policy* policy_;
-    rddl_simulator table_{.abi_version = RDDL_ABI_VERSION,
-                          .struct_size = sizeof(rddl_simulator),
-                          .problem = problem_,
-                          .self = this,
-                          .create = create,
-                          .destroy = destroy,
-                          .reset = reset,
-                          .step = step,
-                          .get_state = get_state,
-                          .set_state = set_state,
-                          .get_observation = get_observation,
-                          .get_progress = get_progress,
-                          .get_causes = get_causes,
-                          .get_fault = get_fault,
-                          .violated_preconditions = violated_preconditions,
-                          .copy = copy,
-                          .action_choice_count = action_choice_count,
-                          .action_choice = action_choice,
-                          .action_mask = action_mask,
-                          .policy = policy_,
-                          .policy_act = policy_ ? policy_act : nullptr,
-                          .lane_count = Packed::Lane::width,
-                          .instruction_set = simd::level,
-                          .action_value_count = action_value_count,
-                          .observation_value_count = observation_value_count,
-                          .step_values = step_values,
-                          .get_observation_values = get_observation_values};
 };
+
+template <class L>
+rddl_simulator Functions<L>::table(const Parts& parts) {
+    return {.abi_version = RDDL_ABI_VERSION,
+            .struct_size = sizeof(rddl_simulator),
+            .problem = parts.problem,
+            .self = &parts,
+            .create = create,
+            .destroy = destroy,
+            .reset = reset,
+            .step = step,
+            .get_state = get_state,
+            .set_state = set_state,
+            .get_observation = get_observation,
+            .get_progress = get_progress,
+            .get_causes = get_causes,
+            .get_fault = get_fault,
+            .violated_preconditions = violated_preconditions,
+            .copy = copy,
+            .action_choice_count = action_choice_count,
+            .action_choice = action_choice,
+            .action_mask = action_mask,
+            .policy = parts.policy,
+            .policy_act = parts.policy ? policy_act : nullptr,
+            .lane_count = L::width,
+            .instruction_set = parts.instruction_set,
+            .action_value_count = action_value_count,
+            .observation_value_count = observation_value_count,
+            .step_values = step_values,
+            .get_observation_values = get_observation_values};
+}
+
+template <class L>
+rddl_simulator table_of(const SimulatorParts<L>& parts) {
+    return Functions<L>::table(parts);
+}
 
 }  // namespace rddl

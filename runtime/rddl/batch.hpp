@@ -65,7 +65,7 @@ struct BatchOptions {
 };
 
 // The engine must outlive the batch.
-template <Engine E>
+template <StartingEngine E>
 class Batch {
   public:
     using L = typename E::Lane;

@@ -81,7 +81,7 @@ struct StepBuffers {
 };
 
 // Ends the episodes whose state, not reached by a step, is terminal; the others of `lanes` run.
-template <Engine E, class L = typename E::Lane>
+template <StartingEngine E, class L = typename E::Lane>
 void end_if_terminal(const E& engine, Episodes<L>& episodes, typename L::Bool lanes,
                      const std::byte* states) {
     using Bool = typename L::Bool;
@@ -96,7 +96,7 @@ void end_if_terminal(const E& engine, Episodes<L>& episodes, typename L::Bool la
 
 // Starts the next episodes of these lanes, in the initial state. `identity` is that of lane 0;
 // `room` is a block of states to work in.
-template <Engine E, class L = typename E::Lane>
+template <StartingEngine E, class L = typename E::Lane>
 void start_next(const E& engine, const Columns& columns, Episodes<L>& episodes,
                 typename L::Bool lanes, std::uint64_t seed, std::uint64_t identity, std::byte* room,
                 std::byte* states) {

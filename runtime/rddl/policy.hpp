@@ -1,4 +1,4 @@
-// The policy block of a problem, beside its simulator: what a batch needs to let it choose actions.
+// How a policy block chooses the actions of an episode.
 #pragma once
 
 #include <rddl/context.hpp>
@@ -6,40 +6,11 @@
 #include <rddl/episode.hpp>
 #include <rddl/simulator.h>
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 namespace rddl {
-
-// An engine that may have a policy. Memory is what the policy remembers within an episode.
-template <class E>
-concept PolicyEngine = Engine<E> &&
-    requires(const E engine, const std::byte* record, std::byte* target,
-             Context<typename E::Lane>& context) {
-    // The functions below may be called where this is true.
-    { engine.has_policy() } -> std::convertible_to<bool>;
-    { engine.memory_size() } -> std::convertible_to<std::size_t>;
-
-    // reset_policy(memory): the memory before the first decision.
-    {engine.reset_policy(target)};
-    // act(observation, memory, scratch, action, next_memory, context): fills the action and the
-    // next memory. In a fully observed problem the state is what is observed.
-    {engine.act(record, record, target, target, target, context)};
-};
-
-template <Engine E>
-constexpr bool has_policy(const E& engine) {
-    if constexpr (PolicyEngine<E>) return engine.has_policy();
-    return false;
-}
-
-template <Engine E>
-constexpr std::size_t memory_size(const E& engine) {
-    if constexpr (PolicyEngine<E>) return engine.has_policy() ? engine.memory_size() : 0;
-    return 0;
-}
 
 namespace detail {
 

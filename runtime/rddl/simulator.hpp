@@ -1,8 +1,6 @@
 // All that an emitted simulator includes.
 #pragma once
 
-#include <rddl/abi.hpp>
-#include <rddl/batch.hpp>
 #include <rddl/compiled.hpp>
 #include <rddl/context.hpp>
 #include <rddl/distributions.hpp>
@@ -12,9 +10,15 @@
 #include <rddl/reductions.hpp>
 #include <rddl/search.hpp>
 #include <rddl/simulator.h>
+#include <rddl/simulator_table.hpp>
 #include <rddl/sites.hpp>
 #include <rddl/tables.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+// Who links batches.cpp, compiled once for many simulators, defines RDDL_LINKS_BATCHES.
+#ifndef RDDL_LINKS_BATCHES
+#include <rddl/abi.hpp>
+#endif

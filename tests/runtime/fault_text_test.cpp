@@ -1,4 +1,4 @@
-#include <rddl/sites.hpp>
+#include <rddl/fault_text.hpp>
 
 #include <gtest/gtest.h>
 

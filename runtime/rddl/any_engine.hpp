@@ -1,0 +1,127 @@
+// An engine whose functions are found at run time.
+//
+// What steps batches is generic over the engine. Made for this one it depends on nothing but the
+// lane type, so it need not be compiled again for each simulator (batches.cpp). The price is an
+// indirect call for a block of environments.
+#pragma once
+
+#include <rddl/context.hpp>
+#include <rddl/engine.hpp>
+#include <rddl/episode.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+
+template <class L>
+class AnyEngine {
+  public:
+    using Lane = L;
+
+    // The engine must outlive this one.
+    template <Engine E>
+    explicit AnyEngine(const E& engine)
+        : engine_(&engine),
+          state_size_(engine.state_size()),
+          action_size_(engine.action_size()),
+          observation_size_(engine.observation_size()),
+          scratch_size_(engine.scratch_size()),
+          has_policy_(rddl::has_policy(engine)),
+          memory_size_(rddl::memory_size(engine)) {
+        reset_ = [](const void* self, std::byte* state, Context<L>& context) {
+            of<E>(self).reset(state, context);
+        };
+        advance_ = [](const void* self, const Columns& state_columns,
+                      const Columns& observation_columns, Episodes<L>& episodes,
+                      std::int64_t horizon, const std::byte* actions, const StepBuffers& buffers,
+                      std::byte* states, std::byte* observations) -> Real {
+            return rddl::advance(of<E>(self), state_columns, observation_columns, episodes, horizon,
+                                 actions, buffers, states, observations);
+        };
+        terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
+            return of<E>(self).terminal(state, context);
+        };
+        violated_precondition_ = [](const void* self, const std::byte* state,
+                                    const std::byte* action, Context<L>& context) -> Int {
+            return of<E>(self).violated_precondition(state, action, context);
+        };
+        if constexpr (PolicyEngine<E>) {
+            reset_policy_ = [](const void* self, std::byte* memory) {
+                of<E>(self).reset_policy(memory);
+            };
+            act_ = [](const void* self, const std::byte* observation, const std::byte* memory,
+                      std::byte* scratch, std::byte* action, std::byte* next_memory,
+                      Context<L>& context) {
+                of<E>(self).act(observation, memory, scratch, action, next_memory, context);
+            };
+        }
+    }
+
+    std::size_t state_size() const { return state_size_; }
+    std::size_t action_size() const { return action_size_; }
+    std::size_t observation_size() const { return observation_size_; }
+    std::size_t scratch_size() const { return scratch_size_; }
+
+    void reset(std::byte* state, Context<L>& context) const { reset_(engine_, state, context); }
+    typename L::Bool terminal(const std::byte* state, Context<L>& context) const {
+        return terminal_(engine_, state, context);
+    }
+    typename L::Int violated_precondition(const std::byte* state, const std::byte* action,
+                                          Context<L>& context) const {
+        return violated_precondition_(engine_, state, action, context);
+    }
+
+    // As rddl::advance.
+    typename L::Real advance(const Columns& state_columns, const Columns& observation_columns,
+                             Episodes<L>& episodes, std::int64_t horizon, const std::byte* actions,
+                             const StepBuffers& buffers, std::byte* states,
+                             std::byte* observations) const {
+        return advance_(engine_, state_columns, observation_columns, episodes, horizon, actions,
+                        buffers, states, observations);
+    }
+
+    bool has_policy() const { return has_policy_; }
+    std::size_t memory_size() const { return memory_size_; }
+    void reset_policy(std::byte* memory) const { reset_policy_(engine_, memory); }
+    void act(const std::byte* observation, const std::byte* memory, std::byte* scratch,
+             std::byte* action, std::byte* next_memory, Context<L>& context) const {
+        act_(engine_, observation, memory, scratch, action, next_memory, context);
+    }
+
+  private:
+    using Bool = typename L::Bool;
+    using Int = typename L::Int;
+    using Real = typename L::Real;
+
+    template <class E>
+    static const E& of(const void* self) {
+        return *static_cast<const E*>(self);
+    }
+
+    const void* engine_;
+    std::size_t state_size_, action_size_, observation_size_, scratch_size_;
+    bool has_policy_;
+    std::size_t memory_size_;
+
+    void (*reset_)(const void*, std::byte*, Context<L>&);
+    Real (*advance_)(const void*, const Columns&, const Columns&, Episodes<L>&, std::int64_t,
+                     const std::byte*, const StepBuffers&, std::byte*, std::byte*);
+    Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
+    Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
+    void (*reset_policy_)(const void*, std::byte*) = nullptr;
+    void (*act_)(const void*, const std::byte*, const std::byte*, std::byte*, std::byte*,
+                 std::byte*, Context<L>&) = nullptr;
+};
+
+// One step, all of it compiled with the simulator: most values then never leave registers.
+template <class L>
+typename L::Real advance(const AnyEngine<L>& engine, const Columns& state_columns,
+                         const Columns& observation_columns, Episodes<L>& episodes,
+                         std::int64_t horizon, const std::byte* actions, const StepBuffers& buffers,
+                         std::byte* states, std::byte* observations) {
+    return engine.advance(state_columns, observation_columns, episodes, horizon, actions, buffers,
+                          states, observations);
+}
+
+}  // namespace rddl
