@@ -19,6 +19,7 @@ PARTS = (
     ("compare_jax.py", False, True),
     ("handwritten.py", False, True),
     ("growth.py", False, True),
+    ("segments.py", False, True),
     ("compile_cost.py", False, True),
 )
 

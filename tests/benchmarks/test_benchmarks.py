@@ -5,6 +5,7 @@
 
 import contextlib
 import io
+import json
 import sys
 import tempfile
 import unittest
@@ -21,6 +22,7 @@ import growth  # noqa: E402
 import handwritten  # noqa: E402
 import plots  # noqa: E402
 import pyRDDLGym  # noqa: E402
+import segments  # noqa: E402
 from random_actions import RandomActions, draw_course  # noqa: E402
 
 RDDL = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/bin/rddl")
@@ -186,6 +188,18 @@ class Growth(unittest.TestCase):
         for generate in growth.GENERATORS.values():
             few, many = generate(100).entries, generate(1000).entries
             self.assertLess(many, 12 * few)
+
+
+class Segments(unittest.TestCase):
+    def test_measures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = Path(folder, "segments.json")
+            options = ["--sizes", 3, "--seconds", 0.01, "--rddl", RDDL, "--results", results]
+            status, text = run_program(segments.main, *options)
+            self.assertEqual(status, 0, text)
+            (point,) = json.loads(results.read_text())
+            self.assertEqual(point["segments"], 3)
+            self.assertGreater(point["searching"]["in_batch"], 0)
 
 
 class Document(unittest.TestCase):
