@@ -3,12 +3,15 @@
 #include "driver/codes.hpp"
 #include "driver/process.hpp"
 
+#include <rddl/processor.hpp>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <sstream>
 #include <stdexcept>
 
@@ -32,16 +35,16 @@ std::vector<std::string> words(const std::string& text) {
 // The greatest level of x86-64 that this machine's processor has; null if it is another one.
 const char* processor_level() {
 #ifdef __x86_64__
-    __builtin_cpu_init();
-    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") &&
-                    __builtin_cpu_supports("fma");
-    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-                    __builtin_cpu_supports("avx512cd");
-    return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : "x86-64";
-#else
-    return nullptr;
+    switch (rddl::allowed_instruction_set()) {
+        case rddl::InstructionSet::Sse2:
+            return "x86-64";
+        case rddl::InstructionSet::Avx2:
+            return "x86-64-v3";
+        case rddl::InstructionSet::Avx512:
+            return "x86-64-v4";
+    }
 #endif
+    return nullptr;
 }
 
 // With the beginning of what the compiler says.
@@ -73,18 +76,83 @@ std::vector<std::string> compiler_command(Processors processors) {
     return command;
 }
 
-// What is linked saves most of the time. Where it is refused (not if it is interrupted), all is
-// compiled.
+// Not by a mistake in what it compiles if it was interrupted.
+bool is_refused(const std::optional<ProcessResult>& result) {
+    return result && result->status != 0 && result->status < 128;
+}
+
+// What is linked saves most of the time. Where it is refused, all is compiled.
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
                                      const std::optional<fs::path>& batches) {
     if (batches) {
         std::vector<std::string> linking = command;
         linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", batches->string()});
-        const auto result = run_process(linking);
-        const bool is_refused = result && result->status != 0 && result->status < 128;
-        if (!is_refused) return result;
+        auto result = run_process(linking);
+        if (!is_refused(result)) return result;
     }
     return run_process(command);
+}
+
+#ifdef __x86_64__
+
+// One object of a simulator for several instruction sets.
+struct Part {
+    const char* name;
+    const char* level;
+    const char* entry;  // null: that of the dispatcher, which chooses between the others
+};
+
+// Lower ones first (rddl/dispatch.cpp says why).
+constexpr Part parts[] = {{"dispatch", "x86-64", nullptr},
+                          {"sse2", "x86-64", "rddl_simulator_sse2"},
+                          {"avx2", "x86-64-v3", "rddl_simulator_avx2"},
+                          {"avx512", "x86-64-v4", "rddl_simulator_avx512"}};
+
+std::vector<std::string> part_command(const Part& part, const fs::path& source,
+                                      const fs::path& object) {
+    std::vector<std::string> command = compiler_command(Processors::Any);
+    const fs::path dispatcher = runtime_include_folder().value_or("") / "rddl" / "dispatch.cpp";
+    command.insert(command.end(),
+                   {"-march=" + std::string(part.level), "-fvisibility=hidden", "-c", "-o",
+                    object.string(), part.entry ? source.string() : dispatcher.string()});
+    if (part.entry) command.push_back("-DRDDL_ENTRY=" + std::string(part.entry));
+    return command;
+}
+
+// For every instruction set, all at once, and linked. What is not zero is the status of one of
+// the compilers.
+std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::path& output) {
+    std::vector<std::future<std::optional<ProcessResult>>> running;
+    std::vector<std::string> linking = compiler_command(Processors::Any);
+    linking.insert(linking.end(), {"-shared", "-o", output.string()});
+    std::vector<fs::path> objects;
+    for (const Part& part : parts) {
+        objects.push_back(output.string() + "." + part.name + ".o");
+        linking.push_back(objects.back().string());
+        running.push_back(std::async(std::launch::async, run_process,
+                                     part_command(part, source, objects.back())));
+    }
+    std::optional<ProcessResult> result = ProcessResult{};
+    for (auto& one : running) {
+        auto its_result = one.get();
+        if (result && result->status == 0) result = std::move(its_result);
+    }
+    if (result && result->status == 0) result = run_process(linking);
+    std::error_code ignored;
+    for (const fs::path& object : objects) fs::remove(object, ignored);
+    return result;
+}
+
+#endif
+
+// For any processor: where the compiler refuses the instruction sets of x86-64, for the one that it
+// compiles for by itself.
+std::optional<ProcessResult> compile_for_any(const fs::path& source, const fs::path& output) {
+#ifdef __x86_64__
+    auto result = compile_all_sets(source, output);
+    if (!is_refused(result)) return result;
+#endif
+    return run_process(shared_object_command(source, output, Processors::Any));
 }
 
 }  // namespace
@@ -131,7 +199,8 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
         return false;
     }
     const std::vector<std::string> command = shared_object_command(source, output, processors);
-    const auto result = compile(command, batches);
+    const auto result =
+        processors == Processors::Any ? compile_for_any(source, output) : compile(command, batches);
     if (!result) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},

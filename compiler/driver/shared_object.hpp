@@ -14,7 +14,8 @@ namespace rddlc {
 // program, or that of the source tree from which it was built. Nothing if there is none.
 std::optional<std::filesystem::path> runtime_include_folder();
 
-// For which processors: any of the architecture, or those with the vector registers of this one.
+// For which processors: any of the architecture, or those with the vector registers of this one
+// (fewer if RDDL_INSTRUCTION_SET says so: rddl/processor.hpp).
 enum class Processors { Any, LikeThis };
 
 // The compiler and its arguments: $CXX (split at blanks) or c++.
@@ -25,8 +26,9 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
 // Compiles what is the same for all simulators, rddl/batches.cpp, for processors like this one.
 std::vector<std::string> batches_command(const std::filesystem::path& output);
 
-// Links `batches`, the output of that command, if it is given and can be linked; else all is
-// compiled.
+// For any processor of x86-64, the object holds the simulator for each instruction set; its entry
+// chooses when it is called. For those like this one, it links `batches`, the output of that
+// command, if it is given and can be linked; else all is compiled.
 //
 // False, with the reason reported, if there is no compiler or no runtime, or if the compiler
 // refuses a text that includes the user's headers. Without headers that is never the user's

@@ -4,14 +4,18 @@
 #include "driver/process.hpp"
 #include "support/diagnostic.hpp"
 
+#include <rddl/processor.hpp>
 #include <rddl/simulator.h>
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,12 +39,20 @@ class SharedObject : public testing::Test {
         Diagnostics diagnostics;
         return build_shared_object(network, object, Processors::LikeThis, {}, diagnostics, batches);
     }
+    bool builds_for_any(const fs::path& object) {
+        Diagnostics diagnostics;
+        return build_shared_object(network, object, Processors::Any, {}, diagnostics);
+    }
 
     fs::path folder_;
 };
 
-// The states of 40 environments after 30 steps.
-std::vector<std::uint8_t> states_of(const fs::path& object) {
+struct Behaviour {
+    std::string instruction_set;
+    std::vector<std::uint8_t> states;  // of 40 environments after 30 steps
+};
+
+Behaviour behaviour_of(const fs::path& object) {
     void* const library = ::dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) return {};
     const auto entry =
@@ -53,11 +65,12 @@ std::vector<std::uint8_t> states_of(const fs::path& object) {
     std::vector<std::uint8_t> actions(40 * simulator.problem->action_size);
     const rddl_transition nothing{};
     for (int i = 0; i < 30; ++i) simulator.step(batch, actions.data(), &nothing);
-    std::vector<std::uint8_t> states(40 * simulator.problem->state_size);
-    simulator.get_state(batch, 0, 40, states.data());
+    Behaviour behaviour{simulator.instruction_set, {}};
+    behaviour.states.resize(40 * simulator.problem->state_size);
+    simulator.get_state(batch, 0, 40, behaviour.states.data());
     simulator.destroy(batch);
     ::dlclose(library);
-    return states;
+    return behaviour;
 }
 
 TEST_F(SharedObject, is_the_same_whether_batches_are_linked_or_compiled) {
@@ -71,10 +84,80 @@ TEST_F(SharedObject, is_the_same_whether_batches_are_linked_or_compiled) {
     std::ofstream(damaged) << "no object";
     ASSERT_TRUE(builds(folder_ / "whole.so", damaged));
 
-    const auto states = states_of(folder_ / "linked.so");
+    const auto states = behaviour_of(folder_ / "linked.so").states;
     EXPECT_FALSE(states.empty());
-    EXPECT_EQ(states, states_of(folder_ / "whole.so"));
+    EXPECT_EQ(states, behaviour_of(folder_ / "whole.so").states);
 }
+
+#ifdef __x86_64__
+
+TEST_F(SharedObject, for_any_processor_gives_the_same_bytes_on_each_instruction_set) {
+    const fs::path object = folder_ / "any.so";
+    ASSERT_TRUE(builds_for_any(object));
+    const Behaviour best = behaviour_of(object);
+    const struct {
+        rddl::InstructionSet set;
+        const char *variable, *name;
+    } sets[] = {{rddl::InstructionSet::Sse2, "sse2", "SSE2"},
+                {rddl::InstructionSet::Avx2, "avx2", "AVX2"},
+                {rddl::InstructionSet::Avx512, "avx512", "AVX-512"}};
+    for (const auto& [set, variable, name] : sets) {
+        if (set > rddl::processor_instruction_set()) continue;
+        ::setenv("RDDL_INSTRUCTION_SET", variable, 1);
+        const Behaviour behaviour = behaviour_of(object);
+        ::unsetenv("RDDL_INSTRUCTION_SET");
+        EXPECT_EQ(behaviour.instruction_set, name);
+        EXPECT_EQ(behaviour.states, best.states) << name;
+    }
+}
+
+// Lines of what a program prints; none if it fails.
+std::vector<std::string> lines_of(const std::vector<std::string>& command) {
+    const auto result = run_process(command);
+    std::vector<std::string> lines;
+    if (!result || result->status != 0) return lines;
+    std::istringstream stream(result->output);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+// Functions that are in the objects of several instruction sets come from the lowest: they must run
+// wherever the simulator for SSE2 does.
+TEST_F(SharedObject, for_any_processor_shares_no_function_of_higher_instruction_sets) {
+    const fs::path object = folder_ / "any.so", lowest = folder_ / "lowest.o";
+    ASSERT_TRUE(builds_for_any(object));
+    auto command = shared_object_command(network, lowest, Processors::Any);
+    std::ranges::replace(command, "-shared", "-c");
+    const auto compiled = run_process(command);
+    ASSERT_TRUE(compiled && compiled->status == 0);
+
+    std::set<std::string> shared = {"rddl_simulator_entry"};
+    for (const std::string& line : lines_of({"nm", lowest.string()})) {
+        std::istringstream words(line);
+        std::string address, kind, name;
+        words >> address >> kind >> name;
+        if (kind == "W") shared.insert(name);  // which the linker may merge
+    }
+    ASSERT_GT(shared.size(), 1u);
+
+    std::string function;
+    int instructions = 0;
+    for (const std::string& line :
+         lines_of({"objdump", "-d", "--no-show-raw-insn", object.string()})) {
+        const std::size_t name = line.find('<');
+        if (line.ends_with(">:") && name != std::string::npos)
+            function = line.substr(name + 1, line.size() - name - 3);
+        std::istringstream words(line);
+        std::string address, mnemonic;
+        words >> address >> mnemonic;
+        if (!shared.contains(function) || line.empty() || line[0] != ' ') continue;
+        ++instructions;
+        EXPECT_FALSE(mnemonic.starts_with("v")) << function << line;
+    }
+    EXPECT_GT(instructions, 100);
+}
+
+#endif
 
 }  // namespace
 }  // namespace rddlc
