@@ -4,10 +4,15 @@
 // is one environment, Pack<n> (pack.hpp) is n of them.
 #pragma once
 
+#include <rddl/simd.hpp>
+
 #include <cstdint>
 #include <type_traits>
 
 namespace rddl {
+
+// Named after the level of simd.hpp as packs are, since Context<Scalar> depends on it.
+inline namespace RDDL_SIMD_LEVEL {
 
 struct Scalar {
     static constexpr int width = 1;
@@ -16,6 +21,8 @@ struct Scalar {
     using Real = double;
     using Word = std::uint64_t;  // 64 random bits, or a counter
 };
+
+}  // namespace RDDL_SIMD_LEVEL
 
 // A loop index: the same in every lane.
 using Index = std::int64_t;

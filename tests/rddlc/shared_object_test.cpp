@@ -52,7 +52,7 @@ struct Behaviour {
     std::vector<std::uint8_t> states;  // of 40 environments after 30 steps
 };
 
-Behaviour behaviour_of(const fs::path& object) {
+Behaviour behaviour_of(const fs::path& object, int lanes = 0) {
     void* const library = ::dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) return {};
     const auto entry =
@@ -61,6 +61,7 @@ Behaviour behaviour_of(const fs::path& object) {
     rddl_batch_options options{};
     options.environment_count = 40;
     options.seed = 7;
+    options.lane_count = lanes;
     rddl_batch* const batch = simulator.create(&simulator, &options);
     std::vector<std::uint8_t> actions(40 * simulator.problem->action_size);
     const rddl_transition nothing{};
@@ -104,10 +105,11 @@ TEST_F(SharedObject, for_any_processor_gives_the_same_bytes_on_each_instruction_
     for (const auto& [set, variable, name] : sets) {
         if (set > rddl::processor_instruction_set()) continue;
         ::setenv("RDDL_INSTRUCTION_SET", variable, 1);
-        const Behaviour behaviour = behaviour_of(object);
+        const Behaviour behaviour = behaviour_of(object), single = behaviour_of(object, 1);
         ::unsetenv("RDDL_INSTRUCTION_SET");
         EXPECT_EQ(behaviour.instruction_set, name);
         EXPECT_EQ(behaviour.states, best.states) << name;
+        EXPECT_EQ(single.states, best.states) << name;
     }
 }
 
