@@ -1,6 +1,7 @@
 // What users see of list, info, check, run and bench.
 #include "program.hpp"
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -335,15 +336,23 @@ TEST_F(Program, EndsCleanlyWhenInterrupted) {
 std::vector<std::filesystem::path> shared_objects(const std::filesystem::path& cache) {
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
-        if (entry.is_regular_file()) found.push_back(entry.path());
+        if (entry.path().extension() == ".so") found.push_back(entry.path());
     return found;
+}
+// Files that are there once for all problems: the code of batches.
+std::ptrdiff_t shared_files(const std::filesystem::path& cache) {
+    return std::ranges::count_if(std::filesystem::directory_iterator(cache / "rddlc"),
+                                 [](const auto& file) { return file.path().extension() == ".o"; });
 }
 
 TEST_F(Program, CompilesOnceAndRepairsTheCache) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet";
     ASSERT_EQ(run(run_it).status, 0);
     const auto kept = shared_objects(cache());
-    ASSERT_EQ(kept.size(), 1u) << "and nothing else is left behind";
+    ASSERT_EQ(kept.size(), 1u);
+    const std::filesystem::directory_iterator files(cache() / "rddlc");
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1 + shared_files(cache()))
+        << "nothing else is left behind";
     const auto written = std::filesystem::last_write_time(kept[0]);
 
     // Kept: works without a compiler of this name being run on the text again.

@@ -21,6 +21,7 @@ instance pond_1 { domain = pond; non-fluents = two; horizon = 5; discount = 1.0;
 
 // `constants.hpp` defines `rate`.
 constexpr const char* functions = R"(#include "constants.hpp"
+#include <algorithm>
 #include <cstddef>
 #include <span>
 namespace rddl_extern {
@@ -56,9 +57,11 @@ class Externals : public Program {
                    ? nlohmann::json::parse(outcome.out)["state"]["water"].get<double>()
                    : -1;
     }
+    // The simulators and external functions; the code of batches is there for all of them.
     std::ptrdiff_t kept() const {
-        const std::filesystem::directory_iterator files(cache() / "rddlc");
-        return std::distance(begin(files), end(files));
+        return std::ranges::count_if(
+            std::filesystem::directory_iterator(cache() / "rddlc"),
+            [](const auto& file) { return file.path().extension() == ".so"; });
     }
     void make_library(const std::string& text) const {
         write_file(folder_ / "library.cpp", text);
