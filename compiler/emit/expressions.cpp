@@ -85,7 +85,7 @@ Spelled Expressions::spell(const ir::Node&, const ir::Index& index) {
 }
 
 Spelled Expressions::spell(const ir::Node& node, const ir::Search& search) {
-    return {"rddl::search<" + type(node.type) + ">(" + record(search.table) + ", " +
+    return {"rddl::search<" + record(search.table) + ", " + type(node.type) + ">(" +
                 text(search.value) + ")",
             Level::Primary};
 }
