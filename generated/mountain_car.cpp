@@ -105,7 +105,7 @@ struct Simulator {
     static void slope(const State<L>& state, Scratch<L>& scratch) {
         using Int = typename L::Int;
         scratch.slope =
-            rddl::at(position_values, rddl::search<Int>(position_breaks, state.position));
+            rddl::at(position_values, rddl::search<position_breaks, Int>(state.position));
     }
 
     // speed  (domain.rddl:57)
