@@ -190,16 +190,9 @@ std::string Expressions::range(const ir::Reduce& reduce) {
 
 // "rddl::row(LINK_rows, c)": from one element of a table to the next one.
 std::optional<std::string> Expressions::row_of(const ir::Bounds& bounds) {
-    const ir::Program& program = unit_.program;
-    const auto* begin = std::get_if<ir::Load>(&program[bounds.begin].form);
-    const auto* end = std::get_if<ir::Load>(&program[bounds.end].form);
-    if (!begin || !end || begin->buffer != end->buffer || begin->indices.size() != 1) return {};
-    const ir::NodeId row = begin->indices.front();
-    const auto* next = std::get_if<ir::Apply>(&program[end->indices.front()].form);
-    if (!next || next->op != Operator::Add || next->operands.front() != row) return {};
-    const auto* one = std::get_if<ir::Constant>(&program[next->operands.back()].form);
-    if (!one || one->value != ir::Value(std::int64_t{1})) return {};
-    return "rddl::row(" + record(begin->buffer) + ", " + index(row).text + ")";
+    const ir::Load* row = ir::row_of(unit_.program, bounds);
+    if (!row) return std::nullopt;
+    return "rddl::row(" + record(row->buffer) + ", " + index(row->indices.front()).text + ")";
 }
 
 std::string Expressions::lambda_head(ir::VariableId variable, ir::NodeId body) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rddlc::ir {
 namespace {
@@ -124,7 +125,10 @@ class Collector {
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
     }
 
-    void describe(Scalar, const Convert& convert) { facts_.range = range(convert.operand); }
+    void describe(Scalar, const Convert& convert) {
+        const bool is_bool = program_[convert.operand].type == Scalar::Bool;
+        facts_.range = is_bool ? Range{0, 1} : range(convert.operand);
+    }
 
     void describe(Scalar type, const Apply& apply) {
         facts_.cost += cost_of(apply.op);
@@ -150,6 +154,27 @@ class Collector {
              reduce.bounds ? length_of(*reduce.bounds, size) : static_cast<double>(size));
         if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
             facts_.range = Range{0, static_cast<double>(size - 1)};
+        if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
+            facts_.range = range_of_sum(reduce);
+    }
+
+    std::optional<Range> range_of_sum(const Reduce& sum) const {
+        const auto term = range(sum.body);
+        const auto count = static_cast<double>(program_[sum.variable].size);
+        if (!term || count * std::max(-term->lower, term->upper) > 0x1p53) return std::nullopt;
+        const double most = sum.bounds ? std::min(longest(*sum.bounds), count) : count;
+        return Range{std::min(0.0, term->lower * most), std::max(0.0, term->upper * most)};
+    }
+
+    // The length of the longest row.
+    double longest(const Bounds& bounds) const {
+        const Load* row = row_of(program_, bounds);
+        if (!row) return std::numeric_limits<double>::infinity();
+        const Table& begins = program_[row->buffer].values;
+        double longest = 0;
+        for (std::int64_t k = 1; k < program_[row->buffer].count(); ++k)
+            longest = std::max(longest, as_real(begins[k]) - as_real(begins[k - 1]));
+        return longest;
     }
 
     // On average, where the bounds are neighbours in a table of where rows begin.
@@ -431,6 +456,18 @@ std::optional<Place> place_of(const Node& node) {
         [](const DiscreteOver& discrete) { return std::optional(discrete.place); },
         [](const Fault& fault) { return std::optional(fault.place); },
         [](const auto&) { return std::optional<Place>(); });
+}
+
+const Load* row_of(const Program& program, const Bounds& bounds) {
+    const auto* begin = std::get_if<Load>(&program[bounds.begin].form);
+    const auto* end = std::get_if<Load>(&program[bounds.end].form);
+    if (!begin || !end || begin->buffer != end->buffer || begin->indices.size() != 1)
+        return nullptr;
+    const auto* next = std::get_if<Apply>(&program[end->indices.front()].form);
+    if (!next || next->op != Operator::Add || next->operands.front() != begin->indices.front())
+        return nullptr;
+    const auto* one = std::get_if<Constant>(&program[next->operands.back()].form);
+    return one && one->value == Value(std::int64_t{1}) ? begin : nullptr;
 }
 
 std::optional<VariableId> bound_variable(const Node& node) {

@@ -55,6 +55,9 @@ std::optional<Place> place_of(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
+// Where the bounds are an element of a table and the next one, so that they are a row's: the first.
+const Load* row_of(const Program& program, const Bounds& bounds);
+
 // The definitions of reset, of the step and of the policy.
 std::vector<const Definition*> definitions_of(const Program& program);
 std::vector<Definition*> definitions_of(Program& program);

@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
+#include "passes/count_bools.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
 #include "passes/fold_constant_expressions.hpp"
@@ -50,6 +51,8 @@ constexpr Pass in_order[] = {
      passes::index_directly},
     {"search_intervals", "what depends on the interval of a number becomes a binary search",
      passes::search_intervals},
+    {"count_bools", "sums of reals that only count, in steps of constants, count in ints",
+     passes::count_bools},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",

@@ -69,19 +69,24 @@ struct Context;
 // No draw has this site.
 inline constexpr std::uint32_t no_site = ~std::uint32_t{0};
 
+// The numbers made last for one of the sites that a step draws at, so that those of the branches
+// of a loop do not drive each other out. A power of two.
+inline constexpr std::uint32_t recent_sites = 4;
+
 template <>
 struct Context<Scalar> {
     StreamKey key;
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
     FaultRecord fault{};
 
-    // The numbers made last (random.hpp): of this step, of one site and 2 * simd::lanes
-    // neighbouring indices, the even ones first.
+    // Of one site, step and 2 * simd::lanes neighbouring indices (random.hpp), the even ones first.
     struct Recent {
         std::uint32_t site = no_site;
         std::uint32_t chunk;
         double numbers[2][simd::lanes];
-    } recent{};
+        constexpr Recent() {}  // leaves the numbers as they are, to be quick
+    };
+    std::array<Recent, recent_sites> recent{};
 
     static constexpr Context of(std::uint64_t key_low, std::uint64_t key_high, std::uint64_t step,
                                 bool /*active*/) {
@@ -93,7 +98,7 @@ struct Context<Scalar> {
 
     constexpr void go_to_next_step() {
         ++step;
-        recent.site = no_site;
+        for (Recent& numbers : recent) numbers.site = no_site;
     }
 
     constexpr bool faulted() const { return static_cast<bool>(fault); }
@@ -116,12 +121,13 @@ struct Context<Pack<n>> {
     Mask<n> faulty{false};
     std::array<FaultRecord, static_cast<std::size_t>(n)> faults;  // of the faulty lanes
 
-    // The numbers made last: of one site and two neighbouring indices.
+    // Of one site, the step and two neighbouring indices.
     struct Recent {
         std::uint32_t site = no_site;
         std::uint32_t block;
         Lanes<double, n> even, odd;
-    } recent;
+    };
+    std::array<Recent, recent_sites> recent;
 
     static Context of(const Word& key_low, const Word& key_high, const Word& step, Mask<n> active) {
         Context context;

@@ -58,20 +58,21 @@ RDDL_INLINE auto first_numbers(Word step, std::uint32_t site, Word block_number,
 // A loop draws for one index after the other, so some are made at once: for packs the draws of two
 // neighbours, for one environment as many as a register has room for.
 template <int n>
-[[gnu::noinline]] void refill(Context<Pack<n>>& context, std::uint32_t site,
-                              std::uint32_t block_number) {
+[[gnu::noinline]] inline void refill(Context<Pack<n>>& context, std::uint32_t site,
+                                     std::uint32_t block_number) {
     using Word = Lanes<std::uint64_t, n>;
     const auto draws = first_numbers<Word>(context.step, site, Word{std::uint64_t{block_number}},
                                            {context.key_low, context.key_high});
-    context.recent = {site, block_number, draws.even, draws.odd};
+    context.recent[site % recent_sites] = {site, block_number, draws.even, draws.odd};
 }
 
 template <int n>
 RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) {
     const std::uint32_t block_number = place.index / 2;
-    if (context.recent.site != place.site || context.recent.block != block_number)
+    const auto& recent = context.recent[place.site % recent_sites];
+    if (recent.site != place.site || recent.block != block_number)
         refill(context, place.site, block_number);
-    return place.index % 2 == 0 ? context.recent.even : context.recent.odd;
+    return place.index % 2 == 0 ? recent.even : recent.odd;
 }
 
 [[gnu::noinline]] inline void refill(Context<Scalar>& context, std::uint32_t site,
@@ -83,17 +84,18 @@ RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) 
     const auto draws = first_numbers<Word>(
         Word{std::uint64_t{context.step}}, site, block_numbers,
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
-    context.recent.site = site;
-    context.recent.chunk = chunk;
-    draws.even.store(context.recent.numbers[0]);
-    draws.odd.store(context.recent.numbers[1]);
+    auto& recent = context.recent[site % recent_sites];
+    recent.site = site;
+    recent.chunk = chunk;
+    draws.even.store(recent.numbers[0]);
+    draws.odd.store(recent.numbers[1]);
 }
 
 inline double uniform_at(Context<Scalar>& context, Place place) {
     const std::uint32_t chunk = place.index / 2 / simd::lanes;
-    if (context.recent.site != place.site || context.recent.chunk != chunk)
-        refill(context, place.site, chunk);
-    return context.recent.numbers[place.index % 2][place.index / 2 % simd::lanes];
+    const auto& recent = context.recent[place.site % recent_sites];
+    if (recent.site != place.site || recent.chunk != chunk) refill(context, place.site, chunk);
+    return recent.numbers[place.index % 2][place.index / 2 % simd::lanes];
 }
 
 template <class L>

@@ -1,0 +1,119 @@
+#include "passes/count_bools.hpp"
+
+#include "ir/rewrite.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// A constant times a bool or an int.
+struct Term {
+    double coefficient;
+    ir::NodeId counted;
+};
+using Terms = std::vector<Term>;
+
+const double* real_constant(const ir::Program& program, ir::NodeId id) {
+    const auto* form = std::get_if<ir::Constant>(&program[id].form);
+    return form ? std::get_if<double>(&form->value) : nullptr;
+}
+
+// Appends the terms whose sum, times the coefficient, the expression is; false if it is none.
+bool split(const ir::Program& program, ir::NodeId id, double coefficient, Terms& terms) {
+    if (const double* constant = real_constant(program, id)) return *constant == 0;
+    if (const auto* convert = std::get_if<ir::Convert>(&program[id].form)) {
+        terms.push_back({coefficient, convert->operand});
+        return true;
+    }
+    const auto* apply = std::get_if<ir::Apply>(&program[id].form);
+    if (!apply) return false;
+    const auto operand = [&](std::size_t k, double factor) {
+        return split(program, apply->operands[k], factor, terms);
+    };
+    switch (apply->op) {
+        case Operator::Add:
+            return operand(0, coefficient) && operand(1, coefficient);
+        case Operator::Subtract:
+            return operand(0, coefficient) && operand(1, -coefficient);
+        case Operator::Negate:
+            return operand(0, -coefficient);
+        case Operator::Multiply:
+            for (const std::size_t k : {0, 1}) {
+                const double* factor = real_constant(program, apply->operands[k]);
+                if (factor) return operand(1 - k, coefficient * *factor);
+            }
+            return false;
+        default:
+            return false;
+    }
+}
+
+class Counting {
+  public:
+    Counting(ir::Builder& builder, const ir::Reduce& sum) : builder_(builder), sum_(sum) {}
+
+    std::optional<ir::NodeId> counted() {
+        const bool is_random = builder_.facts(sum_.body).random;
+        if (is_random || builder_.facts(sum_.body).may_fault) return std::nullopt;
+        Terms terms;
+        if (!split(builder_.program(), sum_.body, 1, terms) || terms.empty()) return std::nullopt;
+        for (const Term& term : terms)
+            if (!std::isfinite(term.coefficient) || !is_exact(term.counted)) return std::nullopt;
+
+        std::optional<ir::NodeId> total;
+        for (const Term& term : terms)
+            if (term.coefficient > 0) total = joined(Operator::Add, total, term);
+        for (const Term& term : terms)
+            if (term.coefficient < 0) total = joined(Operator::Subtract, total, term);
+        return total ? *total : zero();
+    }
+
+  private:
+    // A term that is never negative zero; so neither is their sum.
+    ir::NodeId joined(Operator op, std::optional<ir::NodeId> total, const Term& term) {
+        const ir::NodeId count = builder_.convert(
+            builder_.reduce(Reduction::Sum, sum_.variable,
+                            builder_.convert(term.counted, ir::Scalar::Int), sum_.bounds),
+            ir::Scalar::Real);
+        const double size = std::abs(term.coefficient);
+        const ir::NodeId value =
+            size == 1 ? count
+                      : builder_.apply(Operator::Multiply, {builder_.constant(size), count});
+        if (!total && op == Operator::Add) return value;
+        return builder_.apply(op, {total ? *total : zero(), value});
+    }
+
+    // Sums of them do not leave the ints that are reals.
+    bool is_exact(ir::NodeId id) const {
+        constexpr double largest = 0x1p53;
+        if (builder_.program()[id].type == ir::Scalar::Bool) return true;
+        const auto& range = builder_.facts(id).range;
+        const auto size = static_cast<double>(builder_.program()[sum_.variable].size);
+        return range && range->lower >= 0 && range->upper * size < largest;
+    }
+
+    ir::NodeId zero() { return builder_.constant(0.0); }
+
+    ir::Builder& builder_;
+    const ir::Reduce& sum_;
+};
+
+}  // namespace
+
+ir::Program count_bools(ir::Program program, Report& report) {
+    return ir::rewrite(
+        std::move(program),
+        [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
+            const auto* reduce = std::get_if<ir::Reduce>(&node.form);
+            const bool is_sum = reduce && reduce->op == Reduction::Sum;
+            if (!is_sum || node.type != ir::Scalar::Real) return std::nullopt;
+            const auto counted = Counting(builder, *reduce).counted();
+            if (counted) ++report["sums that count in ints"];
+            return counted;
+        });
+}
+
+}  // namespace rddlc::passes
