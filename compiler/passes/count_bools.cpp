@@ -60,8 +60,7 @@ class Counting {
         if (is_random || builder_.facts(sum_.body).may_fault) return std::nullopt;
         Terms terms;
         if (!split(builder_.program(), sum_.body, 1, terms) || terms.empty()) return std::nullopt;
-        for (const Term& term : terms)
-            if (!std::isfinite(term.coefficient) || !is_exact(term.counted)) return std::nullopt;
+        if (!are_exact(terms)) return std::nullopt;
 
         std::optional<ir::NodeId> total;
         for (const Term& term : terms)
@@ -86,13 +85,24 @@ class Counting {
         return builder_.apply(op, {total ? *total : zero(), value});
     }
 
-    // Sums of them do not leave the ints that are reals.
-    bool is_exact(ir::NodeId id) const {
-        constexpr double largest = 0x1p53;
-        if (builder_.program()[id].type == ir::Scalar::Bool) return true;
+    // Every sum of them is a multiple of `unit` that 53 bits hold, so none is rounded.
+    bool are_exact(const Terms& terms) const {
+        constexpr double unit = 0x1p-20, largest = 0x1p53 * unit;
+        double most = 0;
+        for (const Term& term : terms) {
+            const auto value = greatest(term.counted);
+            if (!value || std::fmod(term.coefficient, unit) != 0) return false;
+            most += std::abs(term.coefficient) * *value;
+        }
+        return most * static_cast<double>(builder_.program()[sum_.variable].size) < largest;
+    }
+
+    // Of a bool, or of an int that is never negative.
+    std::optional<double> greatest(ir::NodeId id) const {
+        if (builder_.program()[id].type == ir::Scalar::Bool) return 1;
         const auto& range = builder_.facts(id).range;
-        const auto size = static_cast<double>(builder_.program()[sum_.variable].size);
-        return range && range->lower >= 0 && range->upper * size < largest;
+        if (!range || range->lower < 0) return std::nullopt;
+        return range->upper;
     }
 
     ir::NodeId zero() { return builder_.constant(0.0); }

@@ -36,7 +36,8 @@ TEST(CountBools, CountsSumsOfCounts) {
 TEST(CountBools, LeavesOtherSums) {
     for (const char* cpf :
          {"sum_{?o : obj} [v(?o)]", "sum_{?o : obj} [x * p(?o)]", "sum_{?o : obj} [W(?o) * p(?o)]",
-          "sum_{?o : obj} [1.0 + p(?o)]", "prod_{?o : obj} [2.5 * p(?o)]"}) {
+          "sum_{?o : obj} [1.0 + p(?o)]", "sum_{?o : obj} [0.1 * p(?o)]",
+          "sum_{?o : obj} [10000000000.0 * p(?o)]", "prod_{?o : obj} [2.5 * p(?o)]"}) {
         const Texts x = of_x(cpf, passes::count_bools);
         EXPECT_EQ(x.before, x.after);
     }
