@@ -5,6 +5,7 @@
 #include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
+#include "driver/large_tables.hpp"
 #include "driver/version.hpp"
 #include "driver/write.hpp"
 #include "emit/emit.hpp"
@@ -24,19 +25,6 @@
 
 namespace rddlc {
 namespace {
-
-// What the emitted file holds as a whole.
-constexpr std::int64_t most_values = std::int64_t{1} << 25;
-
-void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
-    for (const ir::Buffer& buffer : program.buffers) {
-        if (buffer.storage != ir::Storage::Constant || buffer.count() <= most_values) continue;
-        diagnostics.report({table_too_large, buffer.span,
-                            fmt::format("'{}' has {} values, and which of them are needed is known "
-                                        "only when the simulator runs",
-                                        buffer.name, buffer.count())});
-    }
-}
 
 constexpr std::array<std::string_view, 8> stage_names = {"read",   "parse",    "check", "ground",
                                                          "verify", "optimise", "emit",  "write"};
@@ -138,7 +126,7 @@ void run_stages(Run& run) {
 
     // IR -> C++.
     report_undefined_externals(*result.program, run.options, diagnostics);
-    report_large_tables(*result.program, diagnostics);
+    report_large_constant_tables(*result.program, diagnostics);
     if (diagnostics.has_errors()) return;
     result.text = run.measure(Stage::Emit, [&] {
         return emit(*result.program, result.sources, emit_options(run.options));

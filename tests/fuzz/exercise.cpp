@@ -3,6 +3,7 @@
 #include "ast/equal.hpp"
 #include "ast/print.hpp"
 #include "check/check.hpp"
+#include "driver/large_tables.hpp"
 #include "emit/emit.hpp"
 #include "ground/ground.hpp"
 #include "ir/print.hpp"
@@ -70,6 +71,8 @@ Outcome exercise(std::string_view text, std::uint64_t seed, int steps) {
     render(diagnostics, sources, {});
     if (!program) return Outcome::Rejected;
     require_valid(*program, "ground");
+    report_large_constant_tables(*program, diagnostics);
+    if (diagnostics.has_errors()) return Outcome::TooLarge;
     ir::print(*program);
     ir::Program optimised = optimise(*program);
     require_valid(optimised, "optimise");

@@ -20,7 +20,7 @@ enum class Outcome { Rejected, Accepted, TooLarge };
 // under random actions. Expects that printed syntax reads back as the same, that the IR is valid,
 // and that optimising changes no bit. Throws Contradiction; what else it throws or stops at is a
 // bug, too. Problems of which a step costs too much to be worth it, or that call external
-// functions, are compiled and not run.
+// functions, are compiled and not run; those with tables too large for a file are only grounded.
 Outcome exercise(std::string_view text, std::uint64_t seed, int steps);
 
 }  // namespace rddlc::fuzzing

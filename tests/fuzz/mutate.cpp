@@ -1,18 +1,20 @@
 // Fuzzing without clang: a fixed sequence of damaged problems.
 //
-//   fuzz_mutations [--count N] [--seed S] [--words FILE] FOLDER...   damages the problems found
-//   there fuzz_mutations --write-seeds CORPUS FOLDER...                    writes them for
-//   libFuzzer fuzz_mutations --steps N FILE...                                 exercises one
-//   problem as it is
+//   fuzz_mutations [--count N] [--seed S] [--words FILE] FOLDER...
+//       damages the problems found there
+//   fuzz_mutations --write-seeds CORPUS FOLDER...
+//       writes them for libFuzzer
+//   fuzz_mutations --steps N FILE...
+//       exercises one problem as it is
 //
 // The text under way is in fuzz-input.rddl, which stays there if the compiler crashes, contradicts
-// itself or takes longer than 20 seconds.
+// itself or takes longer than 20 seconds of the processor.
 #include "exercise.hpp"
 #include "mutator.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* input_under_way = "fuzz-input.rddl";
-constexpr unsigned longest_run = 20;          // seconds
+constexpr time_t longest_run = 20;            // seconds of the processor
 constexpr std::size_t longest_seed = 20'000;  // bytes; the time for longer ones is better spent
 
 struct Options {
@@ -82,12 +84,19 @@ std::vector<std::string> words_in(const std::string& file) {
     return words;
 }
 
+// Ends the program when this time is over; 0: never. The time that other programs take is not
+// counted.
+void limit_processor_time(time_t seconds) {
+    const itimerval limit{.it_interval = {}, .it_value = {.tv_sec = seconds, .tv_usec = 0}};
+    setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 // Leaves the text behind where it does not come back.
 Outcome guarded(const std::string& text, std::uint64_t seed, int steps) {
     write(input_under_way, text);
-    alarm(longest_run);
+    limit_processor_time(longest_run);
     const Outcome outcome = exercise(text, seed, steps);
-    alarm(0);
+    limit_processor_time(0);
     fs::remove(input_under_way);
     return outcome;
 }
