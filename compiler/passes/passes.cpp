@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
+#include "passes/compare_counts.hpp"
 #include "passes/count_bools.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
@@ -18,6 +19,7 @@
 #include "passes/share_subexpressions.hpp"
 #include "passes/tabulate_constant_fluents.hpp"
 #include "passes/tabulate_constants.hpp"
+#include "passes/tabulate_counts.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -53,12 +55,16 @@ constexpr Pass in_order[] = {
      passes::search_intervals},
     {"count_bools", "sums of reals that only count, in steps of constants, count in ints",
      passes::count_bools},
+    {"compare_counts", "an exists or forall of what is counted, too, compares the count",
+     passes::compare_counts},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
      passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
      passes::make_aggregations_sparse},
+    {"tabulate_counts", "what a count, or another small int, decides becomes a table",
+     passes::tabulate_counts},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
     {"share_across_definitions", "what several CPFs compute is computed once",

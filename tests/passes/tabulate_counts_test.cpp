@@ -1,0 +1,63 @@
+#include "passes/tabulate_counts.hpp"
+
+#include "texts.hpp"
+
+#include <rddl/math.hpp>
+
+namespace rddlc {
+namespace {
+
+std::string tabulated(const std::string& cpf_of_x) {
+    return of_x(cpf_of_x, passes::tabulate_counts).after;
+}
+
+TEST(TabulateCounts, ReplacesWhatDependsOnACount) {
+    ir::Program program =
+        grounded(with_tables("x + 1.0 / (1.0 + exp[0.5 - sum_{?o : obj} p(?o)])"));
+    EXPECT_EQ(value_of_x(program),
+              "state.x + 1.0 / (1.0 + exp(0.5 - real(sum[o in obj](int(state.p[o])))))");
+    passes::Report report;
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    EXPECT_EQ(value_of_x(program), "state.x + x-by-count[sum[o in obj](int(state.p[o]))]");
+    EXPECT_EQ(report["expressions of a count made tables"], 1);
+
+    const ir::Buffer& table = program.buffers.back();
+    ASSERT_EQ(table.shape, std::vector<std::int64_t>{4});
+    for (std::int64_t count = 0; count < 4; ++count) {
+        const double expected = 1.0 / (1.0 + rddl::exp(0.5 - static_cast<double>(count)));
+        EXPECT_EQ(table.values[count], ir::Value(expected));
+    }
+}
+
+TEST(TabulateCounts, HasARowForEachObject) {
+    EXPECT_EQ(tabulated("sum_{?u : obj} [v(?u) * exp[W(?u) * sum_{?o : obj} p(?o)]]"),
+              "sum[u in obj](state.v[u] * x-by-count[u, sum[o in obj](int(state.p[o]))])");
+}
+
+TEST(TabulateCounts, BeginsWithTheLeastCount) {
+    EXPECT_EQ(tabulated("exp[0.5 + sum_{?o : obj} (if (p(?o)) then -1 else 0)]"),
+              "x-by-count[sum[o in obj](select(state.p[o], -1, 0)) - -3]");
+}
+
+TEST(TabulateCounts, LeavesCheapExpressions) {
+    const Texts x = of_x("2.0 * sum_{?o : obj} p(?o) + 1.0", passes::tabulate_counts);
+    EXPECT_EQ(x.before, x.after);
+}
+
+TEST(TabulateCounts, LeavesWhatDependsOnMore) {
+    for (const char* cpf :
+         {"exp[x * sum_{?o : obj} p(?o)]", "exp[(sum_{?o : obj} p(?o)) + sum_{?o : obj} ~p(?o)]",
+          "exp[0.5 * sum_{?o : obj} (p(?o) * E(?o))]"}) {
+        const Texts x = of_x(cpf, passes::tabulate_counts);
+        EXPECT_EQ(x.before, x.after);
+    }
+}
+
+TEST(TabulateCounts, KeepsFaults) {
+    const Texts x = of_x("1.0 + (0 - 3) * 1.5 + exp[0.0 + pow[2, 1 - sum_{?o : obj} p(?o)]]",
+                         passes::tabulate_counts);
+    EXPECT_EQ(x.before, x.after);
+}
+
+}  // namespace
+}  // namespace rddlc
