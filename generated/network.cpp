@@ -90,7 +90,7 @@ struct Simulator {
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
             next.running[c] = rddl::branch(
-                context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
+                context, action.reboot[c], [&] { return true; },
                 [&] {
                     const Int number =
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
@@ -98,10 +98,8 @@ struct Simulator {
                     const Real term_2 = term * 0.5;
                     const Real term_3 = 0.5 * term_2;
                     const Real term_4 = 0.45 + term_3;
-                    return rddl::sample::bernoulli(context, {0, c}, term_4);
-                },
-                [&] {
-                    return rddl::sample::bernoulli(context, {1, c}, 0.05);
+                    const Real term_5 = rddl::select(state.running[c], term_4, 0.05);
+                    return rddl::sample::bernoulli(context, {0, c}, term_5);
                 });
         }
     }

@@ -86,27 +86,16 @@ struct SysAdmin {
                                             {Word{draws.key[0]}, Word{draws.key[1]}}};
         std::uint64_t next = actions.reboot;
         for (std::size_t first = 0; 2 * first < computers; first += n) {
-            constexpr std::uint64_t lanes = (std::uint64_t{1} << n) - 1;
-            const std::uint64_t both = lanes | lanes << Tables::half;
-            const Word blocks = counting_from<n>(first);
-            if ((running >> first & both) != 0) {
-                const auto numbers = many.two(Word{std::uint64_t{0}}, blocks);
-                for (std::size_t half : {std::size_t{0}, Tables::half}) {
-                    const std::size_t at = first + half;
-                    const Word count =
-                        bit_count(Word{running} & Word::load(&by_halves.neighbours[at]));
-                    const Real chance =
-                        Real::load(&by_halves.chances.base[at]) +
-                        Real::load(&by_halves.chances.per_neighbour[at]) * real_of_count(count);
-                    const auto up = (half == 0 ? numbers.even : numbers.odd) < chance;
-                    next |= (std::uint64_t{up.bits} << at) & running;
-                }
-            }
-            if ((down >> first & both) != 0) {
-                const auto numbers = many.two(Word{std::uint64_t{1}}, blocks);
-                const std::uint64_t even = (numbers.even < sysadmin::reboot).bits;
-                const std::uint64_t odd = (numbers.odd < sysadmin::reboot).bits;
-                next |= (even << first | odd << (first + Tables::half)) & down;
+            const auto numbers = many.two(Word{std::uint64_t{0}}, counting_from<n>(first));
+            for (std::size_t half : {std::size_t{0}, Tables::half}) {
+                const std::size_t at = first + half;
+                const Word count = bit_count(Word{running} & Word::load(&by_halves.neighbours[at]));
+                const Real chance =
+                    Real::load(&by_halves.chances.base[at]) +
+                    Real::load(&by_halves.chances.per_neighbour[at]) * real_of_count(count);
+                const Real number = half == 0 ? numbers.even : numbers.odd;
+                next |= (std::uint64_t{(number < chance).bits} << at) & running;
+                next |= (std::uint64_t{(number < sysadmin::reboot).bits} << at) & down;
             }
         }
         state.running = next & halves(everywhere);
@@ -119,17 +108,12 @@ struct SysAdmin {
     static rddl::Lanes<double, n> step(State<rddl::Pack<n>>& state,
                                        const Actions<rddl::Pack<n>>& actions, const Draws& draws) {
         using Word = rddl::Lanes<std::uint64_t, n>;
-        const Word running = state.running, one{std::uint64_t{1}};
+        const Word running = state.running;
         Word next = actions.reboot;
         for (std::uint64_t x = 0; x < computers; x += 2) {
-            // Site 0 where it is running, else 1.
-            const Word even_site = ((running >> static_cast<int>(x)) & one) ^ one;
-            const Word odd_site = ((running >> static_cast<int>(x + 1)) & one) ^ one;
-            const auto numbers = draws.two(even_site, Word{x / 2});
-            auto odd = numbers.odd;
-            if (any(!same(even_site, odd_site))) odd = draws.two(odd_site, Word{x / 2}).odd;
-            next = next | goes_on(running, x, even_site, numbers.even);
-            next = next | goes_on(running, x + 1, odd_site, odd);
+            const auto numbers = draws.two(Word{std::uint64_t{0}}, Word{x / 2});
+            next = next | goes_on(running, x, numbers.even);
+            next = next | goes_on(running, x + 1, numbers.odd);
         }
         state.running = next;
         return real_of_count(bit_count(running)) - 0.75 * real_of_count(bit_count(actions.reboot));
@@ -138,13 +122,12 @@ struct SysAdmin {
     template <int n>
     static rddl::Lanes<std::uint64_t, n> goes_on(const rddl::Lanes<std::uint64_t, n>& running,
                                                  std::uint64_t x,
-                                                 const rddl::Lanes<std::uint64_t, n>& site,
                                                  const rddl::Lanes<double, n>& number) {
         using Word = rddl::Lanes<std::uint64_t, n>;
         const auto count = real_of_count(bit_count(running & Word{sysadmin::neighbours[x]}));
-        const auto chance = select(same(site, Word{std::uint64_t{0}}),
-                                   chances.base[x] + chances.per_neighbour[x] * count,
-                                   rddl::Lanes<double, n>{sysadmin::reboot});
+        const auto is_down = same(running & Word{std::uint64_t{1} << x}, Word{std::uint64_t{0}});
+        const auto chance = select(is_down, rddl::Lanes<double, n>{sysadmin::reboot},
+                                   chances.base[x] + chances.per_neighbour[x] * count);
         return select(number < chance, std::uint64_t{1} << x, std::uint64_t{0});
     }
 

@@ -167,7 +167,9 @@ std::string Expressions::call(const std::string& function, const std::vector<ir:
 
 std::string Expressions::place(const ir::Place& place) {
     uses_.context = true;
-    return "context, {" + std::to_string(place.site.index) + ", " + index(place.index).text + "}";
+    const auto& series = unit_.program[place.site].series;
+    return "context, {" + std::to_string(place.site.index) + ", " + index(place.index).text +
+           (series ? ", " + std::to_string(series->index) : "") + "}";
 }
 
 std::string Expressions::call_head(const ir::Node& binder) {

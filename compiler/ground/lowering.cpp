@@ -135,6 +135,20 @@ ir::Place Lowering::new_place(const model::Expr& expr, std::string what,
     return {ir::SiteId{site}, row_major_index(scope)};
 }
 
+// With the numbers of a draw of other branches, if there is one left.
+ir::Place Lowering::new_draw(const model::Expr& expr, std::string what) {
+    const ir::Place place = new_place(expr, std::move(what));
+    const auto shared = std::ranges::find_if(
+        series_, [&](ir::SiteId site) { return program_[site].scope == scope_; });
+    if (shared == series_.end()) {
+        drawing_.push_back(place.site);
+        return place;
+    }
+    program_.sites.back().series = *shared;
+    series_.erase(shared);
+    return place;
+}
+
 // -------------------------------------------------------------------------------- expressions
 
 ir::NodeId Lowering::lower(const model::Expr& expr) {
@@ -150,6 +164,24 @@ ir::NodeId Lowering::lower_lazily(const model::Expr& expr) {
     const ir::NodeId node = lower(expr);
     --branches_;
     return node;
+}
+
+// Draws of different branches have the same numbers: there is never more than one of them.
+std::vector<ir::NodeId> Lowering::lower_branches(const std::vector<const model::Expr*>& branches) {
+    std::vector<ir::SiteId> unused = series_, series = series_;
+    std::vector<ir::NodeId> values;
+    for (const model::Expr* branch : branches) {
+        const auto own = static_cast<std::ptrdiff_t>(drawing_.size());
+        series_ = series;
+        values.push_back(lower_lazily(*branch));
+        const auto is_used = [&](ir::SiteId site) {
+            return std::ranges::find(series_, site) == series_.end();
+        };
+        std::erase_if(unused, is_used);
+        series.insert(series.end(), drawing_.begin() + own, drawing_.end());
+    }
+    series_ = std::move(unused);
+    return values;
 }
 
 std::vector<ir::NodeId> Lowering::lower_all(const std::vector<model::Expr>& exprs) {
@@ -273,23 +305,27 @@ ir::NodeId Lowering::named(ir::NodeId value) {
 
 ir::NodeId Lowering::lower(const model::If& form, const model::Expr&) {
     const ir::NodeId condition = lower(*form.condition);
-    const ir::NodeId then_value = lower_lazily(*form.then_branch);
-    return builder_.select(condition, then_value, lower_lazily(*form.else_branch));
+    const auto values = lower_branches({&*form.then_branch, &*form.else_branch});
+    return builder_.select(condition, values[0], values[1]);
 }
 
 // A chain of selects, the default (or the last case) at its end.
 ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     const ir::NodeId subject = lower(*form.subject);
-    std::optional<ir::NodeId> rest;
-    if (form.default_case) rest = lower_lazily(**form.default_case);
+    std::vector<ir::NodeId> tests;  // behind the value that stands at the end
+    std::vector<const model::Expr*> branches;
+    if (form.default_case) branches.push_back(&**form.default_case);
     for (std::size_t member = form.cases.size(); member-- > 0;) {
         if (!form.cases[member]) continue;
-        const ir::NodeId value = lower_lazily(**form.cases[member]);
         const ir::NodeId label = integer(static_cast<std::int64_t>(member));
-        const ir::NodeId test = builder_.apply(Operator::Equal, {subject, label});
-        rest = rest ? builder_.select(test, value, *rest) : value;
+        if (!branches.empty()) tests.push_back(builder_.apply(Operator::Equal, {subject, label}));
+        branches.push_back(&**form.cases[member]);
     }
-    return *rest;
+    const std::vector<ir::NodeId> values = lower_branches(branches);
+    ir::NodeId rest = values.front();
+    for (std::size_t k = 0; k < tests.size(); ++k)
+        rest = builder_.select(tests[k], values[k + 1], rest);
+    return rest;
 }
 
 ir::NodeId Lowering::lower(const model::Aggregate& form, const model::Expr& expr) {
@@ -339,7 +375,7 @@ ir::NodeId Lowering::lower(const model::Sample& form, const model::Expr& expr) {
         const bool is_count = counted && parameters.empty();
         parameters.push_back(lower_as(parameter, is_count ? ir::Scalar::Int : ir::Scalar::Real));
     }
-    const ir::Place place = new_place(expr, std::string(name_of(form.distribution)));
+    const ir::Place place = new_draw(expr, std::string(name_of(form.distribution)));
     return builder_.sample(scalar_of(expr.type), form.distribution, place, std::move(parameters));
 }
 
@@ -349,14 +385,14 @@ ir::NodeId Lowering::lower(const model::Discrete& form, const model::Expr& expr)
         weights.push_back(lower_as(weight, ir::Scalar::Real));
     }
     const std::string what = form.normalise ? "UnnormDiscrete" : "Discrete";
-    const ir::Place place = new_place(expr, what);
+    const ir::Place place = new_draw(expr, what);
     if (weights.empty()) return builder_.fault(ir::Scalar::Int, place);
     return builder_.discrete(form.normalise, place, std::move(weights));
 }
 
 ir::NodeId Lowering::lower(const model::DiscreteOver& form, const model::Expr& expr) {
     const std::string what = form.normalise ? "UnnormDiscrete" : "Discrete";
-    const ir::Place place = new_place(expr, what);
+    const ir::Place place = new_draw(expr, what);
     if (size_of(form.variable) == 0) return builder_.fault(ir::Scalar::Int, place);
     enter(std::span(&form.variable, 1));
     const ir::NodeId weight = lower_as(*form.weight, ir::Scalar::Real);

@@ -69,6 +69,9 @@ class Lowering {
     ir::Place new_place(const model::Expr& expr, std::string what);
     ir::Place new_place(const model::Expr& expr, std::string what,
                         const std::vector<ir::VariableId>& scope);
+    ir::Place new_draw(const model::Expr& expr, std::string what);
+    // Of which one is evaluated.
+    std::vector<ir::NodeId> lower_branches(const std::vector<const model::Expr*>& branches);
     ir::NodeId integer(std::int64_t value) { return builder_.constant(value); }
     std::int64_t size_of(model::VariableId id) const;
     ir::Statement looped(ir::Statement statement, std::span<const ir::VariableId> variables) const;
@@ -114,6 +117,8 @@ class Lowering {
     Diagnostics& diagnostics_;
     std::vector<ir::VariableId> scope_;  // outermost first
     int branches_ = 0;                   // how many lazy branches there are around
+    std::vector<ir::SiteId> series_;     // random numbers that draws of other branches have
+    std::vector<ir::SiteId> drawing_;    // sites that draw numbers of their own
     ir::Block prelude_;                  // what the current CPF or condition computes first
     // Binders of equal name and type share a variable, so that equal expressions get equal ids.
     std::map<std::pair<std::string, model::TypeId>, ir::VariableId> variables_;

@@ -250,7 +250,8 @@ std::byte* Evaluator::element(BufferId id, const std::vector<NodeId>& indices, F
 
 rddl::Place Evaluator::place(const std::optional<Place>& place, Frame& frame) const {
     if (!place) return {};
-    return {place->site.index, value<std::int64_t>(place->index, frame)};
+    return {place->site.index, value<std::int64_t>(place->index, frame),
+            program_->series_of(place->site).index};
 }
 
 // ---------------------------------------------------------------------------- expressions

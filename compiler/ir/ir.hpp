@@ -76,8 +76,8 @@ struct Buffer {
 };
 
 // Where a draw or a fault happens: a site of the program text and the place inside its scope.
-// The pair is the counter of the random number generator, so a draw is the same wherever and
-// whenever it is evaluated.
+// Site::series and the index are the counter of the random number generator, so a draw is the same
+// wherever and whenever it is evaluated.
 struct Place {
     SiteId site;
     NodeId index;  // Int: row-major index over Site::scope
@@ -87,6 +87,9 @@ struct Site {
     Span span;
     std::vector<VariableId> scope;  // CPF parameters, then aggregation variables, outermost first
     std::string what;               // "Bernoulli", "pow", ... for messages
+    // The site whose random numbers it draws. Absent: its own; else those of a site of the same
+    // scope in another branch of an `if` or `switch`, so that no two draws share a number.
+    std::optional<SiteId> series = {};
 };
 
 // ---------------------------------------------------------------------------- expressions
@@ -303,6 +306,7 @@ struct Program {
     const Variable& operator[](VariableId id) const { return variables[id.index]; }
     const Buffer& operator[](BufferId id) const { return buffers[id.index]; }
     const Site& operator[](SiteId id) const { return sites[id.index]; }
+    SiteId series_of(SiteId id) const { return sites[id.index].series.value_or(id); }
     const External& operator[](ExternalId id) const { return externals[id.index]; }
     bool partially_observed() const;
 };

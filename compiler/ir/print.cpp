@@ -215,8 +215,10 @@ class Printer {
             const Site& site = program_.sites[index];
             std::vector<std::string> scope;
             for (VariableId variable : site.scope) scope.push_back(binding(variable));
-            writer_.line(fmt::format("@{} {}{}{}", index, site.what, scope.empty() ? "" : " over ",
-                                     fmt::join(scope, ", ")));
+            writer_.line(fmt::format(
+                "@{} {}{}{}{}", index, site.what, scope.empty() ? "" : " over ",
+                fmt::join(scope, ", "),
+                site.series ? fmt::format(", numbers of @{}", site.series->index) : ""));
         }
         writer_.dedent();
     }

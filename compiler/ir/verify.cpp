@@ -178,7 +178,15 @@ class Verifier {
         }
         for (std::size_t site = 0; site < site_uses.size(); ++site) {
             require(site_uses[site] <= 1, "site {} is used {} times", site, site_uses[site]);
+            numbers_fit(program_.sites[site]);
         }
+    }
+
+    void numbers_fit(const Site& site) {
+        if (!site.series) return;
+        const bool is_known = site.series->index < program_.sites.size();
+        require(is_known && program_[*site.series].scope == site.scope, "{} has the numbers of {}",
+                site.what, site.series->index);
     }
 
     std::vector<int> calls_by_site() const {

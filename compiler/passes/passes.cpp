@@ -12,6 +12,7 @@
 #include "passes/hoist_aggregations.hpp"
 #include "passes/index_directly.hpp"
 #include "passes/make_aggregations_sparse.hpp"
+#include "passes/merge_draws.hpp"
 #include "passes/reduce_strength.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/search_intervals.hpp"
@@ -57,6 +58,8 @@ constexpr Pass in_order[] = {
      passes::count_bools},
     {"compare_counts", "an exists or forall of what is counted, too, compares the count",
      passes::compare_counts},
+    {"merge_draws", "draws of two branches that have the same random numbers become one",
+     passes::merge_draws},
     {"factor_aggregations", "aggregations leave out factors that they do not change",
      passes::factor_aggregations},
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",

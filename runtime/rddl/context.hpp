@@ -10,14 +10,18 @@
 namespace rddl {
 
 // Where a draw or a possible fault stands: a site of the program text, and the row-major index
-// into the objects of the site's scope.
+// into the objects of the site's scope. `series` is the site whose random numbers a draw has: its
+// own, or, where only one of several is evaluated, that of the first one.
 struct Place {
     std::uint32_t site = 0;
     std::uint32_t index = 0;
+    std::uint32_t series = 0;
 
     constexpr Place() = default;
-    constexpr Place(std::uint32_t site_number, Index index_in_scope)
-        : site(site_number), index(static_cast<std::uint32_t>(index_in_scope)) {}
+    constexpr Place(std::uint32_t its_site, Index index_in_scope)
+        : Place(its_site, index_in_scope, its_site) {}
+    constexpr Place(std::uint32_t its_site, Index index_in_scope, std::uint32_t its_series)
+        : site(its_site), index(static_cast<std::uint32_t>(index_in_scope)), series(its_series) {}
     constexpr bool operator==(const Place&) const = default;
 };
 
@@ -66,12 +70,12 @@ struct FaultRecord {
 template <class L>
 struct Context;
 
-// No draw has this site.
-inline constexpr std::uint32_t no_site = ~std::uint32_t{0};
+// No draw has this series.
+inline constexpr std::uint32_t no_series = ~std::uint32_t{0};
 
-// The numbers made last for one of the sites that a step draws at, so that those of the branches
-// of a loop do not drive each other out. A power of two.
-inline constexpr std::uint32_t recent_sites = 4;
+// The numbers made last for one of the series that a step draws from, so that those of one loop do
+// not drive each other out. A power of two.
+inline constexpr std::uint32_t recent_series = 4;
 
 template <>
 struct Context<Scalar> {
@@ -79,14 +83,15 @@ struct Context<Scalar> {
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
     FaultRecord fault{};
 
-    // Of one site, step and 2 * simd::lanes neighbouring indices (random.hpp), the even ones first.
+    // Of one series, step and 2 * simd::lanes neighbouring indices (random.hpp), the even ones
+    // first.
     struct Recent {
-        std::uint32_t site = no_site;
+        std::uint32_t series = no_series;
         std::uint32_t chunk;
         double numbers[2][simd::lanes];
         constexpr Recent() {}  // leaves the numbers as they are, to be quick
     };
-    std::array<Recent, recent_sites> recent{};
+    std::array<Recent, recent_series> recent{};
 
     static constexpr Context of(std::uint64_t key_low, std::uint64_t key_high, std::uint64_t step,
                                 bool /*active*/) {
@@ -98,7 +103,7 @@ struct Context<Scalar> {
 
     constexpr void go_to_next_step() {
         ++step;
-        for (Recent& numbers : recent) numbers.site = no_site;
+        for (Recent& numbers : recent) numbers.series = no_series;
     }
 
     constexpr bool faulted() const { return static_cast<bool>(fault); }
@@ -121,13 +126,13 @@ struct Context<Pack<n>> {
     Mask<n> faulty{false};
     std::array<FaultRecord, static_cast<std::size_t>(n)> faults;  // of the faulty lanes
 
-    // Of one site, the step and two neighbouring indices.
+    // Of one series, the step and two neighbouring indices.
     struct Recent {
-        std::uint32_t site = no_site;
+        std::uint32_t series = no_series;
         std::uint32_t block;
         Lanes<double, n> even, odd;
     };
-    std::array<Recent, recent_sites> recent;
+    std::array<Recent, recent_series> recent;
 
     static Context of(const Word& key_low, const Word& key_high, const Word& step, Mask<n> active) {
         Context context;

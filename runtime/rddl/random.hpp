@@ -1,7 +1,7 @@
 // Random numbers as a pure function of what they are for (docs/randomness.md).
 //
 // An episode has a stream key made from (seed, environment, episode); a draw has the coordinates
-// (step, site, index) in that stream. So a draw depends neither on what was drawn before it nor
+// (step, series, index) in that stream. So a draw depends neither on what was drawn before it nor
 // on batches, threads or machines.
 #pragma once
 
@@ -45,10 +45,11 @@ struct TwoDraws {
 };
 
 template <class Word>
-RDDL_INLINE auto first_numbers(Word step, std::uint32_t site, Word block_number,
+RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_number,
                                const philox::Key<Word>& key) {
     const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
-        philox::Block<Word>{step, Word{std::uint64_t{site}}, block_number, Word{std::uint64_t{0}}},
+        philox::Block<Word>{step, Word{std::uint64_t{series}}, block_number,
+                            Word{std::uint64_t{0}}},
         key);
     const auto even = unit_real(words[0], words[1]);
     const auto odd = unit_real(words[2], words[3]);
@@ -58,34 +59,34 @@ RDDL_INLINE auto first_numbers(Word step, std::uint32_t site, Word block_number,
 // A loop draws for one index after the other, so some are made at once: for packs the draws of two
 // neighbours, for one environment as many as a register has room for.
 template <int n>
-[[gnu::noinline]] inline void refill(Context<Pack<n>>& context, std::uint32_t site,
+[[gnu::noinline]] inline void refill(Context<Pack<n>>& context, std::uint32_t series,
                                      std::uint32_t block_number) {
     using Word = Lanes<std::uint64_t, n>;
-    const auto draws = first_numbers<Word>(context.step, site, Word{std::uint64_t{block_number}},
+    const auto draws = first_numbers<Word>(context.step, series, Word{std::uint64_t{block_number}},
                                            {context.key_low, context.key_high});
-    context.recent[site % recent_sites] = {site, block_number, draws.even, draws.odd};
+    context.recent[series % recent_series] = {series, block_number, draws.even, draws.odd};
 }
 
 template <int n>
 RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) {
     const std::uint32_t block_number = place.index / 2;
-    const auto& recent = context.recent[place.site % recent_sites];
-    if (recent.site != place.site || recent.block != block_number)
-        refill(context, place.site, block_number);
+    const auto& recent = context.recent[place.series % recent_series];
+    if (recent.series != place.series || recent.block != block_number)
+        refill(context, place.series, block_number);
     return place.index % 2 == 0 ? recent.even : recent.odd;
 }
 
-[[gnu::noinline]] inline void refill(Context<Scalar>& context, std::uint32_t site,
+[[gnu::noinline]] inline void refill(Context<Scalar>& context, std::uint32_t series,
                                      std::uint32_t chunk) {
     using Word = Lanes<std::uint64_t, simd::lanes>;
     Word block_numbers;
     for (int lane = 0; lane < simd::lanes; ++lane)
         block_numbers.set(lane, std::uint64_t{chunk} * simd::lanes + lane);
     const auto draws = first_numbers<Word>(
-        Word{std::uint64_t{context.step}}, site, block_numbers,
+        Word{std::uint64_t{context.step}}, series, block_numbers,
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
-    auto& recent = context.recent[site % recent_sites];
-    recent.site = site;
+    auto& recent = context.recent[series % recent_series];
+    recent.series = series;
     recent.chunk = chunk;
     draws.even.store(recent.numbers[0]);
     draws.odd.store(recent.numbers[1]);
@@ -93,8 +94,9 @@ RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) 
 
 inline double uniform_at(Context<Scalar>& context, Place place) {
     const std::uint32_t chunk = place.index / 2 / simd::lanes;
-    const auto& recent = context.recent[place.site % recent_sites];
-    if (recent.site != place.site || recent.chunk != chunk) refill(context, place.site, chunk);
+    const auto& recent = context.recent[place.series % recent_series];
+    if (recent.series != place.series || recent.chunk != chunk)
+        refill(context, place.series, chunk);
     return recent.numbers[place.index % 2][place.index / 2 % simd::lanes];
 }
 
@@ -132,7 +134,7 @@ class Draws {
     constexpr philox::Block<std::uint64_t> generate(std::uint64_t index,
                                                     std::uint64_t number) const {
         return philox::generate<philox::draw_rounds>(
-            philox::Block<std::uint64_t>{step_, place_.site, index, number}, key_);
+            philox::Block<std::uint64_t>{step_, place_.series, index, number}, key_);
     }
 
     std::uint64_t step_;

@@ -126,6 +126,44 @@ TEST(Lowering, NumbersDrawsByTheirScope) {
     EXPECT_EQ(program.sites[1].what, "Uniform");
 }
 
+// "1 has those of 0"
+std::string series_of_sites(const std::string& cpf_of_x) {
+    const ir::Program program = grounded(usual_problem(cpf_of_x));
+    std::string text;
+    for (std::size_t site = 0; site < program.sites.size(); ++site) {
+        const auto& series = program.sites[site].series;
+        if (!series) continue;
+        text += (text.empty() ? "" : ", ") + std::to_string(site) + " has those of " +
+                std::to_string(series->index);
+    }
+    return text;
+}
+
+TEST(Lowering, GivesBranchesTheSameNumbers) {
+    EXPECT_EQ(series_of_sites("if (x > 1) then Normal(x, 1) else Uniform(0, 1)"),
+              "1 has those of 0");
+    EXPECT_EQ(series_of_sites("if (x > 1) then Normal(x, 1) + Normal(x, 2) else "
+                              "if (x > 2) then Uniform(0, 1) else Uniform(0, 2) + Uniform(0, 3)"),
+              "2 has those of 0, 3 has those of 0, 4 has those of 1");
+    EXPECT_EQ(series_of_sites("switch (c) { case @red : Normal(x, 1), case @green : 0, "
+                              "default : Normal(x, 2) }"),
+              "1 has those of 0");
+    EXPECT_EQ(series_of_sites("sum_{?o : obj} if (p(?o)) then Normal(x, 1) else Normal(x, 2)"),
+              "1 has those of 0");
+}
+
+TEST(Lowering, GivesDrawsOfOneBranchDifferentNumbers) {
+    EXPECT_EQ(series_of_sites("if (Bernoulli(0.5)) then Normal(x, 1) else 0"), "");
+    EXPECT_EQ(series_of_sites("if (x > 1) then Normal(x, Uniform(0, 1)) else 0"), "");
+    EXPECT_EQ(series_of_sites("(if (x > 1) then Normal(x, 1) else 0) + Normal(x, 2)"), "");
+    // Both may be evaluated in the second branch.
+    EXPECT_EQ(series_of_sites("if (x > 1) then Normal(x, 1) else "
+                              "((if (x > 2) then Normal(x, 2) else 0) + Normal(x, 3))"),
+              "1 has those of 0");
+    // One of them is drawn for each object: their indices have another meaning.
+    EXPECT_EQ(series_of_sites("if (x > 1) then sum_{?o : obj} Normal(x, 1) else Normal(x, 2)"), "");
+}
+
 TEST(Lowering, NamesFallibleOperators) {
     const ir::Program program = grounded(usual_problem("pow[n, n] + lngamma[x]"));
     EXPECT_EQ(value_of_x(program), "real(power@0[0](state.n, state.n)) + ln_gamma@1[0](state.x)");

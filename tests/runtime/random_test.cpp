@@ -73,6 +73,14 @@ TEST(Draws, StartWithTheNumberOfDrawsThatNeedOne) {
     }
 }
 
+TEST(Draws, HaveTheNumbersOfTheirSeries) {
+    Context<Scalar> context = context_of(1, 2, 3, 4);
+    EXPECT_EQ(uniform_at(context, {5, 3, 2}), uniform_at(context, {2, 3}));
+    EXPECT_NE(uniform_at(context, {5, 3, 2}), uniform_at(context, {5, 3}));
+    Draws of_series(context, {5, 3, 2}), of_site(context, {2, 3});
+    for (int number = 0; number < 3; ++number) EXPECT_EQ(of_series.uniform(), of_site.uniform());
+}
+
 TEST(Draws, AreTheSameHoweverOftenAndInWhateverOrderTheyAreMade) {
     Context<Scalar> context = context_of(1, 2, 3, 4);
     const double first = uniform_at(context, {0, 0});
