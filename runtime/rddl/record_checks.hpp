@@ -12,18 +12,25 @@ namespace rddl {
 
 namespace detail {
 
-// Whether `value_count` values of type T, at `offset` in each record, are all below `limit`.
-template <class T>
-bool all_below(std::uint64_t limit, const std::byte* records, std::int64_t record_count,
-               std::int64_t record_size, std::int64_t offset, std::int64_t value_count) {
+// Whether all bytes are 0 or 1; eight at a time, since every step of a batch asks.
+inline bool are_bools(const std::byte* bytes, std::int64_t count) {
+    std::uint64_t all = 0;
+    std::int64_t k = 0;
+    for (; k + 8 <= count; k += 8) {
+        std::uint64_t eight;
+        std::memcpy(&eight, bytes + k, sizeof eight);
+        all |= eight;
+    }
+    for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
+    return (all & 0xFEFEFEFEFEFEFEFE) == 0;
+}
+
+inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_t object_count) {
     bool all = true;
-    for (std::int64_t i = 0; i < record_count; ++i) {
-        const std::byte* values = records + i * record_size + offset;
-        for (std::int64_t k = 0; k < value_count; ++k) {
-            T value;
-            std::memcpy(&value, values + k * static_cast<std::int64_t>(sizeof(T)), sizeof(T));
-            all &= value < limit;
-        }
+    for (std::int64_t k = 0; k < count; ++k) {
+        std::uint64_t value;
+        std::memcpy(&value, values + 8 * k, sizeof value);
+        all &= value < static_cast<std::uint64_t>(object_count);
     }
     return all;
 }
@@ -38,14 +45,16 @@ inline bool records_are_valid(const rddl_problem& problem, rddl_role role, const
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
         if (fluent.role != role) continue;
-        const auto all_below = [&]<class T>(T limit) {
-            return detail::all_below<T>(limit, bytes, record_count, size, fluent.offset,
-                                        fluent.count);
-        };
-        if (fluent.scalar == RDDL_BOOL && !all_below(std::uint8_t{2})) return false;
-        if (fluent.range_type < 0) continue;
-        const std::int64_t objects = problem.types[fluent.range_type].object_count;
-        if (!all_below(static_cast<std::uint64_t>(objects))) return false;
+        const bool is_bool = fluent.scalar == RDDL_BOOL;
+        if (!is_bool && fluent.range_type < 0) continue;
+        for (std::int64_t i = 0; i < record_count; ++i) {
+            const std::byte* values = bytes + i * size + fluent.offset;
+            const bool valid =
+                is_bool ? detail::are_bools(values, fluent.count)
+                        : detail::are_objects(values, fluent.count,
+                                              problem.types[fluent.range_type].object_count);
+            if (!valid) return false;
+        }
     }
     return true;
 }

@@ -137,6 +137,19 @@ TEST(Interface, RefusesBoolsThatAreNone) {
     EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state), RDDL_BAD_ARGUMENT);
 }
 
+TEST(Interface, FindsBoolsThatAreNoneWhereverTheyStand) {
+    std::array<std::byte, 21> bytes;
+    bytes.fill(std::byte{1});
+    for (std::byte& byte : bytes) {
+        for (const int wrong : {2, 0x80, 0xFF}) {
+            byte = static_cast<std::byte>(wrong);
+            EXPECT_FALSE(detail::are_bools(bytes.data(), 21)) << &byte - bytes.data();
+        }
+        byte = std::byte{0};
+        EXPECT_TRUE(detail::are_bools(bytes.data(), 21));
+    }
+}
+
 TEST(Interface, RefusesOptionsOutOfRange) {
     const auto refused = [](const rddl_batch_options& options) {
         return functions.create(&functions, &options) == nullptr;
