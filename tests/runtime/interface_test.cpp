@@ -143,10 +143,10 @@ TEST(Interface, FindsBoolsThatAreNoneWhereverTheyStand) {
     for (std::byte& byte : bytes) {
         for (const int wrong : {2, 0x80, 0xFF}) {
             byte = static_cast<std::byte>(wrong);
-            EXPECT_FALSE(detail::are_bools(bytes.data(), 21)) << &byte - bytes.data();
+            EXPECT_FALSE(rddl::detail::are_bools(bytes.data(), 21)) << &byte - bytes.data();
         }
         byte = std::byte{0};
-        EXPECT_TRUE(detail::are_bools(bytes.data(), 21));
+        EXPECT_TRUE(rddl::detail::are_bools(bytes.data(), 21));
     }
 }
 
