@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace rddl {
 
@@ -91,16 +92,21 @@ template <int n>
 RDDL_INLINE Mask<n> choose(Mask<n> condition, Mask<n> a, Mask<n> b) {
     return (condition && a) || (!condition && b);
 }
+// The bits of each register.
+template <int part_count>
+struct MaskParts {
+    simd::MaskBits part[part_count];
+};
+template <int n, std::size_t... p>
+RDDL_INLINE MaskParts<n / simd::lanes> parts_of(Mask<n> mask, std::index_sequence<p...>) {
+    return {static_cast<simd::MaskBits>(std::uint64_t{mask.bits} >> (p * simd::lanes) &
+                                        simd::all_lanes)...};
+}
 template <class T, int n>
 RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const Lanes<T, n>& b) {
-    Lanes<T, n> result;
-    for (int p = 0; p < Lanes<T, n>::part_count; ++p) {
-        const auto bits =
-            static_cast<simd::MaskBits>(std::uint64_t{condition.bits} >> (p * simd::lanes)) &
-            simd::all_lanes;
-        result.part[p] = simd::blend(bits, a.part[p], b.part[p]);
-    }
-    return result;
+    return Lanes<T, n>::each([](auto bits, auto x, auto y) { return simd::blend(bits, x, y); },
+                             parts_of(condition, std::make_index_sequence<n / simd::lanes>()), a,
+                             b);
 }
 
 }  // namespace detail
@@ -138,6 +144,17 @@ constexpr auto branch(Context<Pack<n>>& context, Condition condition, Then&& the
 
 // ------------------------------------------------------------------------------ conversions
 
+namespace detail {
+
+// Register by register: what is cast as a whole goes through memory.
+template <class To, class From, int n>
+RDDL_INLINE Lanes<To, n> same_bits(const Lanes<From, n>& a) {
+    return Lanes<To, n>::each(
+        [](auto x) { return std::bit_cast<typename Lanes<To, n>::Vector>(x); }, a);
+}
+
+}  // namespace detail
+
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> to_int(Mask<n> a) {
     return select(a, std::int64_t{1}, std::int64_t{0});
@@ -148,15 +165,11 @@ RDDL_INLINE Lanes<double, n> to_real(Mask<n> a) {
 }
 template <int n>
 RDDL_INLINE Lanes<double, n> to_real(const Lanes<std::int64_t, n>& a) {
-    Lanes<double, n> result;
-    for (int p = 0; p < a.part_count; ++p) result.part[p] = simd::to_reals(a.part[p]);
-    return result;
+    return Lanes<double, n>::each([](auto x) { return simd::to_reals(x); }, a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
-    Lanes<std::int64_t, n> result;
-    for (int p = 0; p < a.part_count; ++p) result.part[p] = simd::truncate(a.part[p]);
-    return result;
+    return Lanes<std::int64_t, n>::each([](auto x) { return simd::truncate(x); }, a);
 }
 
 constexpr std::uint64_t words_of(std::int64_t a) {
@@ -164,19 +177,19 @@ constexpr std::uint64_t words_of(std::int64_t a) {
 }
 template <int n>
 RDDL_INLINE Lanes<double, n> real_of_bits(const Lanes<std::uint64_t, n>& a) {
-    return std::bit_cast<Lanes<double, n>>(a);
+    return detail::same_bits<double>(a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> bits_of(const Lanes<double, n>& a) {
-    return std::bit_cast<Lanes<std::uint64_t, n>>(a);
+    return detail::same_bits<std::uint64_t>(a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> words_of(const Lanes<std::int64_t, n>& a) {
-    return std::bit_cast<Lanes<std::uint64_t, n>>(a);
+    return detail::same_bits<std::uint64_t>(a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> ints_of(const Lanes<std::uint64_t, n>& a) {
-    return std::bit_cast<Lanes<std::int64_t, n>>(a);
+    return detail::same_bits<std::int64_t>(a);
 }
 
 template <int n>
@@ -352,11 +365,9 @@ RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
 
 // The elements that each lane chooses from a table: its own where the elements are packs.
 template <int n>
-auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
-    Lanes<double, n> result;
-    for (int p = 0; p < result.part_count; ++p)
-        result.part[p] = simd::gather(elements, indices.part[p]);
-    return result;
+RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
+    return Lanes<double, n>::each([elements](auto x) { return simd::gather(elements, x); },
+                                  indices);
 }
 template <class T, int n>
 requires std::is_arithmetic_v<T>
@@ -385,8 +396,7 @@ auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
 
 // An element of a nested std::array; at least one index differs between the lanes.
 template <class Array, class... Indices>
-requires SomePack<Indices...>
-auto at(const Array& array, const Indices&... indices) {
+requires SomePack<Indices...> RDDL_INLINE auto at(const Array& array, const Indices&... indices) {
     constexpr int n = std::max({detail::pack_width<Indices>...});
     const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(indices...);
     using Element = typename detail::Nested<Array>::Element;

@@ -16,7 +16,7 @@ namespace rddl::sample {
 
 // U < p, with U in [0, 1): never true for p = 0, always for p = 1.
 template <class L>
-typename L::Bool bernoulli(Context<L>& context, Place place, typename L::Real p) {
+RDDL_INLINE typename L::Bool bernoulli(Context<L>& context, Place place, typename L::Real p) {
     const auto valid = context.require(p >= 0.0 && p <= 1.0, FaultKind::Probability, place, p);
     return valid && uniform_at(context, place) < p;
 }
