@@ -12,13 +12,14 @@ namespace rddlc::cli {
 
 Compilation compile_problem(const ProblemFiles& files, Stage last,
                             const std::vector<std::filesystem::path>& extern_headers,
-                            const PassOptions& passes) {
+                            const PassOptions& passes, RealType real) {
     CompileOptions options;
     options.inputs = files.all();
     options.extern_headers = extern_headers;
     options.stop_after = last;
     options.standard = files.standard;
     options.passes = passes;
+    options.real = real;
     return compile(options);
 }
 
@@ -30,8 +31,8 @@ void print_diagnostics(const Compilation& compilation) {
 
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
                                const std::vector<std::filesystem::path>& extern_headers,
-                               const PassOptions& passes) {
-    Compilation compilation = compile_problem(files, last, extern_headers, passes);
+                               const PassOptions& passes, RealType real) {
+    Compilation compilation = compile_problem(files, last, extern_headers, passes, real);
     give_up_on_errors(compilation);
     return compilation;
 }

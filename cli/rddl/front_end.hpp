@@ -9,7 +9,7 @@ namespace rddlc::cli {
 // Compiles up to a stage; prints nothing.
 Compilation compile_problem(const ProblemFiles& files, Stage last,
                             const std::vector<std::filesystem::path>& extern_headers = {},
-                            const PassOptions& passes = {});
+                            const PassOptions& passes = {}, RealType real = RealType::Double);
 
 // Prints all diagnostics on stderr.
 void print_diagnostics(const Compilation& compilation);
@@ -18,7 +18,7 @@ void print_diagnostics(const Compilation& compilation);
 // `rddl check` does that.
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
                                const std::vector<std::filesystem::path>& extern_headers = {},
-                               const PassOptions& passes = {});
+                               const PassOptions& passes = {}, RealType real = RealType::Double);
 // The same of a compilation.
 void give_up_on_errors(const Compilation& compilation);
 

@@ -32,6 +32,9 @@ class Stopwatch {
 };
 
 LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
+    if (options.real != RealType::Double)
+        throw Failure("the interpreter computes with doubles",
+                      "leave out --real=float, or use --engine=compiled", usage_error);
     const ExternFiles externs = extern_files(options.externs);
     const Stopwatch watch;
     LoadCosts costs;
@@ -58,7 +61,7 @@ LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
     const Stopwatch watch;
     LoadCosts costs;
     const Compilation compilation =
-        compile_or_give_up(files, Stage::Emit, externs.headers, options.passes);
+        compile_or_give_up(files, Stage::Emit, externs.headers, options.passes, options.real);
     costs.compile_seconds = watch.seconds();
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');

@@ -1,6 +1,7 @@
 // A problem as a simulator, whichever engine runs it.
 #pragma once
 
+#include "emit/emit.hpp"
 #include "passes/passes.hpp"
 #include "problem_lookup.hpp"
 
@@ -25,6 +26,7 @@ struct LoadOptions {
     // Of external functions: C++ headers; for the interpreter shared objects, too.
     std::vector<std::filesystem::path> externs;
     PassOptions passes;
+    RealType real = RealType::Double;  // of the compiled engine
 };
 
 // Owns all that the simulator refers to: the loaded library, or program and sources.

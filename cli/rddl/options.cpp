@@ -62,6 +62,15 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
         ->type_name("PASS");
     command.add_flag("--fast-math", options.passes.fast_math,
                      "Compute with reals as if they were not rounded, and never inf or nan");
+    command
+        .add_option_function<std::string>(
+            "--real",
+            [&options](const std::string& name) {
+                options.real = name == "float" ? RealType::Float : RealType::Double;
+            },
+            "What reals are computed in: double (default) or float")
+        ->check(CLI::IsMember({"double", "float"}).description(""))
+        ->type_name("TYPE");
     command.add_flag("--no-cache", options.ignore_cache,
                      "Compile anew instead of using a simulator compiled before");
 }

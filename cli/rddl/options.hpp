@@ -28,7 +28,7 @@ void add_standard_option(CLI::App& command, Standard& standard);
 // --extern
 void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation);
 
-// --engine, --extern, --without, --fast-math, --no-cache
+// --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
 
 // --preconditions

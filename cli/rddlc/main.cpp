@@ -49,21 +49,8 @@ std::string statistics(const Compilation& compilation, Statistics format) {
                                       : statistics_text(compilation.passes);
 }
 
-ExitStatus refuse(const Options& options) {
-    Diagnostics diagnostics;
-    for (const std::string& option : options.not_supported_yet) {
-        diagnostics.report({.code = option_not_supported_yet,
-                            .span = {},
-                            .message = option + " is not supported yet"});
-    }
-    print_diagnostics(diagnostics, {}, options.render);
-    return diagnosed;
-}
-
 ExitStatus run(const Options& options) {
     if (options.explained) return write(*explain(*options.explained), options);
-    if (!options.not_supported_yet.empty()) return refuse(options);
-
     const Compilation compilation = compile(options.compile);
     const ExitStatus written =
         write(compilation.printed + statistics(compilation, options.statistics), options);

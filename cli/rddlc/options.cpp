@@ -123,7 +123,10 @@ void declare(CLI::App& program, Arguments& arguments) {
                     "32, 64, or 1")
         ->check(CLI::IsMember({1, 8, 16, 32, 64}).description(""))
         ->type_name("N");
-    program.add_option("--real", arguments.real, "double or float")
+    program
+        .add_option("--real", arguments.real,
+                    "what the simulator computes reals in: double (the default), or float, which "
+                    "is about twice as fast in batches and less exact")
         ->check(CLI::IsMember({"double", "float"}))
         ->type_name("TYPE");
     program
@@ -289,6 +292,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.stop_after = last_stage(arguments, options.print);
     options.line_directives = arguments.line_directives;
     options.lane_count = arguments.lanes;
+    options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
     options.standard = *standard_named(arguments.standard);
@@ -311,7 +315,6 @@ Options options_of(const Arguments& arguments) {
     }
     options.statistics = statistics_format(arguments.statistics);
     options.compile = compile_options(arguments);
-    if (arguments.real != "double") options.not_supported_yet.push_back("--real=" + arguments.real);
     return options;
 }
 

@@ -20,8 +20,7 @@ struct Options {
     RenderOptions render;
     Statistics statistics = Statistics::None;
     bool verbose = false;
-    std::optional<Code> explained;               // --explain
-    std::vector<std::string> not_supported_yet;  // options that are valid and planned
+    std::optional<Code> explained;  // --explain
 };
 
 // The options, or the exit status where there is nothing left to do: after --help, --version, or a

@@ -8,7 +8,7 @@ namespace rddlc {
 inline constexpr Code unreadable_file{'E', 901};
 inline constexpr Code unwritable_file{'E', 902};
 inline constexpr Code unknown_output_kind{'E', 903};
-inline constexpr Code option_not_supported_yet{'E', 904};
+inline constexpr Code no_float_reals{'E', 904};
 inline constexpr Code no_cpp_compiler{'E', 905};
 inline constexpr Code output_is_input{'E', 906};
 inline constexpr Code undefined_external{'E', 907};

@@ -10,6 +10,7 @@
 #include "driver/write.hpp"
 #include "emit/emit.hpp"
 #include "ground/ground.hpp"
+#include "ir/analysis.hpp"
 #include "ir/print.hpp"
 #include "ir/verify.hpp"
 #include "model/print.hpp"
@@ -25,6 +26,20 @@
 
 namespace rddlc {
 namespace {
+
+// Where --real=float is of no use: policies and functions of whole tables compute with doubles, and
+// a register may hold more than 8 floats.
+void refuse_float_reals(const CompileOptions& options, const ir::Program& program,
+                        Diagnostics& diagnostics) {
+    const auto refuse = [&](const std::string& why) {
+        diagnostics.report({no_float_reals, {}, "--real=float is not possible " + why});
+    };
+    if (program.policy) refuse("with a policy block, which computes with doubles");
+    if (std::ranges::any_of(ir::blocks_of(program),
+                            [](const ir::Block* block) { return ir::calls_functions(*block); }))
+        refuse("here: matrices, random vectors and external functions compute with doubles");
+    if (options.lane_count == 8) refuse("with --lanes=8: a register may hold 16 floats");
+}
 
 constexpr std::array<std::string_view, 8> stage_names = {"read",   "parse",    "check", "ground",
                                                          "verify", "optimise", "emit",  "write"};
@@ -78,6 +93,7 @@ EmitOptions emit_options(const CompileOptions& options) {
     return {.header = output_kind(name) == OutputKind::Header,
             .line_directives = options.line_directives,
             .lane_count = options.lane_count,
+            .real = options.real,
             .output_name = name,
             .compiler_version = version,
             .extern_headers = include_paths(options)};
@@ -127,6 +143,8 @@ void run_stages(Run& run) {
     // IR -> C++.
     report_undefined_externals(*result.program, run.options, diagnostics);
     report_large_constant_tables(*result.program, diagnostics);
+    if (run.options.real == RealType::Float)
+        refuse_float_reals(run.options, *result.program, diagnostics);
     if (diagnostics.has_errors()) return;
     result.text = run.measure(Stage::Emit, [&] {
         return emit(*result.program, result.sources, emit_options(run.options));

@@ -40,6 +40,7 @@ struct CompileOptions {
     Stage stop_after = Stage::Write;
     bool line_directives = false;
     int lane_count = EmitOptions{}.lane_count;
+    RealType real = RealType::Double;
     // A make rule that names the inputs of the output.
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;

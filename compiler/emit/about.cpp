@@ -368,8 +368,9 @@ std::string table_definition(const Unit& unit) {
     const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
     std::string text;
     if (has_packs(unit)) {
-        text += fmt::format("    using Packed = rddl::Packed<Simulator, {}>;\n",
-                            unit.options.lane_count);
+        const bool floats = unit.options.real == RealType::Float;
+        text += fmt::format("    using Packed = rddl::Packed<Simulator, {}{}>;\n",
+                            unit.options.lane_count, floats ? ", float" : "");
     }
     for (const std::string& line :
          fill_call("static const rddl::SimulatorTable<" + engines + "> table(", arguments, ");",

@@ -38,6 +38,13 @@ std::string without_double_blanks(const std::string& text) {
     return result;
 }
 
+std::string engine(const Unit& unit) {
+    if (unit.program.policy) return "rddl::Compiled<Simulator, Policy>";
+    if (unit.options.real == RealType::Float)
+        return "rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<float>>";
+    return "rddl::Compiled<Simulator>";
+}
+
 std::string simulator(const Unit& unit) {
     const cpp::StepFunctions step = cpp::step_functions(unit);
     return fill_slots(cpp::templates::simulator,
@@ -55,8 +62,7 @@ std::string simulator(const Unit& unit) {
                        {"policy", cpp::policy(unit)},
                        {"asserts", cpp::asserts(unit)},
                        {"about", cpp::about(unit)},
-                       {"engine", unit.program.policy ? "rddl::Compiled<Simulator, Policy>"
-                                                      : "rddl::Compiled<Simulator>"},
+                       {"engine", engine(unit)},
                        {"table", cpp::table_definition(unit)}});
 }
 

@@ -288,7 +288,8 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
         if (is_drawn(unit.program, index)) continue;
         const std::string target = record + "." + unit.names.buffers[index];
         const std::string& table = unit.names.initial[index];
-        const std::string value = table.empty() ? literal(buffer.values[0]) : table;
+        const std::string value =
+            table.empty() ? literal(buffer.values[0], unit.options.real) : table;
         text += indented(buffer.shape.empty() ? target + " = " + value + ";"
                                               : "rddl::assign(" + target + ", " + value + ");",
                          levels);

@@ -5,27 +5,45 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace rddlc::cpp {
 namespace {
 
 // The shortest digits that read back exactly.
-std::string shortest(double value) {
+template <class Real>
+std::string shortest(Real value) {
     char buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
     return {buffer, end};
 }
 
-std::string non_finite(double value) {
-    const std::string limits = "std::numeric_limits<double>::";
+template <class Real>
+std::string non_finite(Real value) {
+    const std::string type = std::is_same_v<Real, float> ? "float" : "double";
+    const std::string limits = "std::numeric_limits<" + type + ">::";
     if (std::isnan(value)) return limits + "quiet_NaN()";
     return (value < 0 ? "-" : "") + limits + "infinity()";
 }
 
-std::string real(double value) {
+template <class Real>
+std::string real(Real value) {
     if (!std::isfinite(value)) return non_finite(value);
     const std::string digits = shortest(value);
-    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+    const std::string suffix = std::is_same_v<Real, float> ? "f" : "";
+    return digits + (digits.find_first_of(".e") == std::string::npos ? ".0" : "") + suffix;
+}
+
+// Below, integers are exact and their digits few.
+template <class Real>
+constexpr Real exact_integers = std::is_same_v<Real, float> ? 1e7 : 1e9;
+
+// An integer converts implicitly as long as it is exact; -0 would lose its sign.
+template <class Real>
+std::string real_entry(Real value) {
+    const bool is_short_integer =
+        value == std::trunc(value) && std::fabs(value) < exact_integers<Real>;
+    return is_short_integer && !(value == 0 && std::signbit(value)) ? shortest(value) : real(value);
 }
 
 std::string integer(std::int64_t value) {
@@ -38,20 +56,21 @@ std::string integer(std::int64_t value) {
 
 }  // namespace
 
-std::string literal(const ir::Value& value) {
+std::string literal(const ir::Value& value, RealType type) {
     return match(
         value, [](bool v) -> std::string { return v ? "true" : "false"; },
-        [](std::int64_t v) { return integer(v); }, [](double v) { return real(v); });
+        [](std::int64_t v) { return integer(v); },
+        [type](double v) {
+            return type == RealType::Float ? real(static_cast<float>(v)) : real(v);
+        });
 }
 
-std::string table_entry(const ir::Value& value) {
+std::string table_entry(const ir::Value& value, RealType type) {
     return match(
         value, [](bool v) -> std::string { return v ? "1" : "0"; },
         [](std::int64_t v) { return integer(v); },
-        // An integer converts to double implicitly as long as it is exact; -0 would lose its sign.
-        [](double v) {
-            const bool is_short_integer = v == std::trunc(v) && std::fabs(v) < 1e9;
-            return is_short_integer && !(v == 0 && std::signbit(v)) ? shortest(v) : real(v);
+        [type](double v) {
+            return type == RealType::Float ? real_entry(static_cast<float>(v)) : real_entry(v);
         });
 }
 

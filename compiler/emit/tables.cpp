@@ -38,11 +38,12 @@ std::vector<std::string> with_commas(std::vector<std::string> items) {
 // The initialiser of a nested std::array: {{ {1, 2}, {3, 4} }}, without the blanks.
 class TableWriter {
   public:
-    TableWriter(std::span<const std::int64_t> shape, std::span<const ir::Value> values)
-        : shape_(shape), values_(values) {}
+    TableWriter(std::span<const std::int64_t> shape, std::span<const ir::Value> values,
+                RealType real)
+        : shape_(shape), values_(values), real_(real) {}
 
     std::string on_one_line(std::size_t dimension, std::size_t begin) const {
-        if (dimension == shape_.size()) return table_entry(values_[begin]);
+        if (dimension == shape_.size()) return table_entry(values_[begin], real_);
         const bool innermost = dimension + 1 == shape_.size();
         std::string text = innermost ? "{" : "{{";
         for (std::int64_t i = 0; i < shape_[dimension]; ++i) {
@@ -82,7 +83,7 @@ class TableWriter {
     std::string wrapped_row(std::size_t column, std::size_t begin) const {
         std::vector<std::string> entries;
         for (std::size_t i = 0; i < static_cast<std::size_t>(shape_.back()); ++i) {
-            entries.push_back(table_entry(values_[begin + i]));
+            entries.push_back(table_entry(values_[begin + i], real_));
         }
         std::string text;
         for (const std::string& line : fill(with_commas(std::move(entries)), column, 1)) {
@@ -93,6 +94,7 @@ class TableWriter {
 
     std::span<const std::int64_t> shape_;
     std::span<const ir::Value> values_;
+    RealType real_;
 };
 
 // Where there is no room for both, the name has a line of its own.
@@ -197,7 +199,7 @@ std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::st
     return type;
 }
 
-std::string table_type(ir::Scalar scalar) {
+std::string table_type(ir::Scalar scalar, RealType real) {
     switch (scalar) {
         case ir::Scalar::Bool:
             return "bool";
@@ -206,7 +208,7 @@ std::string table_type(ir::Scalar scalar) {
         case ir::Scalar::Real:
             break;
     }
-    return "double";
+    return real == RealType::Float ? "float" : "double";
 }
 
 bool is_zero(const ir::Value& value) {
@@ -220,7 +222,7 @@ bool are_equal(std::span<const ir::Value> values) {
 }
 
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
-                  std::span<const ir::Value> values) {
+                  std::span<const ir::Value> values, RealType real) {
     // Long types have the name on a line of its own.
     const bool too_wide = declaration.size() + std::string_view(" = {{").size() > line_width;
     const std::size_t name = declaration.rfind(' ');
@@ -230,7 +232,7 @@ std::string table(const std::string& declaration, std::span<const std::int64_t> 
         " = ";
     const bool zero = std::ranges::all_of(values, is_zero);
     if (zero && !shape.empty()) return lead + "{};\n";
-    const TableWriter writer(shape, values);
+    const TableWriter writer(shape, values, real);
     // Only tables that may fit are worth writing out on one line.
     if (values.size() < line_width / 2) {
         const std::string text = lead + writer.on_one_line(0, 0) + ";";
@@ -274,10 +276,12 @@ std::string tables(const Unit& unit) {
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
-        const std::string type = array_type(unit, buffer, table_type(buffer.scalar));
+        const RealType real = unit.options.real;
+        const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
         text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +
                 unit.where(buffer.span) + "\n";
-        text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values.dense());
+        text += table("inline constexpr " + type + " " + name, buffer.shape, buffer.values.dense(),
+                      real);
     }
     return section("tables", with_joined_regions(std::move(text)));
 }

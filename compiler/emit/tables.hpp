@@ -15,8 +15,8 @@ std::string section(const std::string& title, const std::string& text);
 
 // "std::array<std::array<double, 3>, robot_count>" for an element type and a buffer's shape.
 std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::string& element);
-// "double", "std::int64_t", "bool": what a table holds.
-std::string table_type(ir::Scalar scalar);
+// "double", "float", "std::int64_t", "bool": what a table holds.
+std::string table_type(ir::Scalar scalar, RealType real = RealType::Double);
 
 bool is_zero(const ir::Value& value);
 bool are_equal(std::span<const ir::Value> values);
@@ -35,7 +35,7 @@ std::string with_joined_regions(std::string text);
 // A definition with its initialiser, in lines of at most 100 columns. Tables that need several
 // lines keep their rows, out of clang-format's reach.
 std::string table(const std::string& declaration, std::span<const std::int64_t> shape,
-                  std::span<const ir::Value> values);
+                  std::span<const ir::Value> values, RealType real = RealType::Double);
 // `declaration = {item, ...};` of any items, in as many lines as it needs.
 std::string list(const std::string& declaration, const std::vector<std::string>& items);
 

@@ -54,7 +54,7 @@ class Functions {
   private:
     using Parts = SimulatorParts<L>;
     static constexpr bool has_packs = L::width > 1;
-    using OneByOne = Batch<AnyEngine<Scalar>>;
+    using OneByOne = Batch<AnyEngine<ScalarOf<typename L::Element>>>;
     using AnyBatch = std::conditional_t<has_packs, std::variant<OneByOne, Batch<AnyEngine<L>>>,
                                         std::variant<OneByOne>>;
 

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace rddl {
@@ -149,26 +150,35 @@ void write_bools(const Mask<n>* masks, std::int64_t count, std::byte* rows, std:
     }
 }
 
+// What a record of the C interface holds for a value of one lane: all reals are double there.
+template <class T>
+using InRecord = std::conditional_t<std::is_same_v<T, float>, double, T>;
+
 // One number of each of the first `present` rows.
 template <class T>
 T read_numbers(const std::byte* rows, std::int64_t row_size, int present) {
-    typename T::Element lanes[T::width] = {};
+    InRecord<typename T::Element> numbers[T::width] = {};
     if (row_size == 8 && present == T::width)
-        std::memcpy(lanes, rows, sizeof lanes);
+        std::memcpy(numbers, rows, sizeof numbers);
     else
         for (int lane = 0; lane < present; ++lane)
-            std::memcpy(&lanes[lane], rows + lane * row_size, 8);
+            std::memcpy(&numbers[lane], rows + lane * row_size, 8);
+    typename T::Element lanes[T::width];
+    for (int lane = 0; lane < T::width; ++lane)
+        lanes[lane] = static_cast<typename T::Element>(numbers[lane]);
     return T::load(lanes);
 }
 template <class T>
 void write_numbers(const T& values, std::byte* rows, std::int64_t row_size, int present) {
     typename T::Element lanes[T::width];
     values.store(lanes);
+    InRecord<typename T::Element> numbers[T::width];
+    for (int lane = 0; lane < T::width; ++lane) numbers[lane] = lanes[lane];
     if (row_size == 8 && present == T::width)
-        std::memcpy(rows, lanes, sizeof lanes);
+        std::memcpy(rows, numbers, sizeof numbers);
     else
         for (int lane = 0; lane < present; ++lane)
-            std::memcpy(rows + lane * row_size, &lanes[lane], 8);
+            std::memcpy(rows + lane * row_size, &numbers[lane], 8);
 }
 
 template <class T>
@@ -188,8 +198,8 @@ T* values_in(std::byte* block, const Column& column) {
 inline void write_reals(double value, double* to, int) {
     *to = value;
 }
-template <int n>
-void write_reals(const Lanes<double, n>& values, double* to, int present) {
+template <class R, int n>
+void write_reals(const Lanes<R, n>& values, double* to, int present) {
     detail::write_numbers(values, reinterpret_cast<std::byte*>(to), 8, present);
 }
 
@@ -211,8 +221,8 @@ inline void read_records(Scalar, const Columns& columns, const std::byte* rows, 
                          std::byte* block) {
     if (columns.row_size > 0) std::memcpy(block, rows, static_cast<std::size_t>(columns.row_size));
 }
-template <int n>
-void read_records(Pack<n>, const Columns& columns, const std::byte* rows, int present,
+template <int n, class R>
+void read_records(Pack<n, R>, const Columns& columns, const std::byte* rows, int present,
                   std::byte* block) {
     const auto read_numbers = [&]<class T>(const Column& column, T* values) {
         for (std::int64_t k = 0; k < column.count; ++k)
@@ -220,7 +230,7 @@ void read_records(Pack<n>, const Columns& columns, const std::byte* rows, int pr
                 detail::read_numbers<T>(rows + column.row + 8 * k, columns.row_size, present);
     };
     for (const Column& column : columns.list)
-        with_type<Pack<n>>(column.scalar, [&]<class T>() {
+        with_type<Pack<n, R>>(column.scalar, [&]<class T>() {
             T* const values = detail::values_in<T>(block, column);
             if constexpr (std::is_same_v<T, Mask<n>>)
                 detail::read_bools(rows + column.row, columns.row_size, present, column.count,
@@ -234,15 +244,15 @@ inline void write_records(Scalar, const Columns& columns, const std::byte* block
                           int) {
     if (columns.row_size > 0) std::memcpy(rows, block, static_cast<std::size_t>(columns.row_size));
 }
-template <int n>
-void write_records(Pack<n>, const Columns& columns, const std::byte* block, std::byte* rows,
+template <int n, class R>
+void write_records(Pack<n, R>, const Columns& columns, const std::byte* block, std::byte* rows,
                    int present) {
     const auto write_numbers = [&]<class T>(const Column& column, const T* values) {
         for (std::int64_t k = 0; k < column.count; ++k)
             detail::write_numbers(values[k], rows + column.row + 8 * k, columns.row_size, present);
     };
     for (const Column& column : columns.list)
-        with_type<Pack<n>>(column.scalar, [&]<class T>() {
+        with_type<Pack<n, R>>(column.scalar, [&]<class T>() {
             const T* const values = detail::values_in<T>(block, column);
             if constexpr (std::is_same_v<T, Mask<n>>)
                 detail::write_bools(values, column.count, rows + column.row, columns.row_size,
@@ -259,7 +269,8 @@ void write_record(L, const Columns& columns, const std::byte* block, int lane, s
         with_type<L>(column.scalar, [&]<class T>() {
             const T* const values = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k) {
-                const auto value = get_lane(values[k], lane);
+                const auto number = get_lane(values[k], lane);
+                const detail::InRecord<std::remove_const_t<decltype(number)>> value = number;
                 std::memcpy(row + column.row + k * static_cast<std::int64_t>(sizeof value), &value,
                             sizeof value);
             }
@@ -271,12 +282,23 @@ void read_record(L, const Columns& columns, const std::byte* row, std::byte* blo
         with_type<L>(column.scalar, [&]<class T>() {
             T* const values = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k) {
-                decltype(get_lane(values[k], lane)) value;
+                using Number = decltype(get_lane(values[k], lane));
+                detail::InRecord<Number> value;
                 std::memcpy(&value, row + column.row + k * static_cast<std::int64_t>(sizeof value),
                             sizeof value);
-                set_lane(values[k], lane, value);
+                set_lane(values[k], lane, static_cast<Number>(value));
             }
         });
+}
+
+// The records of single environments whose reals have another width.
+inline void read_records(ScalarOf<float> lanes, const Columns& columns, const std::byte* rows, int,
+                         std::byte* block) {
+    read_record(lanes, columns, rows, block, 0);
+}
+inline void write_records(ScalarOf<float> lanes, const Columns& columns, const std::byte* block,
+                          std::byte* rows, int) {
+    write_record(lanes, columns, block, 0, rows);
 }
 
 // ------------------------------------------------------------------------ matrices of reals
@@ -317,20 +339,22 @@ void write_values(L, const Columns& columns, const std::byte* block, Number* row
 // -------------------------------------------------------------------------------- in blocks
 
 // Takes over another block's values where the mask holds.
-inline void merge(Scalar, const Columns& columns, bool mask, const std::byte* from,
-                  std::byte* block) {
+template <class R>
+void merge(ScalarOf<R>, const Columns& columns, bool mask, const std::byte* from,
+           std::byte* block) {
     if (mask && columns.block_size > 0)
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
 }
-template <int n>
-void merge(Pack<n>, const Columns& columns, Mask<n> mask, const std::byte* from, std::byte* block) {
+template <int n, class R>
+void merge(Pack<n, R>, const Columns& columns, Mask<n> mask, const std::byte* from,
+           std::byte* block) {
     if (all(mask) && columns.block_size > 0) {
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
         return;
     }
     if (!any(mask)) return;
     for (const Column& column : columns.list)
-        with_type<Pack<n>>(column.scalar, [&]<class T>() {
+        with_type<Pack<n, R>>(column.scalar, [&]<class T>() {
             const T* const theirs = detail::values_in<T>(from, column);
             T* const ours = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k)

@@ -120,8 +120,8 @@ struct Compiled {
     }
 };
 
-// The same simulator for packs of n environments.
-template <class Simulator, int n>
-using Packed = Compiled<Simulator, NoPolicy, Pack<n>>;
+// The same simulator for packs of n environments, with reals of type R.
+template <class Simulator, int n, class R = double>
+using Packed = Compiled<Simulator, NoPolicy, Pack<n, R>>;
 
 }  // namespace rddl

@@ -77,18 +77,18 @@ inline constexpr std::uint32_t no_series = ~std::uint32_t{0};
 // not drive each other out. A power of two.
 inline constexpr std::uint32_t recent_series = 4;
 
-template <>
-struct Context<Scalar> {
+template <class R>
+struct Context<ScalarOf<R>> {
     StreamKey key;
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
     FaultRecord fault{};
 
-    // Of one series, step and 2 * simd::lanes neighbouring indices (random.hpp), the even ones
-    // first.
+    // Of one series, step and twice as many neighbouring indices as a register has lanes
+    // (random.hpp), the even ones first.
     struct Recent {
         std::uint32_t series = no_series;
         std::uint32_t chunk;
-        double numbers[2][simd::lanes];
+        R numbers[2][simd::lanes_of<R>];
         constexpr Recent() {}  // leaves the numbers as they are, to be quick
     };
     std::array<Recent, recent_series> recent{};
@@ -116,8 +116,8 @@ struct Context<Scalar> {
     }
 };
 
-template <int n>
-struct Context<Pack<n>> {
+template <int n, class R>
+struct Context<Pack<n, R>> {
     using Word = Lanes<std::uint64_t, n>;
 
     Word key_low, key_high;
@@ -130,7 +130,7 @@ struct Context<Pack<n>> {
     struct Recent {
         std::uint32_t series = no_series;
         std::uint32_t block;
-        Lanes<double, n> even, odd;
+        Lanes<R, n> even, odd;
     };
     std::array<Recent, recent_series> recent;
 
@@ -151,17 +151,19 @@ struct Context<Pack<n>> {
                 static_cast<std::uint32_t>(key_high[lane])};
     }
 
-    RDDL_INLINE Mask<n> require(Mask<n> ok, FaultKind kind, Place place,
-                                const Lanes<double, n>& value) {
+    // `value` is a number, the same in all lanes or one in each.
+    template <class Value>
+    RDDL_INLINE Mask<n> require(Mask<n> ok, FaultKind kind, Place place, const Value& value) {
         if (any(active && !ok)) record(active && !ok, kind, place, value);
         return ok;
     }
 
   private:
+    template <class Value>
     [[gnu::noinline, gnu::cold]] void record(Mask<n> failed, FaultKind kind, Place place,
-                                             const Lanes<double, n>& value) {
+                                             const Value& value) {
         for_each_lane(failed && !faulty, [&](int lane) {
-            faults[static_cast<std::size_t>(lane)] = {kind, place, value[lane]};
+            faults[static_cast<std::size_t>(lane)] = {kind, place, get_lane(value, lane)};
         });
         faulty = faulty || failed;
     }

@@ -148,7 +148,7 @@ typename L::Real advance(const E& engine, const Columns& state_columns,
     if (horizon > 0)
         episodes.beyond_horizon =
             select(moved, episodes.steps >= Int{horizon}, episodes.beyond_horizon);
-    return select(moved, reward, 0.0);
+    return select(moved, reward, Real{0});
 }
 
 }  // namespace rddl

@@ -1,7 +1,8 @@
 // Lane types: what one evaluation of the emitted code works on.
 //
 // Emitted code and kernels are generic over a lane type L, which names the types of values. Scalar
-// is one environment, Pack<n> (pack.hpp) is n of them.
+// is one environment, Pack<n> (pack.hpp) is n of them. Both hold reals as double; ScalarOf<float>
+// and Pack<n, float> hold them as float.
 #pragma once
 
 #include <rddl/simd.hpp>
@@ -14,13 +15,16 @@ namespace rddl {
 // Named after the level of simd.hpp as packs are, since Context<Scalar> depends on it.
 inline namespace RDDL_SIMD_LEVEL {
 
-struct Scalar {
+template <class R>
+struct ScalarOf {
     static constexpr int width = 1;
+    using Element = R;  // the real of one lane
     using Bool = bool;
     using Int = std::int64_t;
-    using Real = double;
+    using Real = R;
     using Word = std::uint64_t;  // 64 random bits, or a counter
 };
+using Scalar = ScalarOf<double>;
 
 }  // namespace RDDL_SIMD_LEVEL
 

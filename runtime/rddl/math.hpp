@@ -15,4 +15,5 @@
 #include <rddl/math/logarithm.hpp>
 #include <rddl/math/power.hpp>
 #include <rddl/math/remainder.hpp>
+#include <rddl/math/single.hpp>
 #include <rddl/math/trigonometric.hpp>

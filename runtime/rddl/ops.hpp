@@ -1,7 +1,7 @@
 // RDDL's scalar operators where C++ has none, or one that means something else.
 //
-// int is int64 and wraps around; real is IEEE double. Nothing here is undefined for any operand.
-// Real + - * / and comparisons, and the connectives on bool, are the plain C++ operators.
+// int is int64 and wraps around; real is IEEE double, or float. Nothing here is undefined for any
+// operand. Real + - * / and comparisons, and the connectives on bool, are the plain C++ operators.
 #pragma once
 
 #include <rddl/context.hpp>
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace rddl {
 
@@ -27,8 +28,8 @@ constexpr std::int64_t select(bool condition, std::int64_t a, std::int64_t b) {
 }
 
 // Evaluates only the branch taken; the branches are functions without parameters.
-template <class Then, class Else>
-constexpr auto branch(Context<Scalar>&, bool condition, Then&& then_value, Else&& else_value) {
+template <class R, class Then, class Else>
+constexpr auto branch(Context<ScalarOf<R>>&, bool condition, Then&& then_value, Else&& else_value) {
     return condition ? then_value() : else_value();
 }
 // "if condition then ... else if next() then ... else ...": further conditions are functions too.
@@ -49,6 +50,12 @@ constexpr double to_real(bool a) {
 }
 constexpr double to_real(std::int64_t a) {
     return static_cast<double>(a);
+}
+constexpr float to_float(bool a) {
+    return a ? 1.0f : 0.0f;
+}
+constexpr float to_float(std::int64_t a) {
+    return static_cast<float>(a);
 }
 
 // Truncates; nan and what int cannot hold give the least int, as the conversion of x86 does.
@@ -98,7 +105,8 @@ constexpr std::int64_t wrap_power(std::int64_t base, std::int64_t exponent) {
 }
 
 // Faults on a negative exponent.
-constexpr std::int64_t power(Context<Scalar>& context, Place place, std::int64_t base,
+template <class R>
+constexpr std::int64_t power(Context<ScalarOf<R>>& context, Place place, std::int64_t base,
                              std::int64_t exponent) {
     const bool valid =
         context.require(exponent >= 0, FaultKind::NegativeExponent, place, to_real(exponent));
@@ -111,6 +119,9 @@ constexpr bool is_nan(std::int64_t) {
     return false;
 }
 constexpr bool is_nan(double a) {
+    return a != a;
+}
+constexpr bool is_nan(float a) {
     return a != a;
 }
 
@@ -138,6 +149,12 @@ constexpr double minimum(double a, double b) {
 constexpr double maximum(double a, double b) {
     return a >= b || is_nan(a) ? a : b;
 }
+constexpr float minimum(float a, float b) {
+    return a <= b || is_nan(a) ? a : b;
+}
+constexpr float maximum(float a, float b) {
+    return a >= b || is_nan(a) ? a : b;
+}
 
 // -------------------------------------------------- real functions beside those of math.hpp
 
@@ -157,12 +174,15 @@ inline double ln_absolute_gamma(double a) {
     return ::lgamma_r(a, &sign_of_gamma);  // std::lgamma writes a global variable
 }
 // Both fault unless a > 0.
-inline double ln_gamma(Context<Scalar>& context, Place place, double a) {
+template <class R>
+R ln_gamma(Context<ScalarOf<R>>& context, Place place, std::type_identity_t<R> a) {
     const bool valid = context.require(a > 0, FaultKind::GammaArgument, place, a);
-    return valid ? ln_absolute_gamma(a) : 0.0;
+    return valid ? static_cast<R>(ln_absolute_gamma(a)) : R{0};
 }
-inline double gamma(Context<Scalar>& context, Place place, double a) {
-    return context.require(a > 0, FaultKind::GammaArgument, place, a) ? std::tgamma(a) : 0.0;
+template <class R>
+R gamma(Context<ScalarOf<R>>& context, Place place, std::type_identity_t<R> a) {
+    const bool valid = context.require(a > 0, FaultKind::GammaArgument, place, a);
+    return valid ? static_cast<R>(std::tgamma(double{a})) : R{0};
 }
 
 // -------------------------------------------------------------------------------- indexing

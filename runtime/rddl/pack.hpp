@@ -1,8 +1,8 @@
 // Packs: many environments in vector registers, evaluated together.
 //
 // Pack<n> is a lane type (lane.hpp). Its reals and ints are n values in as many registers as that
-// takes, its bools the n bits of an unsigned number. What an operator does in a lane is what it
-// does to the scalar there, bit for bit.
+// takes, its bools the n bits of an unsigned number. Pack<n, float> has reals of half the width.
+// What an operator does in a lane is what it does to the scalar there, bit for bit.
 #pragma once
 
 #include <rddl/lane.hpp>
@@ -77,14 +77,15 @@ constexpr void for_each_lane(Mask<n> mask, Body&& body) {
 
 // --------------------------------------------------------------------------------- numbers
 
-// n values of type double, int64_t or uint64_t.
+// n values of type double, float, int64_t, uint64_t or uint32_t.
 template <class T, int n>
 struct Lanes {
     using Element = T;
     using Vector = simd::Vector<T>;
     static constexpr int width = n;
-    static constexpr int part_count = n / simd::lanes;
-    static_assert(n % simd::lanes == 0);
+    static constexpr int part_width = simd::lanes_of<T>;
+    static constexpr int part_count = n / part_width;
+    static_assert(n % part_width == 0);
 
     Vector part[part_count];
 
@@ -103,20 +104,16 @@ struct Lanes {
     static RDDL_INLINE Lanes load(const T* from) {
         Lanes result;
         for (int p = 0; p < part_count; ++p)
-            __builtin_memcpy(&result.part[p], from + p * simd::lanes, sizeof(Vector));
+            __builtin_memcpy(&result.part[p], from + p * part_width, sizeof(Vector));
         return result;
     }
     RDDL_INLINE void store(T* to) const {
         for (int p = 0; p < part_count; ++p)
-            __builtin_memcpy(to + p * simd::lanes, &part[p], sizeof(Vector));
+            __builtin_memcpy(to + p * part_width, &part[p], sizeof(Vector));
     }
 
-    RDDL_INLINE T operator[](int lane) const {
-        return part[lane / simd::lanes][lane % simd::lanes];
-    }
-    RDDL_INLINE void set(int lane, T value) {
-        part[lane / simd::lanes][lane % simd::lanes] = value;
-    }
+    RDDL_INLINE T operator[](int lane) const { return part[lane / part_width][lane % part_width]; }
+    RDDL_INLINE void set(int lane, T value) { part[lane / part_width][lane % part_width] = value; }
 
     friend RDDL_INLINE Lanes operator+(Lanes a, Lanes b) {
         return each([](Vector x, Vector y) { return x + y; }, a, b);
@@ -183,19 +180,20 @@ struct Lanes {
     static RDDL_INLINE Mask<n> mask(Compare compare, const Lanes& a, const Lanes& b) {
         std::uint64_t bits = 0;
         for (int p = 0; p < part_count; ++p)
-            bits |= std::uint64_t{compare(a.part[p], b.part[p])} << (p * simd::lanes);
+            bits |= std::uint64_t{compare(a.part[p], b.part[p])} << (p * part_width);
         return Mask<n>::of_bits(bits);
     }
 };
 
 // ----------------------------------------------------------------------------- the lane type
 
-template <int n>
+template <int n, class R = double>
 struct Pack {
     static constexpr int width = n;
+    using Element = R;
     using Bool = Mask<n>;
     using Int = Lanes<std::int64_t, n>;
-    using Real = Lanes<double, n>;
+    using Real = Lanes<R, n>;
     using Word = Lanes<std::uint64_t, n>;
 };
 

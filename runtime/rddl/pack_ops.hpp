@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -41,7 +42,7 @@ template <class T, int n>
 requires std::is_arithmetic_v<T>
 struct Widened<T, n> {
     using type = Lanes<
-        std::conditional_t<std::is_floating_point_v<T>, double,
+        std::conditional_t<std::is_floating_point_v<T>, T,
                            std::conditional_t<std::is_unsigned_v<T>, std::uint64_t, std::int64_t>>,
         n>;
 };
@@ -97,16 +98,18 @@ template <int part_count>
 struct MaskParts {
     simd::MaskBits part[part_count];
 };
-template <int n, std::size_t... p>
-RDDL_INLINE MaskParts<n / simd::lanes> parts_of(Mask<n> mask, std::index_sequence<p...>) {
-    return {static_cast<simd::MaskBits>(std::uint64_t{mask.bits} >> (p * simd::lanes) &
-                                        simd::all_lanes)...};
+template <class T, int n, std::size_t... p>
+RDDL_INLINE auto parts_of(Mask<n> mask, std::index_sequence<p...>) {
+    constexpr int width = simd::lanes_of<T>;
+    constexpr std::uint64_t all = simd::all_lanes_of<T>;
+    return MaskParts<sizeof...(p)>{
+        static_cast<simd::MaskBits>(std::uint64_t{mask.bits} >> (p * width) & all)...};
 }
 template <class T, int n>
 RDDL_INLINE Lanes<T, n> choose(Mask<n> condition, const Lanes<T, n>& a, const Lanes<T, n>& b) {
-    return Lanes<T, n>::each([](auto bits, auto x, auto y) { return simd::blend(bits, x, y); },
-                             parts_of(condition, std::make_index_sequence<n / simd::lanes>()), a,
-                             b);
+    return Lanes<T, n>::each(
+        [](auto bits, auto x, auto y) { return simd::blend(bits, x, y); },
+        parts_of<T>(condition, std::make_index_sequence<Lanes<T, n>::part_count>()), a, b);
 }
 
 }  // namespace detail
@@ -124,8 +127,8 @@ requires SomePack<A, B> RDDL_INLINE auto select(bool condition, const A& a, cons
 }
 
 // Evaluates each branch that some lane takes; the others cannot fault meanwhile.
-template <int n, class Condition, class Then, class Else>
-constexpr auto branch(Context<Pack<n>>& context, Condition condition, Then&& then_value,
+template <int n, class R, class Condition, class Then, class Else>
+constexpr auto branch(Context<Pack<n, R>>& context, Condition condition, Then&& then_value,
                       Else&& else_value) {
     using Result = LanesOf<decltype(then_value()), n>;
     static_assert(std::is_same_v<Result, LanesOf<decltype(else_value()), n>>);
@@ -153,7 +156,37 @@ RDDL_INLINE Lanes<To, n> same_bits(const Lanes<From, n>& a) {
         [](auto x) { return std::bit_cast<typename Lanes<To, n>::Vector>(x); }, a);
 }
 
+// Between lanes of 32 and of 64 bits.
+template <class To, class From, int n>
+RDDL_INLINE Lanes<To, n> convert(const Lanes<From, n>& a) {
+    Lanes<To, n> result;
+    for (int p = 0; p < Lanes<To, n>::part_count; ++p) {
+        if constexpr (sizeof(To) > sizeof(From))
+            result.part[p] = simd::widen_half<To>(a.part[p / 2], p % 2);
+        else
+            result.part[p] = simd::narrow_both<To>(a.part[2 * p], a.part[2 * p + 1]);
+    }
+    return result;
+}
+
 }  // namespace detail
+
+template <int n>
+RDDL_INLINE Lanes<double, n> to_double(const Lanes<float, n>& a) {
+    return detail::convert<double>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> to_float(const Lanes<double, n>& a) {
+    return detail::convert<float>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> to_float(const Lanes<std::int64_t, n>& a) {
+    return detail::convert<float>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> to_float(Mask<n> a) {
+    return select(a, 1.0f, 0.0f);
+}
 
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> to_int(Mask<n> a) {
@@ -171,6 +204,10 @@ template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<double, n>& a) {
     return Lanes<std::int64_t, n>::each([](auto x) { return simd::truncate(x); }, a);
 }
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> truncate_to_int(const Lanes<float, n>& a) {
+    return truncate_to_int(to_double(a));
+}
 
 constexpr std::uint64_t words_of(std::int64_t a) {
     return static_cast<std::uint64_t>(a);
@@ -182,6 +219,14 @@ RDDL_INLINE Lanes<double, n> real_of_bits(const Lanes<std::uint64_t, n>& a) {
 template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> bits_of(const Lanes<double, n>& a) {
     return detail::same_bits<std::uint64_t>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<float, n> real_of_bits(const Lanes<std::uint32_t, n>& a) {
+    return detail::same_bits<float>(a);
+}
+template <int n>
+RDDL_INLINE Lanes<std::uint32_t, n> bits_of(const Lanes<float, n>& a) {
+    return detail::same_bits<std::uint32_t>(a);
 }
 template <int n>
 RDDL_INLINE Lanes<std::uint64_t, n> words_of(const Lanes<std::int64_t, n>& a) {
@@ -248,6 +293,10 @@ RDDL_INLINE Lanes<double, n> absolute(const Lanes<double, n>& a) {
     return real_of_bits(bits_of(a) & Lanes<std::uint64_t, n>{~(std::uint64_t{1} << 63)});
 }
 template <int n>
+RDDL_INLINE Lanes<float, n> absolute(const Lanes<float, n>& a) {
+    return real_of_bits(bits_of(a) & Lanes<std::uint32_t, n>{~(std::uint32_t{1} << 31)});
+}
+template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> absolute(const Lanes<std::int64_t, n>& a) {
     return select(a < std::int64_t{0}, wrap_neg(a), a);
 }
@@ -274,16 +323,16 @@ requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
 
 // ----------------------------------------------------------------------------- real functions
 
-template <int n>
-RDDL_INLINE Lanes<double, n> sqrt(const Lanes<double, n>& a) {
-    return Lanes<double, n>::each([](auto x) { return simd::square_root(x); }, a);
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<R, n> sqrt(const Lanes<R, n>& a) {
+    return Lanes<R, n>::each([](auto x) { return simd::square_root(x); }, a);
 }
 
 // Those of two operands with one of them the same in all lanes.
 #define RDDL_BROADCAST(function)                                                 \
     template <class A, class B>                                                  \
     requires(SomePack<A> != SomePack<B>) auto function(const A& a, const B& b) { \
-        using Real = Lanes<double, detail::common_width<A, B>>;                  \
+        using Real = LanesOf<A, detail::common_width<A, B>>;                     \
         return function(Real(a), Real(b));                                       \
     }
 RDDL_BROADCAST(log)
@@ -292,13 +341,13 @@ RDDL_BROADCAST(atan2)
 #undef RDDL_BROADCAST
 
 // As that of scalars: by far the most frequent exponent is a constant 2.
-template <int n>
-RDDL_INLINE Lanes<double, n> power(const Lanes<double, n>& base, double exponent) {
-    return exponent == 2.0 ? base * base : power(base, Lanes<double, n>(exponent));
+template <std::floating_point R, int n>
+RDDL_INLINE Lanes<R, n> power(const Lanes<R, n>& base, std::type_identity_t<R> exponent) {
+    return exponent == R{2} ? base * base : power(base, Lanes<R, n>(exponent));
 }
-template <int n>
-Lanes<double, n> power(double base, const Lanes<double, n>& exponent) {
-    return power(Lanes<double, n>(base), exponent);
+template <std::floating_point R, int n>
+Lanes<R, n> power(std::type_identity_t<R> base, const Lanes<R, n>& exponent) {
+    return power(Lanes<R, n>(base), exponent);
 }
 
 template <int n>
@@ -315,7 +364,20 @@ RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<double, n>& a) {
 }
 
 template <int n>
-Lanes<std::int64_t, n> power(Context<Pack<n>>& context, Place place,
+RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<float, n>& a) {
+    return round(to_double(a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> floor(const Lanes<float, n>& a) {
+    return floor(to_double(a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<float, n>& a) {
+    return ceil(to_double(a));
+}
+
+template <int n, class R>
+Lanes<std::int64_t, n> power(Context<Pack<n, R>>& context, Place place,
                              std::type_identity_t<const Lanes<std::int64_t, n>&> base,
                              std::type_identity_t<const Lanes<std::int64_t, n>&> exponent) {
     const Mask<n> valid = context.require(exponent >= std::int64_t{0}, FaultKind::NegativeExponent,
@@ -325,17 +387,19 @@ Lanes<std::int64_t, n> power(Context<Pack<n>>& context, Place place,
     return select(valid, powers, std::int64_t{0});
 }
 
-template <int n>
-Lanes<double, n> ln_gamma(Context<Pack<n>>& context, Place place,
-                          std::type_identity_t<const Lanes<double, n>&> a) {
-    const Mask<n> valid = context.require(a > 0.0, FaultKind::GammaArgument, place, a);
-    return select(valid, map_lanes(a, [](double x) { return ln_absolute_gamma(x); }), 0.0);
+template <int n, class R>
+Lanes<R, n> ln_gamma(Context<Pack<n, R>>& context, Place place,
+                     std::type_identity_t<const Lanes<R, n>&> a) {
+    const Mask<n> valid = context.require(a > R{0}, FaultKind::GammaArgument, place, a);
+    return select(valid, map_lanes(a, [](R x) { return static_cast<R>(ln_absolute_gamma(x)); }),
+                  R{0});
 }
-template <int n>
-Lanes<double, n> gamma(Context<Pack<n>>& context, Place place,
-                       std::type_identity_t<const Lanes<double, n>&> a) {
-    const Mask<n> valid = context.require(a > 0.0, FaultKind::GammaArgument, place, a);
-    return select(valid, map_lanes(a, [](double x) { return std::tgamma(x); }), 0.0);
+template <int n, class R>
+Lanes<R, n> gamma(Context<Pack<n, R>>& context, Place place,
+                  std::type_identity_t<const Lanes<R, n>&> a) {
+    const Mask<n> valid = context.require(a > R{0}, FaultKind::GammaArgument, place, a);
+    return select(valid, map_lanes(a, [](R x) { return static_cast<R>(std::tgamma(double{x})); }),
+                  R{0});
 }
 
 // --------------------------------------------------------------------------------- indexing
@@ -364,26 +428,36 @@ RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
 }
 
 // The elements that each lane chooses from a table: its own where the elements are packs.
-template <int n>
-RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
-    return Lanes<double, n>::each([elements](auto x) { return simd::gather(elements, x); },
-                                  indices);
-}
 template <class T, int n>
 requires std::is_arithmetic_v<T>
 auto gather(const T* elements, const Lanes<std::int64_t, n>& indices) {
     return map_lanes(indices, [elements](std::int64_t place) { return elements[place]; });
 }
+template <int n>
+RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
+    return Lanes<double, n>::each([elements](auto x) { return simd::gather(elements, x); },
+                                  indices);
+}
+template <int n>
+auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
+    Lanes<float, n> result;
+    for (int p = 0; p < result.part_count; ++p)
+        result.part[p] = simd::gather(elements, indices.part[2 * p], indices.part[2 * p + 1]);
+    return result;
+}
 template <class T, int n>
 auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) {
-    Lanes<T, n> result;
-    const T* const values = reinterpret_cast<const T*>(elements);
-    for (int p = 0; p < result.part_count; ++p) {
-        simd::Ints places = indices.part[p] * n;
-        for (int i = 0; i < simd::lanes; ++i) places[i] += p * simd::lanes + i;
-        result.part[p] = simd::gather(values, places);
+    Lanes<std::int64_t, n> places;
+    for (int p = 0; p < places.part_count; ++p) {
+        places.part[p] = indices.part[p] * n;
+        for (int i = 0; i < simd::lanes; ++i) places.part[p][i] += p * simd::lanes + i;
     }
-    return result;
+    const T* const values = reinterpret_cast<const T*>(elements);
+    if constexpr (std::is_same_v<T, float>)
+        return gather(values, places);
+    else
+        return Lanes<T, n>::each([values](auto part) { return simd::gather(values, part); },
+                                 places);
 }
 template <int n>
 auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {

@@ -55,11 +55,11 @@ struct DecisionBuffers {
 
 // One decision of an episode, if it runs. A fault ends the episode, and so does an action with more
 // than max-nondef-actions values that are not the default; else the memory changes.
-template <PolicyEngine E>
-void decide(const E& engine, const rddl_problem& problem, Episodes<Scalar>& episode,
+template <PolicyEngine E, class L = typename E::Lane>
+void decide(const E& engine, const rddl_problem& problem, Episodes<L>& episode,
             const std::byte* observation, const DecisionBuffers& buffers, std::byte* memory) {
     if (!episode.running()) return;
-    Context<Scalar> context = episode.context_of_step(true);
+    Context<L> context = episode.context_of_step(true);
     engine.act(observation, memory, buffers.scratch, buffers.action, buffers.next_memory, context);
     if (problem.max_nondef_actions >= 0) {
         const std::int64_t changed = count_non_default(problem, buffers.action);

@@ -10,7 +10,9 @@
 #include <rddl/pack_ops.hpp>
 #include <rddl/philox.hpp>
 
+#include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl {
 
@@ -23,16 +25,27 @@ constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
 }
 
 // The upper 52 bits of two words, low word first: a multiple of 2^-52 in [0, 1).
-template <class Word>
-RDDL_INLINE auto unit_real(Word low, Word high) {
+template <class R = double, class Word>
+requires std::same_as<R, double> RDDL_INLINE auto unit_real(Word low, Word high) {
     const Word mantissa = ((high << 32) >> 12) | ((low << 32) >> 44);
     const Word one = Word{std::uint64_t{0x3FF0000000000000}};
     return real_of_bits(mantissa | one) - 1.0;
 }
+// For floats the upper 23 bits, hence what the double is rounded down to.
+template <class R, class Word>
+requires std::same_as<R, float> RDDL_INLINE auto unit_real(Word, Word high) {
+    const Word mantissa = ((high << 32) >> 41) << 29;
+    const Word one = Word{std::uint64_t{0x3FF0000000000000}};
+    return to_float(real_of_bits(mantissa | one) - 1.0);
+}
 // In (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
-template <class Real>
+template <RealLanes Real>
 RDDL_INLINE Real open_unit_real(Real unit) {
     return unit + 0x1p-53;
+}
+template <FloatLanes Real>
+RDDL_INLINE Real open_unit_real(Real unit) {
+    return unit + 0x1p-24f;
 }
 
 // ------------------------------------------------------------------- one number of each draw
@@ -44,31 +57,32 @@ struct TwoDraws {
     Real even, odd;
 };
 
-template <class Word>
+template <class R, class Word>
 RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_number,
                                const philox::Key<Word>& key) {
     const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
         philox::Block<Word>{step, Word{std::uint64_t{series}}, block_number,
                             Word{std::uint64_t{0}}},
         key);
-    const auto even = unit_real(words[0], words[1]);
-    const auto odd = unit_real(words[2], words[3]);
+    const auto even = unit_real<R>(words[0], words[1]);
+    const auto odd = unit_real<R>(words[2], words[3]);
     return TwoDraws<std::remove_const_t<decltype(even)>>{even, odd};
 }
 
 // A loop draws for one index after the other, so some are made at once: for packs the draws of two
 // neighbours, for one environment as many as a register has room for.
-template <int n>
-[[gnu::noinline]] inline void refill(Context<Pack<n>>& context, std::uint32_t series,
-                                     std::uint32_t block_number) {
+template <int n, class R>
+[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
+                              std::uint32_t block_number) {
     using Word = Lanes<std::uint64_t, n>;
-    const auto draws = first_numbers<Word>(context.step, series, Word{std::uint64_t{block_number}},
-                                           {context.key_low, context.key_high});
+    const auto draws =
+        first_numbers<R, Word>(context.step, series, Word{std::uint64_t{block_number}},
+                               {context.key_low, context.key_high});
     context.recent[series % recent_series] = {series, block_number, draws.even, draws.odd};
 }
 
-template <int n>
-RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) {
+template <int n, class R>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     const std::uint32_t block_number = place.index / 2;
     const auto& recent = context.recent[place.series % recent_series];
     if (recent.series != place.series || recent.block != block_number)
@@ -76,13 +90,15 @@ RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) 
     return place.index % 2 == 0 ? recent.even : recent.odd;
 }
 
-[[gnu::noinline]] inline void refill(Context<Scalar>& context, std::uint32_t series,
-                                     std::uint32_t chunk) {
-    using Word = Lanes<std::uint64_t, simd::lanes>;
+template <class R>
+[[gnu::noinline]] void refill(Context<ScalarOf<R>>& context, std::uint32_t series,
+                              std::uint32_t chunk) {
+    constexpr int lanes = simd::lanes_of<R>;
+    using Word = Lanes<std::uint64_t, lanes>;
     Word block_numbers;
-    for (int lane = 0; lane < simd::lanes; ++lane)
-        block_numbers.set(lane, std::uint64_t{chunk} * simd::lanes + lane);
-    const auto draws = first_numbers<Word>(
+    for (int lane = 0; lane < lanes; ++lane)
+        block_numbers.set(lane, std::uint64_t{chunk} * lanes + lane);
+    const auto draws = first_numbers<R, Word>(
         Word{std::uint64_t{context.step}}, series, block_numbers,
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
     auto& recent = context.recent[series % recent_series];
@@ -92,12 +108,14 @@ RDDL_INLINE Lanes<double, n> uniform_at(Context<Pack<n>>& context, Place place) 
     draws.odd.store(recent.numbers[1]);
 }
 
-inline double uniform_at(Context<Scalar>& context, Place place) {
-    const std::uint32_t chunk = place.index / 2 / simd::lanes;
+template <class R>
+R uniform_at(Context<ScalarOf<R>>& context, Place place) {
+    constexpr int lanes = simd::lanes_of<R>;
+    const std::uint32_t chunk = place.index / 2 / lanes;
     const auto& recent = context.recent[place.series % recent_series];
     if (recent.series != place.series || recent.chunk != chunk)
         refill(context, place.series, chunk);
-    return recent.numbers[place.index % 2][place.index / 2 % simd::lanes];
+    return recent.numbers[place.index % 2][place.index / 2 % lanes];
 }
 
 template <class L>
@@ -112,7 +130,8 @@ class Draws {
   public:
     constexpr Draws(StreamKey key, std::uint32_t step, Place place)
         : step_(step), place_(place), key_{key.low, key.high} {}
-    constexpr Draws(const Context<Scalar>& context, Place place)
+    template <class R = double>
+    constexpr Draws(const Context<ScalarOf<R>>& context, Place place)
         : Draws(context.key, context.step, place) {}
 
     constexpr double uniform() {
@@ -120,16 +139,16 @@ class Draws {
         if (number == 0) return first();
         if (number % 2 == 0) return second_;
         const philox::Block<std::uint64_t> words = generate(place_.index, 1 + (number - 1) / 2);
-        second_ = unit_real(words[2], words[3]);
-        return unit_real(words[0], words[1]);
+        second_ = unit_real<double>(words[2], words[3]);
+        return unit_real<double>(words[0], words[1]);
     }
     constexpr double open_uniform() { return open_unit_real(uniform()); }
 
   private:
     constexpr double first() const {
         const philox::Block<std::uint64_t> words = generate(place_.index / 2, 0);
-        return place_.index % 2 == 0 ? unit_real(words[0], words[1])
-                                     : unit_real(words[2], words[3]);
+        return place_.index % 2 == 0 ? unit_real<double>(words[0], words[1])
+                                     : unit_real<double>(words[2], words[3]);
     }
     constexpr philox::Block<std::uint64_t> generate(std::uint64_t index,
                                                     std::uint64_t number) const {
@@ -144,23 +163,28 @@ class Draws {
     double second_ = 0;  // of the counter value used last
 };
 
-// For draws that need more than one number: `kernel(draws, parameters...)` in each lane whose
-// parameters are valid, zero elsewhere.
-template <class Kernel, class... Parameters>
-constexpr auto draw_in_each_lane(const Context<Scalar>& context, Place place, bool valid,
+// An int, or the lane type's real instead of double.
+template <class L, class T>
+using DrawnBy = std::conditional_t<std::is_floating_point_v<T>, typename L::Element, T>;
+
+// For draws that need more than one number: `kernel(draws, parameters...)`, which draws ints or
+// doubles, in each lane whose parameters are valid, zero elsewhere.
+template <class R, class Kernel, class... Parameters>
+constexpr auto draw_in_each_lane(const Context<ScalarOf<R>>& context, Place place, bool valid,
                                  Kernel kernel, Parameters... parameters) {
     Draws draws(context, place);
-    using Result = decltype(kernel(draws, parameters...));
-    return valid ? kernel(draws, parameters...) : Result{};
+    using Result = DrawnBy<ScalarOf<R>, decltype(kernel(draws, parameters...))>;
+    return valid ? static_cast<Result>(kernel(draws, parameters...)) : Result{};
 }
-template <int n, class Kernel, class... Parameters>
-auto draw_in_each_lane(const Context<Pack<n>>& context, Place place, Mask<n> valid, Kernel kernel,
-                       Parameters... parameters) {
-    using Result = decltype(kernel(std::declval<Draws&>(), parameters[0]...));
+template <int n, class R, class Kernel, class... Parameters>
+auto draw_in_each_lane(const Context<Pack<n, R>>& context, Place place, Mask<n> valid,
+                       Kernel kernel, Parameters... parameters) {
+    using Drawn = decltype(kernel(std::declval<Draws&>(), parameters[0]...));
+    using Result = DrawnBy<Pack<n, R>, Drawn>;
     LanesOf<Result, n> results{Result{}};
     for_each_lane(valid && context.active, [&](int lane) {
         Draws draws(context.key(lane), static_cast<std::uint32_t>(context.step[lane]), place);
-        results.set(lane, kernel(draws, parameters[lane]...));
+        results.set(lane, static_cast<Result>(kernel(draws, parameters[lane]...)));
     });
     return results;
 }

@@ -1,4 +1,4 @@
-// What a real type offers to the elementary functions (rddl/math.hpp), here for double.
+// What a real type offers to the elementary functions (rddl/math.hpp), here for double and float.
 //
 // A pack of reals, one in each lane, offers the same names with the same meaning in every lane:
 //
@@ -11,6 +11,10 @@
 //                                   around and has + - & | ^, also with std::uint64_t on the right,
 //                                   and << >> by an int
 //     map_lanes(x, f), (x, y, f)    f, a function of doubles, in each lane
+//
+// float and packs of it have the same with binary32, std::uint32_t and floats, and
+//
+//     to_double, to_float           between both, lane by lane
 #pragma once
 
 #include <bit>
@@ -35,11 +39,24 @@ constexpr double real_of_bits(std::uint64_t bits) {
     return std::bit_cast<double>(bits);
 }
 
-// double or a pack, but no integer that would become a double.
+constexpr std::uint32_t bits_of(float a) {
+    return std::bit_cast<std::uint32_t>(a);
+}
+constexpr float real_of_bits(std::uint32_t bits) {
+    return std::bit_cast<float>(bits);
+}
+constexpr double to_double(float a) {
+    return a;
+}
+constexpr float to_float(double a) {
+    return static_cast<float>(a);
+}
+
+// double or a pack of doubles, but no integer that would become one; the same with float.
 template <class R>
-concept RealLanes = (std::same_as<R, double> || std::is_class_v<R>)&&requires(R a) {
-    bits_of(a);
-};
+concept RealLanes = std::same_as<R, double> || std::same_as<typename R::Element, double>;
+template <class R>
+concept FloatLanes = std::same_as<R, float> || std::same_as<typename R::Element, float>;
 
 constexpr bool any(bool mask) {
     return mask;
@@ -47,11 +64,20 @@ constexpr bool any(bool mask) {
 constexpr double select(bool condition, double a, double b) {
     return condition ? a : b;
 }
+constexpr float select(bool condition, float a, float b) {
+    return condition ? a : b;
+}
 
 inline double absolute(double a) {
     return std::fabs(a);
 }
+inline float absolute(float a) {
+    return std::fabs(a);
+}
 inline double sqrt(double a) {
+    return std::sqrt(a);
+}
+inline float sqrt(float a) {
     return std::sqrt(a);
 }
 

@@ -36,25 +36,27 @@ namespace detail {
 constexpr std::int64_t plus(std::int64_t a, std::int64_t b) {
     return wrap_add(a, b);
 }
-constexpr double plus(double a, double b) {
+template <std::floating_point R>
+constexpr R plus(R a, R b) {
     return a + b;
 }
 constexpr std::int64_t times(std::int64_t a, std::int64_t b) {
     return wrap_mul(a, b);
 }
-constexpr double times(double a, double b) {
+template <std::floating_point R>
+constexpr R times(R a, R b) {
     return a * b;
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto plus(const A& a, const B& b) {
-    if constexpr (std::same_as<LanesOf<A, common_width<A, B>>, Lanes<double, common_width<A, B>>>)
+    if constexpr (std::floating_point<typename LanesOf<A, common_width<A, B>>::Element>)
         return a + b;
     else
         return wrap_add(a, b);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto times(const A& a, const B& b) {
-    if constexpr (std::same_as<LanesOf<A, common_width<A, B>>, Lanes<double, common_width<A, B>>>)
+    if constexpr (std::floating_point<typename LanesOf<A, common_width<A, B>>::Element>)
         return a * b;
     else
         return wrap_mul(a, b);

@@ -28,6 +28,7 @@
 #endif
 
 #include <cmath>
+#include <type_traits>
 
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
@@ -57,6 +58,18 @@ struct VectorOf<double> {
     typedef double type __attribute__((vector_size(register_bytes)));
 };
 template <>
+struct VectorOf<float> {
+    typedef float type __attribute__((vector_size(register_bytes)));
+};
+template <>
+struct VectorOf<std::uint32_t> {
+    typedef std::uint32_t type __attribute__((vector_size(register_bytes)));
+};
+template <>
+struct VectorOf<std::int32_t> {
+    typedef std::int32_t type __attribute__((vector_size(register_bytes)));
+};
+template <>
 struct VectorOf<std::int64_t> {
     typedef std::int64_t type __attribute__((vector_size(register_bytes)));
 };
@@ -67,13 +80,19 @@ struct VectorOf<std::uint64_t> {
 template <class T>
 using Vector = typename VectorOf<T>::type;
 
+// Lanes of type T in a register.
+template <class T>
+inline constexpr int lanes_of = register_bytes / static_cast<int>(sizeof(T));
+
 using Reals = Vector<double>;
+using Floats = Vector<float>;
 using Ints = Vector<std::int64_t>;
 using Words = Vector<std::uint64_t>;
 
-// The lowest `lanes` bits count.
+// As many of the lowest bits count as there are lanes.
 using MaskBits = std::uint32_t;
-inline constexpr MaskBits all_lanes = (1u << lanes) - 1;
+template <class T>
+inline constexpr MaskBits all_lanes_of = (1u << lanes_of<T>)-1;
 
 // An unsigned number of n bits: the mask of n lanes in several registers.
 template <int n>
@@ -115,6 +134,15 @@ template <class To, class From>
 [[gnu::always_inline]] inline MaskBits equal(Reals a, Reals b) {
     return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ);
 }
+[[gnu::always_inline]] inline MaskBits less(Floats a, Floats b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
+[[gnu::always_inline]] inline MaskBits less_equal(Floats a, Floats b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+}
+[[gnu::always_inline]] inline MaskBits equal(Floats a, Floats b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ);
+}
 [[gnu::always_inline]] inline MaskBits less(Ints a, Ints b) {
     return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LT);
 }
@@ -130,27 +158,39 @@ template <class V>
 [[gnu::always_inline]] inline V blend(MaskBits mask, V a, V b) {
     return (V)_mm512_mask_blend_pd(static_cast<__mmask8>(mask), (__m512d)b, (__m512d)a);
 }
+[[gnu::always_inline]] inline Floats blend(MaskBits mask, Floats a, Floats b) {
+    return _mm512_mask_blend_ps(static_cast<__mmask16>(mask), b, a);
+}
 
 #else
 
 namespace detail {
 
-// All ones where the bit is set.
-[[gnu::always_inline]] inline Ints spread(MaskBits mask) {
-    Ints bit_of_lane;
-    for (int i = 0; i < lanes; ++i) bit_of_lane[i] = std::int64_t{1} << i;
-    return (bit_of_lane & static_cast<std::int64_t>(mask)) == bit_of_lane;
+// All ones where the bit is set, in lanes as wide as T.
+template <class T>
+[[gnu::always_inline]] inline Vector<T> spread(MaskBits mask) {
+    Vector<T> bit_of_lane;
+    for (int i = 0; i < lanes_of<T>; ++i) bit_of_lane[i] = T{1} << i;
+    return (bit_of_lane & static_cast<T>(mask)) == bit_of_lane;
 }
 
 // Of lanes that are all ones or all zeros.
-[[gnu::always_inline]] inline MaskBits gathered(Ints a) {
+template <class V>
+[[gnu::always_inline]] inline MaskBits gathered(V a) {
+    constexpr int count = register_bytes / static_cast<int>(sizeof a[0]);
 #if defined(__AVX2__)
-    return static_cast<MaskBits>(_mm256_movemask_pd(reinterpret<__m256d>(a)));
+    if constexpr (count == lanes)
+        return static_cast<MaskBits>(_mm256_movemask_pd(reinterpret<__m256d>(a)));
+    else
+        return static_cast<MaskBits>(_mm256_movemask_ps(reinterpret<__m256>(a)));
 #elif defined(__SSE2__)
-    return static_cast<MaskBits>(_mm_movemask_pd(reinterpret<__m128d>(a)));
+    if constexpr (count == lanes)
+        return static_cast<MaskBits>(_mm_movemask_pd(reinterpret<__m128d>(a)));
+    else
+        return static_cast<MaskBits>(_mm_movemask_ps(reinterpret<__m128>(a)));
 #else
     MaskBits mask = 0;
-    for (int i = 0; i < lanes; ++i) mask |= static_cast<MaskBits>(a[i] & 1) << i;
+    for (int i = 0; i < count; ++i) mask |= static_cast<MaskBits>(a[i] & 1) << i;
     return mask;
 #endif
 }
@@ -171,7 +211,10 @@ template <class V>
 }
 template <class V>
 [[gnu::always_inline]] inline V blend(MaskBits mask, V a, V b) {
-    return detail::spread(mask) ? a : b;
+    return detail::spread<std::int64_t>(mask) ? a : b;
+}
+[[gnu::always_inline]] inline Floats blend(MaskBits mask, Floats a, Floats b) {
+    return detail::spread<std::int32_t>(mask) ? a : b;
 }
 
 #endif
@@ -203,6 +246,42 @@ template <class V>
     for (int i = 0; i < lanes; ++i) a[i] = std::sqrt(a[i]);
     return a;
 #endif
+}
+
+[[gnu::always_inline]] inline Floats square_root(Floats a) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_maskz_sqrt_ps(0xFFFF, a);
+#elif defined(__AVX2__)
+    return _mm256_sqrt_ps(a);
+#elif defined(__SSE2__)
+    return _mm_sqrt_ps(a);
+#else
+    for (int i = 0; i < lanes_of<float>; ++i) a[i] = std::sqrt(a[i]);
+    return a;
+#endif
+}
+
+// Between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
+template <class T>
+struct HalfOf {
+    typedef T type __attribute__((vector_size(register_bytes / 2)));
+};
+template <class To, class V>
+[[gnu::always_inline]] inline Vector<To> widen_half(V a, int half) {
+    using Element = std::remove_cvref_t<decltype(a[0])>;
+    typename HalfOf<Element>::type values;
+    __builtin_memcpy(&values, reinterpret_cast<const char*>(&a) + half * (register_bytes / 2),
+                     sizeof values);
+    return __builtin_convertvector(values, Vector<To>);
+}
+template <class To, class V>
+[[gnu::always_inline]] inline Vector<To> narrow_both(V first, V second) {
+    using Half = typename HalfOf<To>::type;
+    const Half halves[2] = {__builtin_convertvector(first, Half),
+                            __builtin_convertvector(second, Half)};
+    Vector<To> result;
+    __builtin_memcpy(&result, halves, sizeof result);
+    return result;
 }
 
 // Rounded to nearest, halves to even, for every int.
@@ -271,6 +350,20 @@ template <int mode, class Function>
 #else
     Reals result;
     for (int i = 0; i < lanes; ++i) result[i] = from[indices[i]];
+    return result;
+#endif
+}
+[[gnu::always_inline]] inline Floats gather(const float* from, Ints first, Ints second) {
+#ifdef RDDL_SIMD_AVX512
+    const __m256 low =
+        _mm512_mask_i64gather_ps(__m256{}, 0xFF, reinterpret<__m512i>(first), from, 4);
+    const __m256 high =
+        _mm512_mask_i64gather_ps(__m256{}, 0xFF, reinterpret<__m512i>(second), from, 4);
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+#else
+    Floats result;
+    for (int i = 0; i < lanes; ++i) result[i] = from[first[i]];
+    for (int i = 0; i < lanes; ++i) result[lanes + i] = from[second[i]];
     return result;
 #endif
 }

@@ -20,7 +20,7 @@ template <class L>
 struct SimulatorParts {
     const rddl_problem* problem;
     std::span<const Site> sites;
-    AnyEngine<Scalar> engine;
+    AnyEngine<ScalarOf<typename L::Element>> engine;
     AnyEngine<L> packed_engine;
     const rddl_policy* policy;
     const char* instruction_set;  // that the engines are compiled for
@@ -46,7 +46,8 @@ class SimulatorTable {
     SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine,
                    const rddl_policy* policy = nullptr)
         : engine_(std::move(engine)),
-          parts_{&problem, sites, AnyEngine<Scalar>(engine_), packed_engine(), policy, simd::level},
+          parts_{&problem,        sites,  AnyEngine<typename E::Lane>(engine_),
+                 packed_engine(), policy, simd::level},
           table_(table_of(parts_)) {}
     SimulatorTable(const SimulatorTable&) = delete;
     SimulatorTable& operator=(const SimulatorTable&) = delete;

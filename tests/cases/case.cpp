@@ -30,6 +30,8 @@ void read_options(const fs::path& file, Case& result) {
         const auto warning = parse_code(option.substr(std::min(option.size(), 5ul)));
         if (option.starts_with("--std=") && standard)
             result.standard = *standard;
+        else if (option == "--real=float")
+            result.real = RealType::Float;
         else if (option.starts_with("-Wno-") && warning)
             result.disabled_warnings.insert(*warning);
         else

@@ -1,6 +1,7 @@
 // A case: a folder with RDDL files and what is expected of them.
 #pragma once
 
+#include "emit/emit.hpp"
 #include "support/diagnostic.hpp"
 #include "support/standard.hpp"
 
@@ -26,6 +27,7 @@ struct Case {
     std::vector<std::filesystem::path> headers;  // *.hpp: the external functions
     std::vector<Mark> marks;
     Standard standard = Standard::PyRddlGym;
+    RealType real = RealType::Double;
     std::set<Code> disabled_warnings;
 
     bool expects(const std::string& file) const { return std::filesystem::exists(folder / file); }

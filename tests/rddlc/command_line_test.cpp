@@ -101,14 +101,17 @@ TEST_F(CommandLine, TellsWhereTheTimeGoes) {
     }
 }
 
-TEST_F(CommandLine, RefusesWhatIsPlannedButNotThere) {
-    for (const char* option : {"--real=float"}) {
-        const Result result = rddlc({"domain.rddl", "instance.rddl", option, "-o", "sim.cpp"});
-        EXPECT_EQ(result.status, 1);
-        EXPECT_NE(result.output.find(std::string(option) + " is not supported yet [E0904]"),
-                  std::string::npos)
-            << result.output;
-    }
+TEST_F(CommandLine, ComputesInFloatsWhereTheyCanBePacked) {
+    const Result refused =
+        rddlc({"domain.rddl", "instance.rddl", "--real=float", "--lanes=8", "-o", "sim.cpp"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.output.find("--real=float is not possible with --lanes=8: a register may "
+                                  "hold 16 floats [E0904]"),
+              std::string::npos)
+        << refused.output;
+    const Result floats = rddlc({"domain.rddl", "instance.rddl", "--real=float", "--print=cpp"});
+    EXPECT_EQ(floats.status, 0);
+    EXPECT_NE(floats.output.find("rddl::Packed<Simulator, 16, float>"), std::string::npos);
     EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--lanes=1", "--real=double"}).status, 0);
 }
 

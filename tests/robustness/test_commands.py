@@ -160,12 +160,10 @@ class Explain(CommandTest):
 
 
 class Options(CommandTest):
-    def test_not_supported_yet(self):
-        for option in ("--real=float",):
-            result = self.run_command(RDDLC, *PROBLEM, option)
-            self.assert_refused(result, "E0904")
-            self.assertIn(option, result.errors)
-            self.assertEqual(result.output, "")
+    def test_floats_in_eight_lanes(self):
+        result = self.run_command(RDDLC, *PROBLEM, "--real=float", "--lanes=8")
+        self.assert_refused(result, "E0904")
+        self.assertEqual(result.output, "")
 
     def test_wrong_command_lines(self):
         for words in ([RDDLC], [RDDLC, *PROBLEM, "policy.rddl", "fourth.rddl"],

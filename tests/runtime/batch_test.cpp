@@ -86,10 +86,11 @@ TEST(Trajectories, DoNotDependOnTheThreads) {
               std::vector<Trajectory>(reference().begin(), reference().begin() + 5));
 }
 
-template <int lanes>
+template <int lanes, class Real = double>
 const rddl_simulator* simulator_with_lanes() {
-    static const rddl::SimulatorTable<rddl::Compiled<Simulator>, rddl::Packed<Simulator, lanes>>
-        table(problem, sites, {});
+    using Engine = rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<Real>>;
+    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, lanes, Real>> table(
+        problem, sites, {});
     return table.get();
 }
 
@@ -102,6 +103,33 @@ TEST(Trajectories, DoNotDependOnTheLanes) {
             << functions->lane_count << " lanes, " << functions->instruction_set;
         const auto few = trajectories(3, 5, 1, functions, functions->lane_count);
         EXPECT_EQ(few, std::vector<Trajectory>(reference().begin() + 3, reference().begin() + 8));
+    }
+}
+
+TEST(Trajectories, OfFloatsDoNotDependOnTheLanes) {
+    const rddl_simulator* const sixteen = simulator_with_lanes<16, float>();
+    const auto alone = trajectories(0, all_environments, 1, sixteen, 1);
+    for (const rddl_simulator* const functions :
+         {sixteen, simulator_with_lanes<32, float>(), simulator_with_lanes<64, float>()})
+        for (const int threads : {1, 3})
+            EXPECT_EQ(trajectories(0, all_environments, threads, functions, functions->lane_count),
+                      alone)
+                << functions->lane_count << " lanes, " << functions->instruction_set;
+}
+
+TEST(Trajectories, OfFloatsAreNearThoseOfDoubles) {
+    const rddl_simulator* const floats = simulator_with_lanes<16, float>();
+    TinyBatch near({all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0}, floats);
+    TinyBatch exact({all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    for (int time = 0; time < 5; ++time) {
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            near.actions[i] = exact.actions[i] = action_of(static_cast<std::int64_t>(i), time);
+        near.step();
+        exact.step();
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            for (std::size_t m = 0; m < machines; ++m)
+                ASSERT_NEAR(near.observations[i].wear[m], exact.observations[i].wear[m], 2e-3)
+                    << "environment " << i << ", time " << time;
     }
 }
 

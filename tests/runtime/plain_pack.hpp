@@ -67,6 +67,7 @@ struct BitPack {
 };
 
 struct RealPack {
+    using Element = double;
     std::array<double, width> lanes;
 
     RealPack(double a) { lanes.fill(a); }

@@ -42,6 +42,15 @@ struct Scratch {
 template <class L>
 struct Observation {};
 
+// Of a bool or an int.
+template <class L, class Value>
+typename L::Real to_real_of(const Value& value) {
+    if constexpr (std::is_same_v<typename L::Element, float>)
+        return rddl::to_float(value);
+    else
+        return rddl::to_real(value);
+}
+
 struct Simulator {
     template <class L>
     using State = tiny::State<L>;
@@ -67,8 +76,10 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>&, Context<L>& context) {
         using namespace rddl;
+        using Number = typename L::Element;
         for (Index m = 0; m < machines; ++m)
-            scratch.strain[m] = to_real(state.mode) + sample::gamma(context, {0, m}, 2.0, 0.5);
+            scratch.strain[m] =
+                to_real_of<L>(state.mode) + sample::gamma(context, {0, m}, 2.0, 0.5);
         for (Index m = 0; m < machines; ++m)
             next.wear[m] = branch(
                 context, action.repair[m], [&] { return typename L::Real{0}; },
@@ -78,7 +89,8 @@ struct Simulator {
                 });
         for (Index m = 0; m < machines; ++m)
             next.running[m] =
-                !sample::bernoulli(context, {2, m}, 0.02 + select(m == 1, action.hazard, 0.0)) &&
+                !sample::bernoulli(context, {2, m},
+                                   Number(0.02) + select(m == 1, action.hazard, Number(0))) &&
                 (state.running[m] || action.repair[m]);
         next.mode = action.set_mode;
         next.repairs = wrap_add(state.repairs, sum<typename L::Int>(machines, [&](Index m) {
@@ -90,7 +102,7 @@ struct Simulator {
     static typename L::Real reward(const State<L>& state, const Action<L>&, const Scratch<L>&,
                                    const State<L>&, Context<L>&) {
         return rddl::sum<typename L::Real>(machines, [&](Index m) {
-            return rddl::to_real(state.running[m]) - 0.01 * state.wear[m];
+            return to_real_of<L>(state.running[m]) - typename L::Element(0.01) * state.wear[m];
         });
     }
 

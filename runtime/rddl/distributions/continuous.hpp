@@ -20,8 +20,9 @@ typename L::Real uniform(Context<L>& context, Place place, typename L::Real lowe
                          typename L::Real upper) {
     using Real = typename L::Real;
     const Real width = upper - lower;
-    const auto valid = context.require(width >= 0.0 && width <= std::numeric_limits<double>::max(),
-                                       FaultKind::Width, place, width);
+    const auto valid =
+        context.require(width >= 0.0 && width <= std::numeric_limits<typename L::Element>::max(),
+                        FaultKind::Width, place, width);
     const Real draw = lower + width * uniform_at(context, place);
     const Real rounded_into_range = select(draw < upper, draw, lower);
     return select(valid, rounded_into_range, Real{0});
@@ -64,7 +65,7 @@ typename L::Real weibull(Context<L>& context, Place place, typename L::Real shap
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
     const Real standard = -ln(open_uniform_at(context, place));
-    return select(valid, scale * power(standard, 1.0 / shape), Real{0});
+    return select(valid, scale * power(standard, Real{1} / shape), Real{0});
 }
 
 // Lomax's form, with support from 0: scale (U^(-1 / shape) - 1).
@@ -94,7 +95,7 @@ typename L::Real laplace(Context<L>& context, Place place, typename L::Real loca
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
     const Real u = open_uniform_at(context, place);
-    const Real tail = ln(2.0 * minimum(u, 1.0 - u));
+    const Real tail = ln(Real{2} * minimum(u, Real{1} - u));
     return select(valid, location + scale * select(u < 0.5, tail, -tail), Real{0});
 }
 
@@ -105,7 +106,8 @@ typename L::Real cauchy(Context<L>& context, Place place, typename L::Real locat
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
     const Real u = open_uniform_at(context, place);
-    const Real tail = 1.0 / tan(std::numbers::pi * minimum(u, 1.0 - u));
+    const Real tail =
+        Real{1} / tan(std::numbers::pi_v<typename L::Element> * minimum(u, Real{1} - u));
     return select(valid, location + scale * select(u < 0.5, -tail, tail), Real{0});
 }
 
@@ -127,7 +129,7 @@ typename L::Real kumaraswamy(Context<L>& context, Place place, typename L::Real 
     const auto a_is_valid = context.require(a > 0.0, FaultKind::Shape, place, a);
     const auto b_is_valid = context.require(b > 0.0, FaultKind::Shape, place, b);
     const Real inner = -exp_minus_one(ln(open_uniform_at(context, place)) / b);
-    return select(a_is_valid && b_is_valid, power(inner, 1.0 / a), Real{0});
+    return select(a_is_valid && b_is_valid, power(inner, Real{1} / a), Real{0});
 }
 
 }  // namespace rddl::sample

@@ -49,8 +49,8 @@ typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&
         total = total + w;
         chosen = select(chosen == n && u < total, Int{i}, chosen);
     }
-    const auto sums_to_one =
-        context.require(absolute(total - 1.0) <= 1.001e-5, FaultKind::ProbabilitySum, place, total);
+    const auto sums_to_one = context.require(absolute(total - Real{1}) <= Real{1.001e-5},
+                                             FaultKind::ProbabilitySum, place, total);
     return select(valid && sums_to_one && chosen < n, chosen, Int{0});
 }
 
@@ -69,7 +69,7 @@ typename L::Int unnormalised_discrete_over(Context<L>& context, Place place, Ind
         total = total + w;
     }
     const auto has_mass =
-        context.require(total > 0.0 && total <= std::numeric_limits<double>::max(),
+        context.require(total > 0.0 && total <= std::numeric_limits<typename L::Element>::max(),
                         FaultKind::WeightSum, place, total);
     const Real threshold = uniform_at(context, place) * total;
     Real before{0};

@@ -98,4 +98,32 @@ R normal_quantile(R p) {
     return result.dividend / result.divisor;
 }
 
+// PPND7 of the same article; relative error about 1e-7.
+template <FloatLanes R>
+R normal_quantile(R p) {
+    constexpr float centre_over[] = {3.3871327179e0f, 5.0434271938e1f, 1.5929113202e2f,
+                                     5.9109374720e1f};
+    constexpr float centre_under[] = {1.0f, 1.7895169469e1f, 7.8757757664e1f, 6.7187563600e1f};
+    constexpr float tail_over[] = {1.4234372777e0f, 2.7568153900e0f, 1.3067284816e0f,
+                                   1.7023821103e-1f};
+    constexpr float tail_under[] = {1.0f, 7.3700164250e-1f, 1.2021132975e-1f};
+    constexpr float far_over[] = {6.6579051150e0f, 3.0812263860e0f, 4.2868294337e-1f,
+                                  1.7337203997e-2f};
+    constexpr float far_under[] = {1.0f, 2.4197894225e-1f, 1.2258202635e-2f};
+
+    const R q = p - 0.5f;
+    const auto central = absolute(q) <= 0.425f;
+    const R s = 0.180625f - q * q;
+    const R near = q * detail::polynomial(centre_over, s) / detail::polynomial(centre_under, s);
+    if (!any(!central)) return near;
+    const R r = sqrt(-ln(select(q < 0.0f, p, 1.0f - p)));
+    R tail = detail::polynomial(tail_over, r - 1.6f) / detail::polynomial(tail_under, r - 1.6f);
+    const auto far = r > 5.0f;
+    if (any(far))
+        tail = select(
+            far, detail::polynomial(far_over, r - 5.0f) / detail::polynomial(far_under, r - 5.0f),
+            tail);
+    return select(central, near, select(q < 0.0f, -tail, tail));
+}
+
 }  // namespace rddl

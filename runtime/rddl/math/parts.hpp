@@ -106,8 +106,9 @@ RDDL_ALWAYS_INLINE R with_sign_of(R a, R magnitude) {
 
 // By Estrin's scheme: p(x) = low(x) + x^half high(x), and so on. It has shorter chains of dependent
 // operations than Horner's.
-template <std::size_t first, std::size_t count, class R, std::size_t n, std::size_t powers>
-RDDL_ALWAYS_INLINE R polynomial_part(const double (&coefficients)[n],
+template <std::size_t first, std::size_t count, class Number, class R, std::size_t n,
+          std::size_t powers>
+RDDL_ALWAYS_INLINE R polynomial_part(const Number (&coefficients)[n],
                                      const R (&x_to_power_of_two)[powers]) {
     if constexpr (count == 1) {
         return R{coefficients[first]};
@@ -121,8 +122,8 @@ RDDL_ALWAYS_INLINE R polynomial_part(const double (&coefficients)[n],
 }
 
 // The coefficients are those of 1, x, x^2, ...
-template <class R, std::size_t n>
-RDDL_ALWAYS_INLINE R polynomial(const double (&coefficients)[n], R x) {
+template <class Number, class R, std::size_t n>
+RDDL_ALWAYS_INLINE R polynomial(const Number (&coefficients)[n], R x) {
     static_assert(n <= 16);
     const R square = x * x;
     const R fourth = square * square;
