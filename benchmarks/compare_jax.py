@@ -4,13 +4,15 @@
     .venv/bin/python benchmarks/compare_jax.py             some minutes
     .venv/bin/python benchmarks/compare_jax.py --require   and fail below the limits
     .venv/bin/python benchmarks/compare_jax.py --write     and docs/benchmarks.md
+    .venv/bin/python benchmarks/compare_jax.py --real=float    ours in 32 bits, as jax
 
 Each problem is one run of `rddl bench --against=jax`: both sides with one thread and with as many as
 there are cores, each at its best batch size, jax after its compilation. jax computes in 32 bits, its
-default, and checks neither ends of episodes nor preconditions; ours computes in 64 bits and ends
-episodes. The time to the first step is that of a program that is given the files: for jax to import it
-(told apart in the table), to read the files and to compile a single step; for us to compile, twice. What
-all simulators link is compiled before, as pyRDDLGym-jax is installed before.
+default, and checks neither ends of episodes nor preconditions; ours ends episodes, and computes in 64 bits
+unless told otherwise, which the summary says. The time to the first step is that of a program that is
+given the files: for jax to import it (told apart in the table), to read the files and to compile a single
+step; for us to compile, twice. What all simulators link is compiled before, as pyRDDLGym-jax is installed
+before.
 
 Limits: geometric means of the ratios, with as many threads, of at least 10; and a first step that is
 sooner.
@@ -65,7 +67,7 @@ def best_by_threads(measurements: list[dict]) -> dict[int, float]:
 def compare(case: Case, options: argparse.Namespace) -> Comparison:
     command = [options.rddl, "bench", case.domain_path, case.instance_path, "--json"]
     command += ["--against=jax", "--python", options.jax_python, "--batch", OUR_BATCHES]
-    command += ["--seconds", options.seconds, "--threads", options.threads]
+    command += ["--seconds", options.seconds, "--threads", options.threads, f"--real={options.real}"]
     result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
     if result.returncode != 0:
         raise RuntimeError(result.stderr.strip())
@@ -112,14 +114,15 @@ def mean_ratio(comparisons: list[Comparison], threads: int) -> float:
     return math.exp(statistics.fmean(math.log(c.ratio(threads)) for c in comparisons))
 
 
-def summary_text(comparisons: list[Comparison]) -> str:
+def summary_text(comparisons: list[Comparison], real: str) -> str:
     parts = []
     for threads in sorted(comparisons[0].jax):
         least = min(c.ratio(threads) for c in comparisons)
         mean = mean_ratio(comparisons, threads)
         parts.append(f"with {threads} threads {mean:.1f} times the throughput (least {least:.1f})")
     sooner = sum(c.is_sooner for c in comparisons)
-    return f"geometric means: {', '.join(parts)}; first step sooner in {sooner} of {len(comparisons)}"
+    means = f"rddlc computes in {real}s; geometric means: {', '.join(parts)}"
+    return f"{means}; first step sooner in {sooner} of {len(comparisons)}"
 
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
@@ -141,6 +144,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--jax-python", type=Path, default=default, help="Python with pyRDDLGym-jax")
     parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
     parser.add_argument("--threads", type=int, default=2, help="the most threads, besides one")
+    parser.add_argument("--real", choices=("double", "float"), default="double", help="what ours computes in")
     parser.add_argument("--require", action="store_true", help="fail below the limits")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     return parser.parse_args()
@@ -161,11 +165,12 @@ def main() -> int:
         print("  ".join(rows_of(comparisons[-1:])[-1]), flush=True)
     if not comparisons:
         return 1
-    print(f"\n{summary_text(comparisons)}")
+    print(f"\n{summary_text(comparisons, options.real)}")
     short = shortfalls(comparisons)
     print(*short, sep="\n")
     if options.write:
-        about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {summary_text(comparisons)}"
+        summary = summary_text(comparisons, options.real)
+        about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {summary}"
         write_section("jax", f"{about}:\n\n{markdown_table(rows_of(comparisons))}")
     return 1 if failures or (options.require and short) else 0
 

@@ -102,6 +102,18 @@ TEST(Allocations, DoNotHappenInStepsWithMatrices) {
     }
 }
 
+TEST(Allocations, DoNotHappenWithFloats) {
+    using Engine = rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<float>>;
+    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, 16, float>> table(problem,
+                                                                                        sites, {});
+    for (const int lanes : {1, 16}) {
+        TinyBatch batch({environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, lanes}, table.get());
+        const std::int64_t before = allocations;
+        for (int time = 0; time < 1000; ++time) batch.step();
+        EXPECT_EQ(allocations, before) << lanes;
+    }
+}
+
 TEST(Allocations, DoNotHappenInDecisions) {
     const rddl_simulator& functions = *simulator_with_policy();
     const rddl_batch_options options{environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, 0};
