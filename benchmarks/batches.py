@@ -7,10 +7,10 @@
 
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
+from bench import bench
 from document import ROOT
 
 PROBLEMS = (
@@ -25,12 +25,11 @@ SIZES = "1,4,16,64,256,1024,4096,16384"
 
 
 def measure(problem: str, instance: str, options: argparse.Namespace) -> dict:
-    command = [options.rddl, "bench", problem, instance, "--json", "--batch", options.sizes]
-    command += ["--seconds", options.seconds]
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"{problem} {instance}: {result.stderr.strip()}")
-    return json.loads(result.stdout)
+    arguments = ["--batch", options.sizes, "--seconds", options.seconds]
+    try:
+        return bench(options.rddl, problem, instance, *arguments)
+    except RuntimeError as error:
+        sys.exit(f"{problem} {instance}: {error}")
 
 
 def parse_arguments() -> argparse.Namespace:

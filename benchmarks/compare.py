@@ -27,7 +27,6 @@ import math
 import os
 import platform
 import statistics
-import subprocess
 import sys
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -37,6 +36,7 @@ from pathlib import Path
 
 import numpy as np
 
+from bench import bench
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
@@ -73,11 +73,8 @@ class Comparison:
 
 def our_speeds(rddl: Path, case: Case, seconds: float) -> tuple[float, float]:
     """Of a single environment and of a batch."""
-    command = [rddl, "bench", case.domain_path, case.instance_path, "--json", "--threads", 1]
-    result = subprocess.run([*map(str, command), "--seconds", str(seconds)], capture_output=True, text=True)
-    if result.returncode != 0:
-        raise RuntimeError(f"rddl bench failed: {result.stderr.strip()}")
-    single, *batches = [m["steps_per_second"] for m in json.loads(result.stdout)["measurements"]]
+    figures = bench(rddl, case.domain_path, case.instance_path, "--threads", 1, "--seconds", seconds)
+    single, *batches = [m["steps_per_second"] for m in figures["measurements"]]
     return single, max(batches)
 
 

@@ -19,7 +19,6 @@ sooner.
 """
 
 import argparse
-import json
 import math
 import statistics
 import subprocess
@@ -27,6 +26,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from bench import bench
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
@@ -65,13 +65,9 @@ def best_by_threads(measurements: list[dict]) -> dict[int, float]:
 
 
 def compare(case: Case, options: argparse.Namespace) -> Comparison:
-    command = [options.rddl, "bench", case.domain_path, case.instance_path, "--json"]
-    command += ["--against=jax", "--python", options.jax_python, "--batch", OUR_BATCHES]
-    command += ["--seconds", options.seconds, "--threads", options.threads, f"--real={options.real}"]
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        raise RuntimeError(result.stderr.strip())
-    figures = json.loads(result.stdout)
+    arguments = ["--against=jax", "--python", options.jax_python, "--batch", OUR_BATCHES]
+    arguments += ["--seconds", options.seconds, "--threads", options.threads, f"--real={options.real}"]
+    figures = bench(options.rddl, case.domain_path, case.instance_path, *arguments)
     (peer,) = figures["peers"]
     return Comparison(
         case.label,

@@ -13,13 +13,12 @@ hundred times.
 """
 
 import argparse
-import json
-import subprocess
 import sys
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
+from bench import bench, print_row, size_options, write_results
 from document import ROOT, machine_text, markdown_table, write_section
 
 FOLDER = ROOT / "benchmarks/growth"
@@ -46,12 +45,8 @@ def measure(domain: str, objects: int, options: argparse.Namespace) -> Point:
     with tempfile.TemporaryDirectory() as folder:
         instance = Path(folder, "instance.rddl")
         instance.write_text(made.text)
-        command = [options.rddl, "bench", FOLDER / f"{domain}.rddl", instance, "--json"]
-        command += ["--threads", 1, "--batch", 16, "--seconds", options.seconds]
-        result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        raise RuntimeError(f"{domain} {objects}: {result.stderr.strip()}")
-    figures = json.loads(result.stdout)
+        arguments = ["--threads", 1, "--batch", 16, "--seconds", options.seconds]
+        figures = bench(options.rddl, FOLDER / f"{domain}.rddl", instance, *arguments)
     seconds = 1 / figures["measurements"][0]["steps_per_second"]
     return Point(domain, objects, made.entries, seconds, figures["rddlc_seconds"], figures["emitted_bytes"])
 
@@ -84,15 +79,8 @@ def excesses(points: list[Point]) -> list[str]:
 
 
 def parse_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = size_options("growth", __doc__.splitlines()[0], SIZES, "objects")
     parser.add_argument("domains", nargs="*", choices=[[], *GENERATORS], help="all three if none is named")
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, help="numbers of objects")
-    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
-    parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
-    default = ROOT / "build/benchmarks/growth.json"
-    parser.add_argument("--results", type=Path, default=default, help="file for the figures")
-    parser.add_argument("--require", action="store_true", help="fail above the limit")
-    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     return parser.parse_args()
 
 
@@ -104,12 +92,11 @@ def main() -> int:
             try:
                 points.append(measure(domain, size, options))
             except RuntimeError as error:
-                failures.append(str(error))
+                failures.append(f"{domain} {size}: {error}")
                 print(failures[-1], flush=True)
                 continue
-            print("  ".join(cell.rjust(11) for cell in columns(points[-1])), flush=True)
-    options.results.parent.mkdir(parents=True, exist_ok=True)
-    options.results.write_text(json.dumps([asdict(point) for point in points], indent=2) + "\n")
+            print_row(columns(points[-1]))
+    write_results(options.results, points)
     over = excesses(points)
     print(*over, sep="\n")
     if options.write:

@@ -9,14 +9,13 @@ for one environment and for a batch. For comparison, the same without the pass t
 """
 
 import argparse
-import json
 import math
-import subprocess
 import sys
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
+from bench import bench, print_row, size_options, write_results
 from document import ROOT, machine_text, markdown_table, write_section
 
 DOMAIN = ROOT / "examples/mountain_car/domain.rddl"
@@ -69,12 +68,8 @@ instance drive {{
 
 
 def measure(instance: Path, options: argparse.Namespace, *more: str) -> Cost:
-    command = [options.rddl, "bench", DOMAIN, instance, "--json", "--threads", 1]
-    command += ["--batch", 1024, "--seconds", options.seconds, *more]
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        raise RuntimeError(result.stderr.strip())
-    alone, *batches = json.loads(result.stdout)["measurements"]
+    arguments = ["--threads", 1, "--batch", 1024, "--seconds", options.seconds, *more]
+    alone, *batches = bench(options.rddl, DOMAIN, instance, *arguments)["measurements"]
     fastest = max(batch["steps_per_second"] for batch in batches)
     return Cost(1 / alone["steps_per_second"], 1 / fastest)
 
@@ -96,26 +91,13 @@ def columns(point: Point) -> tuple[str, ...]:
     return (f"{point.segments:,}", *figures)
 
 
-def parse_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, help="numbers of segments")
-    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
-    parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
-    default = ROOT / "build/benchmarks/segments.json"
-    parser.add_argument("--results", type=Path, default=default, help="file for the figures")
-    parser.add_argument("--require", action="store_true", help="fail above the limit")
-    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
-    return parser.parse_args()
-
-
 def main() -> int:
-    options = parse_arguments()
+    options = size_options("segments", __doc__.splitlines()[0], SIZES, "segments").parse_args()
     points = []
     for segments in options.sizes:
         points.append(measure_segments(segments, options))
-        print("  ".join(cell.rjust(11) for cell in columns(points[-1])), flush=True)
-    options.results.parent.mkdir(parents=True, exist_ok=True)
-    options.results.write_text(json.dumps([asdict(point) for point in points], indent=2) + "\n")
+        print_row(columns(points[-1]))
+    write_results(options.results, points)
     if options.write:
         table = markdown_table([TITLES, *map(columns, points)])
         write_section("segments", f"{machine_text()}:\n\n{table}")

@@ -1,0 +1,41 @@
+"""What several benchmarks share: the figures of `rddl bench`, and the options of those that vary a size."""
+
+import argparse
+import json
+import subprocess
+from dataclasses import asdict
+from pathlib import Path
+
+from document import ROOT
+
+
+def bench(rddl: Path, *arguments: object) -> dict:
+    """What `rddl bench ARGUMENTS --json` prints. RuntimeError with its message if it fails."""
+    command = [rddl, "bench", *arguments, "--json"]
+    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if result.returncode != 0:
+        raise RuntimeError(result.stderr.strip())
+    return json.loads(result.stdout)
+
+
+def size_options(name: str, description: str, sizes: tuple[int, ...], counted: str) -> argparse.ArgumentParser:
+    """Of a benchmark that measures problems of several sizes, has a limit and a section of the document."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--sizes", type=int, nargs="+", default=sizes, help=f"numbers of {counted}")
+    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
+    parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
+    default = ROOT / f"build/benchmarks/{name}.json"
+    parser.add_argument("--results", type=Path, default=default, help="file for the figures")
+    parser.add_argument("--require", action="store_true", help="fail above the limit")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
+    return parser
+
+
+def print_row(cells: tuple[str, ...]) -> None:
+    print("  ".join(cell.rjust(11) for cell in cells), flush=True)
+
+
+def write_results(results: Path, points: list) -> None:
+    """Dataclasses, as JSON."""
+    results.parent.mkdir(parents=True, exist_ok=True)
+    results.write_text(json.dumps([asdict(point) for point in points], indent=2) + "\n")
