@@ -1,5 +1,6 @@
 #include "ir/call.hpp"
 
+#include "ir/analysis.hpp"
 #include "support/match.hpp"
 
 #include <cstdlib>
@@ -63,6 +64,15 @@ std::vector<BufferId> written_buffers(const Call& call) {
     std::vector<BufferId> written = {call.output.buffer};
     if (!overwrites_inputs(call.callee)) return written;
     for (const TableView& input : call.inputs) written.push_back(input.buffer);
+    return written;
+}
+
+std::set<BufferId> written_buffers(const Block& block) {
+    std::set<BufferId> written;
+    for_each_statement<Store>(block, [&](const Store& store) { written.insert(store.target); });
+    for_each_statement<Call>(block, [&](const Call& call) {
+        for (BufferId buffer : written_buffers(call)) written.insert(buffer);
+    });
     return written;
 }
 

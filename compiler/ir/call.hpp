@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ Extent extent_of(const Program& program, const Call& call);
 
 // What the call changes: the output, and inputs that it works in.
 std::vector<BufferId> written_buffers(const Call& call);
+// What the stores and calls of a block change, those of nested loops included.
+std::set<BufferId> written_buffers(const Block& block);
 bool overwrites_inputs(const Callee& callee);
 
 // The dimensions of a view that have no index: what the function gets. Empty for one element.

@@ -23,16 +23,6 @@ constexpr double most_elements = 1e6;
 
 using Variables = std::vector<ir::VariableId>;
 
-std::set<ir::BufferId> buffers_filled_by(const ir::Block& block) {
-    std::set<ir::BufferId> filled;
-    ir::for_each_statement<ir::Store>(block,
-                                      [&](const ir::Store& store) { filled.insert(store.target); });
-    ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
-        for (ir::BufferId written : ir::written_buffers(call)) filled.insert(written);
-    });
-    return filled;
-}
-
 class Hoisting {
   public:
     Hoisting(ir::Program program, Report& report)
@@ -72,7 +62,7 @@ class Hoisting {
         for (ir::Statement& statement : block) {
             ir::Block single;
             single.push_back(std::move(statement));
-            filled_ = buffers_filled_by(single);
+            filled_ = ir::written_buffers(single);
             find_tables(single, {}, result);
             ir::change_roots(single, [&](ir::NodeId& root) { root = replaced(root); });
             result.push_back(std::move(single.front()));

@@ -19,14 +19,6 @@ bool may_fault(const ir::Definition& definition, const std::vector<ir::Facts>& f
     return may_fault;
 }
 
-void mark_written(const ir::Block& block, std::vector<bool>& used) {
-    ir::for_each_statement<ir::Store>(
-        block, [&](const ir::Store& store) { used[store.target.index] = true; });
-    ir::for_each_statement<ir::Call>(block, [&](const ir::Call& call) {
-        for (ir::BufferId written : ir::written_buffers(call)) used[written.index] = true;
-    });
-}
-
 // Read by something that the program evaluates, or part of a record that others see.
 std::vector<bool> used_buffers(const ir::Program& program) {
     std::vector<bool> used(program.buffers.size());
@@ -68,7 +60,9 @@ bool drop_a_definition(ir::Program& program, const std::vector<ir::Facts>& facts
 // Removes buffers that are neither read nor written and renumbers the others.
 void drop_buffers(ir::Program& program, Report& report) {
     std::vector<bool> used = used_buffers(program);
-    for (const ir::Block* block : ir::blocks_of(program)) mark_written(*block, used);
+    for (const ir::Block* block : ir::blocks_of(program)) {
+        for (ir::BufferId written : ir::written_buffers(*block)) used[written.index] = true;
+    }
     std::vector<ir::BufferId> renumbered(used.size());
     std::vector<ir::Buffer> kept;
     for (std::size_t index = 0; index < used.size(); ++index) {

@@ -36,7 +36,7 @@ class Counting {
     Use of(const ir::Block& body) {
         use_ = {.times = std::vector<double>(program_.nodes.size()),
                 .always = std::vector<bool>(program_.nodes.size()),
-                .filled = {}};
+                .filled = ir::written_buffers(body)};
         visit(body, 1);
         spread();
         return std::move(use_);
@@ -52,7 +52,6 @@ class Counting {
             match(
                 statement.form, [&](const ir::Let& let) { use(let.value); },
                 [&](const ir::Store& store) {
-                    use_.filled.insert(store.target);
                     for (ir::NodeId index : store.indices) use(index);
                     use(store.value);
                 },
@@ -60,8 +59,6 @@ class Counting {
                     visit(loop.body, times * static_cast<double>(program_[loop.variable].size));
                 },
                 [&](const ir::Call& call) {
-                    for (ir::BufferId written : ir::written_buffers(call))
-                        use_.filled.insert(written);
                     for (ir::NodeId operand : ir::operands_of(call)) use(operand);
                 });
         }

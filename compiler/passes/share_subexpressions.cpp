@@ -15,20 +15,6 @@ namespace {
 // In operations (Facts::cost).
 constexpr double worth_a_name = 6;
 
-std::set<ir::BufferId> stored_buffers(const ir::Block& block) {
-    std::set<ir::BufferId> stored;
-    for (const ir::Statement& statement : block) {
-        match(
-            statement.form, [](const ir::Let&) {},
-            [&](const ir::Store& store) { stored.insert(store.target); },
-            [&](const ir::Loop& loop) { stored.merge(stored_buffers(loop.body)); },
-            [&](const ir::Call& call) {
-                for (ir::BufferId written : ir::written_buffers(call)) stored.insert(written);
-            });
-    }
-    return stored;
-}
-
 // How the nodes below a statement are used. All vectors are by NodeId::index.
 struct Uses {
     explicit Uses(std::size_t node_count)
@@ -106,7 +92,7 @@ class Sharing {
         Uses uses(program_.nodes.size());
         const bool is_loop = std::holds_alternative<ir::Loop>(single.front().form);
         for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop);
-        return replace_shared(uses, stored_buffers(single),
+        return replace_shared(uses, ir::written_buffers(single),
                               [&](const ir::Change& change) { ir::change_roots(single, change); });
     }
 
