@@ -36,20 +36,6 @@ bool is_numeric(const model::Fluent& fluent) {
     return fluent.range == model::int_type || fluent.range == model::real_type;
 }
 
-// `e op f` as `f mirrored(op) e`.
-Operator mirrored(Operator op) {
-    switch (op) {
-        case Operator::Less:
-            return Operator::Greater;
-        case Operator::LessEqual:
-            return Operator::GreaterEqual;
-        case Operator::Greater:
-            return Operator::Less;
-        default:
-            return Operator::LessEqual;
-    }
-}
-
 bool is_order(Operator op) {
     return op >= Operator::Less && op <= Operator::GreaterEqual;
 }

@@ -10,10 +10,6 @@
 namespace rddlc::ir {
 namespace {
 
-bool is_comparison(Operator op) {
-    return op >= Operator::Equal && op <= Operator::GreaterEqual;
-}
-
 bool gives_int(Operator op) {
     return op == Operator::Sign || op == Operator::Round || op == Operator::Floor ||
            op == Operator::Ceil;

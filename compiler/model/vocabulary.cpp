@@ -170,6 +170,25 @@ bool is_extension(Operator op) {
     return op == Operator::Atan2;
 }
 
+bool is_comparison(Operator op) {
+    return op >= Operator::Equal && op <= Operator::GreaterEqual;
+}
+
+Operator mirrored(Operator op) {
+    switch (op) {
+        case Operator::Less:
+            return Operator::Greater;
+        case Operator::LessEqual:
+            return Operator::GreaterEqual;
+        case Operator::Greater:
+            return Operator::Less;
+        case Operator::GreaterEqual:
+            return Operator::LessEqual;
+        default:
+            return op;
+    }
+}
+
 bool may_fault(Operator op, bool on_integers) {
     return (op == Operator::Power && on_integers) || op == Operator::LnGamma ||
            op == Operator::Gamma || op == Operator::Defined;

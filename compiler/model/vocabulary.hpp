@@ -76,6 +76,11 @@ int arity_of(Distribution distribution);
 // Functions that only --std=rddlc has.
 bool is_extension(Operator op);
 
+// Equal to GreaterEqual.
+bool is_comparison(Operator op);
+// Of a comparison: `a op b` is `b mirrored(op) a`.
+Operator mirrored(Operator op);
+
 // True for operators that fault on some operands: Power on ints, LnGamma, Gamma, Defined.
 bool may_fault(Operator op, bool on_integers);
 

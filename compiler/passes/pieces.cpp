@@ -35,24 +35,6 @@ bool is_possible_break(const ir::Value& value) {
         [](double v) { return v > -HUGE_VAL; });
 }
 
-std::optional<Operator> mirrored(Operator op) {
-    switch (op) {
-        case Operator::Less:
-            return Operator::Greater;
-        case Operator::LessEqual:
-            return Operator::GreaterEqual;
-        case Operator::Greater:
-            return Operator::Less;
-        case Operator::GreaterEqual:
-            return Operator::LessEqual;
-        case Operator::Equal:
-        case Operator::NotEqual:
-            return op;
-        default:
-            return std::nullopt;
-    }
-}
-
 class Collector {
   public:
     Collector(const ir::Builder& builder, const ir::Evaluator& evaluator)
@@ -64,7 +46,7 @@ class Collector {
         if (!visited_.insert(id).second) return true;
         const ir::Node& node = program()[id];
         if (const auto* apply = std::get_if<ir::Apply>(&node.form)) {
-            if (mirrored(apply->op) && program()[apply->operands[0]].type != ir::Scalar::Bool)
+            if (is_comparison(apply->op) && program()[apply->operands[0]].type != ir::Scalar::Bool)
                 return compare(apply->op, apply->operands[0], apply->operands[1]);
         }
         const bool is_operation = std::holds_alternative<ir::Apply>(node.form) ||
@@ -83,7 +65,7 @@ class Collector {
 
   private:
     bool compare(Operator op, ir::NodeId a, ir::NodeId b) {
-        if (builder_.facts(a).uniform) return compare(*mirrored(op), b, a);
+        if (builder_.facts(a).uniform) return compare(mirrored(op), b, a);
         const ir::Facts& facts = builder_.facts(a);
         if (!facts.free_variables.empty() || facts.may_fault) return false;
         if (number_ && *number_ != a) return false;
