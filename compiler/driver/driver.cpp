@@ -93,7 +93,6 @@ EmitOptions emit_options(const CompileOptions& options) {
     return {.header = output_kind(name) == OutputKind::Header,
             .line_directives = options.line_directives,
             .lane_count = options.lane_count,
-            .real = options.real,
             .output_name = name,
             .compiler_version = version,
             .extern_headers = include_paths(options)};
@@ -126,6 +125,7 @@ void run_stages(Run& run) {
     // Model -> IR: objects become integers, non-fluents tables, CPFs loops.
     auto grounded = run.measure(Stage::Ground, [&] { return ground(*result.model, diagnostics); });
     if (diagnostics.has_errors()) return;
+    grounded->real = run.options.real;
     run.show(Form::Ir, [&] { return ir::print(*grounded); });
     if (run.ends_after(Stage::Ground)) return;
 

@@ -368,7 +368,7 @@ std::string table_definition(const Unit& unit) {
     const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
     std::string text;
     if (has_packs(unit)) {
-        const bool floats = unit.options.real == RealType::Float;
+        const bool floats = unit.program.real == RealType::Float;
         text += fmt::format("    using Packed = rddl::Packed<Simulator, {}{}>;\n",
                             unit.options.lane_count, floats ? ", float" : "");
     }

@@ -40,7 +40,7 @@ std::string without_double_blanks(const std::string& text) {
 
 std::string engine(const Unit& unit) {
     if (unit.program.policy) return "rddl::Compiled<Simulator, Policy>";
-    if (unit.options.real == RealType::Float)
+    if (unit.program.real == RealType::Float)
         return "rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<float>>";
     return "rddl::Compiled<Simulator>";
 }

@@ -5,15 +5,11 @@
 #include "ir/ir.hpp"
 #include "support/source.hpp"
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rddlc {
-
-// What a simulator computes reals in: 64 bits, as the interpreter does, or 32.
-enum class RealType : std::uint8_t { Double, Float };
 
 struct EmitOptions {
     // Header: everything inline, for one #include; no exported C function.
@@ -22,7 +18,6 @@ struct EmitOptions {
     bool line_directives = false;
     // Environments that a step in a batch computes at once (8, 16, 32 or 64; 1: no packs).
     int lane_count = 16;
-    RealType real = RealType::Double;
     // The name under which the text will be stored, for what comes after the last #line.
     std::string output_name = "simulator.cpp";
     std::string compiler_version = "";  // of rddlc

@@ -76,7 +76,7 @@ std::string Expressions::result(ir::NodeId id) {
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Constant& constant) {
-    const std::string text = literal(constant.value, unit_.options.real);
+    const std::string text = literal(constant.value, unit_.program.real);
     return {text, text.starts_with('-') ? Level::Unary : Level::Primary};
 }
 
@@ -95,7 +95,7 @@ Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
 }
 
 Spelled Expressions::spell(const ir::Node& node, const ir::Convert& convert) {
-    const std::string to_real = unit_.options.real == RealType::Float ? "to_float" : "to_real";
+    const std::string to_real = unit_.program.real == RealType::Float ? "to_float" : "to_real";
     return {call(node.type == ir::Scalar::Int ? "to_int" : to_real, {convert.operand}),
             Level::Primary};
 }

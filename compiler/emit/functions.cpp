@@ -289,7 +289,7 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
         const std::string target = record + "." + unit.names.buffers[index];
         const std::string& table = unit.names.initial[index];
         const std::string value =
-            table.empty() ? literal(buffer.values[0], unit.options.real) : table;
+            table.empty() ? literal(buffer.values[0], unit.program.real) : table;
         text += indented(buffer.shape.empty() ? target + " = " + value + ";"
                                               : "rddl::assign(" + target + ", " + value + ");",
                          levels);

@@ -208,7 +208,7 @@ std::string table_type(ir::Scalar scalar, RealType real) {
         case ir::Scalar::Real:
             break;
     }
-    return real == RealType::Float ? "float" : "double";
+    return std::string(name_of(real));
 }
 
 bool is_zero(const ir::Value& value) {
@@ -276,7 +276,7 @@ std::string tables(const Unit& unit) {
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
-        const RealType real = unit.options.real;
+        const RealType real = unit.program.real;
         const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
         text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +
                 unit.where(buffer.span) + "\n";

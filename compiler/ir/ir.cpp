@@ -4,6 +4,14 @@
 #include <functional>
 #include <numeric>
 
+namespace rddlc {
+
+std::string_view name_of(RealType real) {
+    return real == RealType::Float ? "float" : "double";
+}
+
+}  // namespace rddlc
+
 namespace rddlc::ir {
 
 std::int64_t Buffer::count() const {

@@ -18,8 +18,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
+
+namespace rddlc {
+
+// What a simulator computes reals in: 64 bits, as the interpreter does, or 32.
+enum class RealType : std::uint8_t { Double, Float };
+std::string_view name_of(RealType real);  // "double", "float"
+
+}  // namespace rddlc
 
 namespace rddlc::ir {
 
@@ -275,6 +284,8 @@ struct Policy {
 struct Program {
     std::string domain_name;
     std::string instance_name;
+    // Of emitted code. Constants are those of doubles here, and rounded where they are written.
+    RealType real = RealType::Double;
     std::vector<ObjectType> types;
     std::vector<Fluent> fluents;  // in declaration order
 

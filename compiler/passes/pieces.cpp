@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace rddlc::passes {
@@ -13,16 +14,23 @@ namespace {
 
 constexpr std::size_t most_breaks = 10'000;
 
-// The next number, if there is one.
-std::optional<ir::Value> next(const ir::Value& value) {
+// The nearest number that a simulator computes with.
+ir::Value rounded(const ir::Value& value, RealType real) {
+    const auto* number = std::get_if<double>(&value);
+    return number && real == RealType::Float ? double{static_cast<float>(*number)} : value;
+}
+
+// The next one, if there is one.
+std::optional<ir::Value> next(const ir::Value& value, RealType real) {
     return match(
         value, [](bool) { return std::optional<ir::Value>(); },
         [](std::int64_t v) -> std::optional<ir::Value> {
             if (v == std::numeric_limits<std::int64_t>::max()) return std::nullopt;
             return v + 1;
         },
-        [](double v) -> std::optional<ir::Value> {
+        [real](double v) -> std::optional<ir::Value> {
             if (v == HUGE_VAL) return std::nullopt;
+            if (real == RealType::Float) return std::nextafter(static_cast<float>(v), HUGE_VALF);
             return std::nextafter(v, HUGE_VAL);
         });
 }
@@ -60,7 +68,13 @@ class Collector {
 
     std::optional<Pieces> result() const {
         if (!number_ || breaks_.empty() || breaks_.size() > most_breaks) return std::nullopt;
-        return Pieces{*number_, {breaks_.begin(), breaks_.end()}};
+        Pieces pieces{*number_, {}, {}};
+        for (const auto& [value, entry] : breaks_) {
+            pieces.breaks.push_back(value);
+            pieces.entries.push_back(entry);
+        }
+        if (!std::ranges::is_sorted(pieces.entries)) return std::nullopt;
+        return pieces;
     }
 
   private:
@@ -81,14 +95,16 @@ class Collector {
         const bool behind = op != Operator::Less && op != Operator::GreaterEqual;
         return std::ranges::all_of(*values, [&](const ir::Value& value) {
             if (value != value) return true;  // nan: all comparisons have one result
-            return (!before || add(value)) && (!behind || add(next(value)));
+            const ir::Value entry = rounded(value, program().real);
+            return (!before || add(value, entry)) &&
+                   (!behind || add(next(value, RealType::Double), next(entry, program().real)));
         });
     }
 
-    bool add(const std::optional<ir::Value>& value) {
+    bool add(const std::optional<ir::Value>& value, const std::optional<ir::Value>& entry) {
         if (!value) return true;
-        breaks_.insert(*value);
-        return is_possible_break(*value);
+        if (!entry || !is_possible_break(*value) || !is_possible_break(*entry)) return false;
+        return breaks_.emplace(*value, *entry).first->second == *entry;
     }
 
     const ir::Program& program() const { return builder_.program(); }
@@ -96,7 +112,7 @@ class Collector {
     const ir::Builder& builder_;
     const ir::Evaluator& evaluator_;
     std::optional<ir::NodeId> number_;
-    std::set<ir::Value> breaks_;
+    std::map<ir::Value, ir::Value> breaks_;  // and the entries
     std::set<ir::NodeId> visited_;
 };
 

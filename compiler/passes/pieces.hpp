@@ -2,7 +2,8 @@
 //
 //     sum[s in segment](SLOPE[s] * real(state.x >= LEFT[s] && state.x < RIGHT[s]))
 //
-// is constant between the ends of the segments. `x <= c` changes behind c: at the next number.
+// is constant between the ends of the segments. `x <= c` changes behind c: at the next number,
+// another one for floats.
 #pragma once
 
 #include "ir/builder.hpp"
@@ -17,6 +18,8 @@ namespace rddlc::passes {
 struct Pieces {
     ir::NodeId number;              // Int or Real; depends on no variable of the expression
     std::vector<ir::Value> breaks;  // where the expression may change; sorted, each once
+    // The same for numbers that are Program::real, compared with constants that are: sorted.
+    std::vector<ir::Value> entries;
 
     // A number below the first break, then each break: one for each piece.
     std::vector<ir::Value> representatives() const;

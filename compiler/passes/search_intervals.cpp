@@ -94,18 +94,20 @@ ir::BufferId new_table(ir::Program& program, const Pieces& pieces, const std::st
 
 // Joins neighbours of equal values. The values are those of the pieces that are left.
 std::vector<ir::Value> joined(Pieces& pieces, const std::vector<ir::Value>& values) {
-    std::vector<ir::Value> breaks, left = {values.front()};
+    std::vector<ir::Value> breaks, entries, left = {values.front()};
     for (std::size_t k = 0; k < pieces.breaks.size(); ++k) {
         if (identical(values[k], values[k + 1])) continue;
         breaks.push_back(pieces.breaks[k]);
+        entries.push_back(pieces.entries[k]);
         left.push_back(values[k + 1]);
     }
     pieces.breaks = std::move(breaks);
+    pieces.entries = std::move(entries);
     return left;
 }
 
 ir::NodeId search(ir::Program& program, ir::Builder& builder, const Pieces& pieces) {
-    return builder.search(new_table(program, pieces, "-breaks", pieces.breaks), pieces.number);
+    return builder.search(new_table(program, pieces, "-breaks", pieces.entries), pieces.number);
 }
 
 // ------------------------------------------------------------------------- constant pieces

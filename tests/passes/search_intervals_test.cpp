@@ -30,8 +30,9 @@ struct Searched {
     ir::Program before, after;
     passes::Report report;
 };
-Searched searched(const std::string& cpf_of_x) {
+Searched searched(const std::string& cpf_of_x, RealType real = RealType::Double) {
     Searched result{.before = grounded(with_intervals(cpf_of_x)), .after = {}, .report = {}};
+    result.before.real = real;
     result.after = valid(passes::search_intervals(result.before, result.report));
     return result;
 }
@@ -84,6 +85,25 @@ TEST(SearchIntervals, IsExactAtTheEndsAndForAllThatIsNoNumber) {
                 EXPECT_EQ(next_x(x.before, value), next_x(x.after, value)) << text << " " << value;
         }
     }
+}
+
+// What compares equal to 0.1f is found where x >= 0.1 begins, and x <= 0.1 ends behind it.
+TEST(SearchIntervals, FindsTheIntervalsOfFloats) {
+    const Searched x =
+        searched("sum_{?s : obj} [SLOPE(?s) * (x >= LEFT(?s) + 1.1 ^ x <= RIGHT(?s) + 1.0)]",
+                 RealType::Float);
+    EXPECT_EQ(value_of_x(x.after), "x-values[search(x-breaks, state.x)]");
+    EXPECT_EQ(table(x.after, "x-breaks"),
+              "x-breaks[6]: real = {0.10000000149011612 1.0000001192092896 1.100000023841858 "
+              "2.000000238418579 3.0999999046325684 4.000000476837158}");
+}
+
+TEST(SearchIntervals, LeavesIntervalsThatAreOneFloat) {
+    const std::string text =
+        "sum_{?s : obj} [SLOPE(?s) * (x > 1.0 ^ x < 1.0 + 0.000000000001 * abs[SLOPE(?s)])]";
+    EXPECT_NE(value_of_x(searched(text).after).find("search("), std::string::npos);
+    const Searched x = searched(text, RealType::Float);
+    EXPECT_EQ(value_of_x(x.after), value_of_x(x.before));
 }
 
 TEST(SearchIntervals, TakesTheObjectOfTheInterval) {
