@@ -100,6 +100,7 @@ ExitStatus bench(const BenchOptions& options) {
     BenchReport report;
     report.problem = files.name;
     report.engine = load.engine;
+    report.real = load.real;
     report.lanes = simulator.lane_count;
     report.instruction_set = simulator.instruction_set;
     report.costs = problem.costs;

@@ -39,6 +39,7 @@ void print_costs(const BenchReport& report) {
             {"first step", seconds_text(*report.first_step_seconds) + " after the files"});
     if (report.memory_per_environment)
         table.add_row({"memory", bytes_text(*report.memory_per_environment) + " per environment"});
+    table.add_row({"reals", std::string(name_of(report.real))});
     if (report.lanes > 1)
         table.add_row(
             {"packs", fmt::format("{} environments ({})", report.lanes, report.instruction_set)});
@@ -125,6 +126,7 @@ nlohmann::ordered_json to_json(const BenchReport& report) {
                          {"measurements", to_json(peer.measurements)}});
     return {{"problem", report.problem},
             {"engine", name_of(report.engine)},
+            {"real", name_of(report.real)},
             {"lanes", report.lanes},
             {"instruction_set", report.instruction_set},
             {"rddlc_seconds", costs.compile_seconds},

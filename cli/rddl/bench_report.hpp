@@ -15,6 +15,7 @@ namespace rddlc::cli {
 struct BenchReport {
     std::string problem;
     Engine engine = Engine::Compiled;
+    RealType real = RealType::Double;
     int lanes = 1;                // of the simulator's packs of environments
     std::string instruction_set;  // that these are made for
     LoadCosts costs;

@@ -46,6 +46,7 @@ TEST_F(Bench, TellsAsJson) {
     const json bench = run_json(std::string(briefly) + "--batch 16,7 --threads 3 --json");
     EXPECT_EQ(bench["problem"], "domain.rddl instance.rddl");
     EXPECT_EQ(bench["engine"], "compiled");
+    EXPECT_EQ(bench["real"], "double");
     EXPECT_GT(bench["rddlc_seconds"], 0);
     EXPECT_GT(bench["cxx_seconds"], 0);
     EXPECT_GT(bench["first_step_seconds"], bench["cxx_seconds"]);
@@ -77,6 +78,12 @@ TEST_F(Bench, TellsWhenNothingWasCompiled) {
     EXPECT_EQ(again["first_step_seconds"], nullptr);
     EXPECT_NE(run(command).out.find("spared by the cache (--no-cache measures it)"),
               std::string::npos);
+}
+
+TEST_F(Bench, TellsThatItComputesInFloats) {
+    const std::string command = std::string(briefly) + "--real=float --threads 1 --batch 4 ";
+    EXPECT_EQ(run_json(command + "--json")["real"], "float");
+    EXPECT_NE(run(command).out.find("reals         float\n"), std::string::npos);
 }
 
 TEST_F(Bench, MeasuresTheInterpreter) {
