@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace rddl {
@@ -23,7 +25,11 @@ constexpr std::array<Entry, size> even = [] {
 
 constexpr std::array<double, 5> uneven = {-7.5, 0.0, 0.25, 3.0, 1e9};
 // Even but for steps a tenth too long or too short.
-constexpr std::array<double, 7> nearly_even = {0.1, 0.9, 2.1, 2.9, 4.1, 4.9, 6.0};
+template <class Real>
+constexpr std::array<Real, 7> nearly_even = {Real(0.1), Real(0.9), Real(2.1), Real(2.9),
+                                             Real(4.1), Real(4.9), Real(6.0)};
+// As doubles become that are nearer to each other than floats.
+constexpr std::array<float, 5> repeated = {0.1f, 0.1f, 0.3f, 0.5f, 0.5f};
 
 std::int64_t counted(const auto& table, auto value) {
     return std::ranges::count_if(table, [&](auto entry) { return entry <= value; });
@@ -32,18 +38,21 @@ std::int64_t counted(const auto& table, auto value) {
 // At the entries, beside them, between them, and far away.
 template <const auto& table>
 void expect_counts_of_reals() {
-    std::vector<double> values = {HUGE_VAL, -HUGE_VAL, std::nan(""), 1e300, -1e300, -0.0};
-    for (const double entry : table)
-        for (const double value :
-             {entry, entry + 0.01, entry - 0.01, entry + 1.0, entry - 1.0,
-              std::nextafter(entry, HUGE_VAL), std::nextafter(entry, -HUGE_VAL)})
+    using Real = typename std::remove_cvref_t<decltype(table)>::value_type;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    constexpr Real most = std::numeric_limits<Real>::max();
+    std::vector<Real> values = {infinity, -infinity, Real(std::nan("")), most, -most, Real(-0.0)};
+    for (const Real entry : table)
+        for (const Real value :
+             {entry, entry + Real(0.01), entry - Real(0.01), entry + Real(1), entry - Real(1),
+              std::nextafter(entry, infinity), std::nextafter(entry, -infinity)})
             values.push_back(value);
-    for (const double value : values)
+    for (const Real value : values)
         EXPECT_EQ((search<table, std::int64_t>(value)), counted(table, value))
             << std::size(table) << " " << value;
 
-    constexpr int lanes = 8;
-    using Pack = rddl::Pack<lanes>;
+    constexpr int lanes = 16;
+    using Pack = rddl::Pack<lanes, Real>;
     for (std::size_t i = 0; i < values.size(); ++i) {
         typename Pack::Real packed;
         for (int lane = 0; lane < lanes; ++lane)
@@ -63,6 +72,7 @@ void expect_counts_of_ints() {
 template <std::size_t size>
 void expect_counts() {
     expect_counts_of_reals<even<double, size>>();
+    expect_counts_of_reals<even<float, size>>();
     expect_counts_of_ints<even<std::int64_t, size>>();
 }
 
@@ -76,12 +86,15 @@ TEST(Search, CountsEntriesThatAreAtMostTheValue) {
     expect_counts<8>();
     expect_counts<100>();
     expect_counts_of_reals<uneven>();
-    expect_counts_of_reals<nearly_even>();
+    expect_counts_of_reals<nearly_even<double>>();
+    expect_counts_of_reals<nearly_even<float>>();
+    expect_counts_of_reals<repeated>();
 }
 
 TEST(Search, GuessesAmongEvenEntriesOnly) {
     static_assert(detail::has_even_entries<even<double, 100>>);
-    static_assert(detail::has_even_entries<nearly_even>);
+    static_assert(detail::has_even_entries<even<float, 100>>);
+    static_assert(detail::has_even_entries<nearly_even<double>>);
     static_assert(!detail::has_even_entries<uneven>);
     static_assert(!detail::has_even_entries<even<std::int64_t, 100>>);
 }
