@@ -5,6 +5,7 @@
     .venv/bin/python tests/conformance/lanes.py RecSim_ippc2023     some problems
     .venv/bin/python tests/conformance/lanes.py --lanes 8 --lanes 32 --march x86-64-v3
     .venv/bin/python tests/conformance/lanes.py --without=hoist_aggregations --fast-math
+    .venv/bin/python tests/conformance/lanes.py --examples --real float
 
 Each instance is compiled for packs and stepped by compare_lanes.cpp: 70 environments, 60 steps,
 with resets and faults, one by one, in packs, and in packs by two threads. States, observations,
@@ -49,6 +50,7 @@ def compare_built(case: Case, lanes: int, options) -> tuple[bool, str]:
         emit = [options.rddlc, *problem_words(case), "-w", f"--lanes={lanes}", "-o", source]
         emit += [f"--without={name}" for name in options.without]
         emit += ["--fast-math"] if options.fast_math else []
+        emit += [f"--real={options.real}"]
         steps = [options.program, simulator, options.steps, options.environments]
         for command in (emit, compile_command(case, source, simulator, options), steps):
             result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
@@ -85,6 +87,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--optimise", default="1", help="-O of the C++ compiler")
     parser.add_argument("--without", action="append", default=[], help="leave out a pass")
     parser.add_argument("--fast-math", action="store_true")
+    parser.add_argument("--real", default="double", choices=["double", "float"])
     parser.add_argument("--environments", type=int, default=70)
     parser.add_argument("--steps", type=int, default=60)
     parser.add_argument("--rddlc", type=Path, default=ROOT / "build/bin/rddlc", help="our compiler")
