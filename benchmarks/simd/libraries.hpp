@@ -4,6 +4,13 @@
 
 inline constexpr std::uint64_t bits_of_one = 0x3FF0000000000000;
 
+template <std::size_t width>
+std::array<std::uint64_t, width> numbers_from(std::size_t first) {
+    std::array<std::uint64_t, width> numbers;
+    for (std::size_t i = 0; i < width; ++i) numbers[i] = first + i;
+    return numbers;
+}
+
 struct Ours {
     static constexpr std::size_t width = rddl::simd::lanes < 8 ? 8 : rddl::simd::lanes;
     using Lane = rddl::Pack<static_cast<int>(width)>;
@@ -13,9 +20,7 @@ struct Ours {
     static Real real(double a) { return a; }
     static Word word(std::uint64_t a) { return a; }
     static Word counting(std::size_t first) {
-        std::uint64_t numbers[width];
-        for (std::size_t i = 0; i < width; ++i) numbers[i] = first + i;
-        return Word::load(numbers);
+        return Word::load(numbers_from<width>(first).data());
     }
     static Real load(const double* from) { return Real::load(from); }
     static void store(Real a, double* to) { a.store(to); }
@@ -40,9 +45,7 @@ struct Xsimd {
     static Real real(double a) { return a; }
     static Word word(std::uint64_t a) { return a; }
     static Word counting(std::size_t first) {
-        std::uint64_t numbers[width];
-        for (std::size_t i = 0; i < width; ++i) numbers[i] = first + i;
-        return Word::load_unaligned(numbers);
+        return Word::load_unaligned(numbers_from<width>(first).data());
     }
     static Real load(const double* from) { return Real::load_unaligned(from); }
     static void store(Real a, double* to) { a.store_unaligned(to); }
