@@ -15,6 +15,13 @@ namespace tiny {
 using StateRecord = State<Scalar>;
 using ActionRecord = Action<Scalar>;
 
+// Records whose padding is zero, too, to be compared byte by byte.
+inline std::vector<StateRecord> blank_states(std::size_t count) {
+    std::vector<StateRecord> states(count);
+    std::memset(static_cast<void*>(states.data()), 0, count * sizeof(StateRecord));
+    return states;
+}
+
 class TinyBatch {
   public:
     explicit TinyBatch(const rddl_batch_options& options,
@@ -22,8 +29,8 @@ class TinyBatch {
         : TinyBatch(functions->create(functions, &options),
                     static_cast<std::size_t>(options.environment_count), functions) {}
     TinyBatch(rddl_batch* batch, std::size_t size, const rddl_simulator* functions = simulator())
-        : observations(size),
-          finals(size),
+        : observations(blank_states(size)),
+          finals(blank_states(size)),
           actions(size),
           rewards(size),
           terminated(size),
@@ -44,7 +51,7 @@ class TinyBatch {
         ASSERT_EQ(functions_->step(batch_, actions.data(), &out), RDDL_OK);
     }
     std::vector<StateRecord> states() {
-        std::vector<StateRecord> states(size());
+        std::vector<StateRecord> states = blank_states(size());
         const auto count = static_cast<std::int64_t>(size());
         EXPECT_EQ(functions_->get_state(batch_, 0, count, states.data()), RDDL_OK);
         return states;

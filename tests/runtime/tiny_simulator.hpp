@@ -68,8 +68,12 @@ struct Simulator {
 
     template <class L>
     static void reset(State<L>& state, Context<L>& /*context*/) {
-        state = {};
-        for (Index m = 0; m < machines; ++m) state.running[m] = true;
+        for (Index m = 0; m < machines; ++m) {
+            state.wear[m] = 0;
+            state.running[m] = true;
+        }
+        state.mode = 0;
+        state.repairs = 0;
     }
 
     template <class L>
