@@ -128,7 +128,7 @@ struct Simulator {
         called(state, action, scratch);
         position(state, action, scratch, next, context);
         carrier(state, scratch, next);
-        status(state, scratch, next, context);
+        status(state, scratch, next);
     }
 
     // grip(?v)  (domain.rddl:60)
@@ -187,13 +187,12 @@ struct Simulator {
 
     // status'(?p)  (domain.rddl:84)
     template <class L>
-    static void status(const State<L>& state, const Scratch<L>& scratch, State<L>& next,
-                       rddl::Context<L>& context) {
+    static void status(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         using Bool = typename L::Bool;
         using Int = typename L::Int;
         for (rddl::Index p = 0; p < parcel_count; ++p) {
             next.status[p] = rddl::branch(
-                context, state.status[p] == 0,
+                state.status[p] == 0,
                 [&] { return rddl::select(scratch.called[p], Int{1}, Int{0}); },
                 [&] {
                     const Bool condition =

@@ -11,6 +11,8 @@ namespace {
 
 // Longer conditions get a name.
 constexpr std::size_t longest_condition = 45;
+// In operations (Facts::cost): what packs may compute for all lanes though no lane needs it.
+constexpr double cost_without_jumps = 128;
 // Longer operands of a chain get a name of their own instead of a line of their own.
 constexpr std::size_t longest_operand = 75;
 // Shorter texts are not worth a name.
@@ -321,8 +323,9 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
 }
 
 // A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
+// What packs may evaluate in all lanes, since it costs little and neither draws nor faults, needs
+// no context.
 void FunctionBody::write_branch(const std::string& lead, const ir::Select& select) {
-    expressions_.uses().context = true;
     std::vector<ir::NodeId> lambdas = {select.then_value};
     ir::NodeId last = select.else_value;
     while (const ir::Select* next = lazy_select(last)) {
@@ -331,15 +334,27 @@ void FunctionBody::write_branch(const std::string& lead, const ir::Select& selec
     }
     lambdas.push_back(last);
 
+    const bool needs_context = !are_harmless(lambdas);
+    expressions_.uses().context |= needs_context;
+
     line(lead + "rddl::branch(");
     ++level_;
-    std::string current = "context, " + expressions_.text(select.condition) + ",";
+    std::string current =
+        (needs_context ? "context, " : "") + expressions_.text(select.condition) + ",";
     for (std::size_t k = 0; k < lambdas.size(); ++k) {
         const bool is_last = k + 1 == lambdas.size();
         add_lambda(current, lambdas[k], is_last ? ");" : ",");
     }
     line(current);
     --level_;
+}
+
+bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
+    double cost = 0;
+    for (ir::NodeId lambda : lambdas) cost += expressions_.unit().facts_of(lambda).cost;
+    return cost <= cost_without_jumps && std::ranges::all_of(lambdas, [&](ir::NodeId lambda) {
+               return ir::is_droppable(expressions_.unit().facts_of(lambda));
+           });
 }
 
 // Behind what stands in the current line, or in lines of its own.

@@ -57,6 +57,7 @@ class FunctionBody {
     void write_call(const std::string& text);
     void write_lambda_call(const std::string& lead, ir::NodeId id);
     void write_branch(const std::string& lead, const ir::Select& select);
+    bool are_harmless(const std::vector<ir::NodeId>& lambdas) const;
     void add_lambda(std::string& current, ir::NodeId body, const std::string& tail);
     void write_discrete(const std::string& lead, const ir::Discrete& discrete);
     void write_lambda_body(ir::NodeId body);

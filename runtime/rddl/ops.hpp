@@ -10,6 +10,7 @@
 #include <rddl/real.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -32,12 +33,24 @@ template <class R, class Then, class Else>
 constexpr auto branch(Context<ScalarOf<R>>&, bool condition, Then&& then_value, Else&& else_value) {
     return condition ? then_value() : else_value();
 }
+// Of branches that neither draw nor fault: packs evaluate both, without a jump.
+template <class Then, class Else>
+requires std::invocable<Then>
+constexpr auto branch(bool condition, Then&& then_value, Else&& else_value) {
+    return condition ? then_value() : else_value();
+}
 // "if condition then ... else if next() then ... else ...": further conditions are functions too.
 template <class L, class Bool, class Then, class Next, class... Rest>
 requires(sizeof...(Rest) >= 2) constexpr auto branch(Context<L>& context, Bool condition,
                                                      Then&& then_value, Next&& next,
                                                      Rest&&... rest) {
     return branch(context, condition, then_value, [&] { return branch(context, next(), rest...); });
+}
+
+template <class Bool, class Then, class Next, class... Rest>
+requires std::invocable<Then> &&(sizeof...(Rest) >= 2)  //
+    constexpr auto branch(Bool condition, Then&& then_value, Next&& next, Rest&&... rest) {
+    return branch(condition, then_value, [&] { return branch(next(), rest...); });
 }
 
 // ---------------------------------------------------------------------------- conversions

@@ -132,6 +132,8 @@ constexpr auto branch(Context<Pack<n, R>>& context, Condition condition, Then&& 
                       Else&& else_value) {
     using Result = LanesOf<decltype(then_value()), n>;
     static_assert(std::is_same_v<Result, LanesOf<decltype(else_value()), n>>);
+    if constexpr (std::is_same_v<Condition, bool>)  // the same in all lanes
+        return condition ? Result(then_value()) : Result(else_value());
     const Mask<n> chosen = condition;
     const Mask<n> active = context.active;
     const auto within = [&](Mask<n> lanes, auto& value) -> Result {
@@ -143,6 +145,11 @@ constexpr auto branch(Context<Pack<n, R>>& context, Condition condition, Then&& 
     const Result b = within(active && !chosen, else_value);
     context.active = active;
     return select(chosen, a, b);
+}
+
+template <int n, class Then, class Else>
+constexpr auto branch(Mask<n> condition, Then&& then_value, Else&& else_value) {
+    return select(condition, then_value(), else_value());
 }
 
 // ------------------------------------------------------------------------------ conversions

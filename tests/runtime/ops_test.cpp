@@ -232,6 +232,13 @@ TEST(Choices, AreEagerOrLazy) {
         context, true, [] { return 1.0; }, [&] { return fault<double>(context, {}); });
     EXPECT_EQ(chosen, 1.0);
     EXPECT_FALSE(context.fault);
+    const auto which = [](bool first, bool second) {
+        return branch(
+            first, [] { return 1; }, [&] { return second; }, [] { return 2; }, [] { return 3; });
+    };
+    EXPECT_EQ(which(true, true), 1);
+    EXPECT_EQ(which(false, true), 2);
+    EXPECT_EQ(which(false, false), 3);
 }
 
 TEST(At, IndexesNestedArrays) {

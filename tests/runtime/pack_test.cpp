@@ -167,6 +167,24 @@ TEST(Packs, CountLanesOfMasks) {
     }
 }
 
+TEST(Packs, TakeBranchesInEachLane) {
+    const auto third = [] {
+        return Bools::of_bits(0x00FF);
+    };
+    for (const std::uint64_t pattern : {0x0000u, 0x0001u, 0xA5A5u, 0xFFFFu}) {
+        const Bools first = Bools::of_bits(pattern);
+        const Bools chosen = branch(
+            first, [] { return true; }, [&] { return !first; }, [] { return false; }, third);
+        EXPECT_EQ(chosen.bits, pattern) << "the second condition holds where the first does not";
+        const auto number = branch(
+            first, [] { return Ints{1}; }, third, [] { return Ints{2}; }, [] { return Ints{3}; });
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(number[lane], first[lane] ? 1 : third()[lane] ? 2 : 3);
+    }
+    const Bools of_all = branch(true, third, [] { return false; });
+    EXPECT_EQ(of_all.bits, third().bits);
+}
+
 TEST(Packs, ReadTablesInEachLane) {
     std::array<double, 37> table;
     std::array<std::int64_t, 37> numbers;
