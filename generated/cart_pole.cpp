@@ -119,14 +119,13 @@ struct Simulator {
         scratch.sin_angle = rddl::sin(state.angle);
         scratch.cos_angle = rddl::cos(state.angle);
         const Real term = scratch.friction * scratch.cos_angle;
-        const Real term_2 = rddl::select(scratch.friction == 0.0, scratch.friction, term);
-        const Real term_3 = scratch.sin_angle + term_2;
-        const Real term_4 = 0.05 * (state.angle_change * state.angle_change) * term_3;
+        const Real term_2 =
+            scratch.sin_angle + rddl::select(scratch.friction == 0.0, scratch.friction, term);
         const Bool condition = 0.05 * (state.angle_change * state.angle_change) == 0.0;
-        const Real term_5 =
-            rddl::select(condition, 0.05 * (state.angle_change * state.angle_change), term_4);
-        const Real term_6 = rddl::select(action.push_right, 10.0, -10.0) + term_5;
-        scratch.drive = term_6 / 1.1;
+        const Real term_3 = 0.05 * (state.angle_change * state.angle_change);
+        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
+                            rddl::select(condition, term_3, term_3 * term_2);
+        scratch.drive = term_4 / 1.1;
     }
 
     // turn  (domain.rddl:55)
@@ -134,15 +133,13 @@ struct Simulator {
     static void turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = scratch.cos_angle * (scratch.drive - scratch.friction * 9.8);
-        const Real term_2 = rddl::select(scratch.cos_angle == 0.0, scratch.cos_angle, term);
-        const Real term_3 = 9.8 * scratch.sin_angle - term_2 - 2e-06 * state.angle_change / 0.05;
-        const Real term_4 = 0.1 * scratch.cos_angle * (scratch.cos_angle - scratch.friction);
-        const Real term_5 =
-            rddl::select(0.1 * scratch.cos_angle == 0.0, 0.1 * scratch.cos_angle, term_4);
-        const Real term_6 = term_5 / 1.1;
-        const Real term_7 = 1.3333333333333333 - term_6;
-        const Real term_8 = 0.5 * term_7;
-        scratch.turn = term_3 / term_8;
+        const Real term_2 = 9.8 * scratch.sin_angle -
+                            rddl::select(scratch.cos_angle == 0.0, scratch.cos_angle, term) -
+                            2e-06 * state.angle_change / 0.05;
+        const Real term_3 = 0.1 * scratch.cos_angle * (scratch.cos_angle - scratch.friction);
+        const Real term_4 =
+            rddl::select(0.1 * scratch.cos_angle == 0.0, 0.1 * scratch.cos_angle, term_3) / 1.1;
+        scratch.turn = term_2 / (0.5 * (1.3333333333333333 - term_4));
     }
 
     // angle-change'  (domain.rddl:77)
@@ -158,12 +155,11 @@ struct Simulator {
         using Real = typename L::Real;
         const Bool condition = state.angle_change * state.angle_change == 0.0;
         const Real term = state.angle_change * state.angle_change * scratch.cos_angle;
-        const Real term_2 = rddl::select(condition, state.angle_change * state.angle_change, term);
-        const Real term_3 =
+        const Real term_2 =
             rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.sin_angle);
-        const Real term_4 = term_3 + term_2;
-        const Real term_5 = 0.05 * term_4;
-        scratch.pressure = 10.780000000000001 - term_5;
+        const Real term_3 =
+            term_2 + rddl::select(condition, state.angle_change * state.angle_change, term);
+        scratch.pressure = 10.780000000000001 - 0.05 * term_3;
     }
 
     // speed-up  (domain.rddl:68)
@@ -176,11 +172,9 @@ struct Simulator {
         const Real term_2 = rddl::select(condition, state.angle_change * state.angle_change, term);
         const Real term_3 =
             rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.cos_angle);
-        const Real term_4 = term_2 - term_3;
-        const Real term_5 = 0.05 * term_4;
-        const Real term_6 = rddl::select(action.push_right, 10.0, -10.0) + term_5 -
-                            scratch.friction * scratch.pressure;
-        scratch.speed_up = term_6 / 1.1;
+        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
+                            0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure;
+        scratch.speed_up = term_4 / 1.1;
     }
 
     // velocity'  (domain.rddl:75)

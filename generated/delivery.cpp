@@ -136,8 +136,8 @@ struct Simulator {
     static void grip(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = rddl::select(rddl::at(STEEP, state.position[0]), 0.4, 0.7);
-        const Real term_2 = rddl::select(state.sky == 1, 0.9, term);
-        scratch.grip[0] = rddl::select(state.sky == 0, 1.0, term_2);
+        scratch.grip[0] =
+            rddl::select(state.sky == 0, 1.0, rddl::select(state.sky == 1, 0.9, term));
     }
 
     // loaded(?v)  (domain.rddl:71)

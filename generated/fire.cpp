@@ -31,17 +31,6 @@ inline constexpr rddl::Index ypos_count = 5;  // y1, y2, y3, y4, y5
 
 // ---------------------------------------------------------------------------------- tables
 
-// HOUSE, domain.rddl:22
-// clang-format off
-inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> HOUSE = {{
-    {0, 0, 0, 0, 0},
-    {0, 0, 0, 0, 0},
-    {0, 0, 0, 0, 0},
-    {0, 0, 0, 0, 0},
-    {1, 0, 1, 0, 1},
-}};
-// clang-format on
-
 // CLEARING, domain.rddl:23
 // clang-format off
 inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING = {{
@@ -104,6 +93,12 @@ inline constexpr std::array<double, 80> ignites_entries = {
     0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88
 };
 // clang-format on
+
+// HOUSE-c, domain.rddl:22
+inline constexpr std::array<std::int64_t, 3> HOUSE_c = {4, 4, 4};
+
+// HOUSE-r, domain.rddl:22
+inline constexpr std::array<std::int64_t, 3> HOUSE_r = {0, 2, 4};
 
 // --------------------------------------------------------------------------------- records
 
@@ -221,17 +216,18 @@ struct Simulator {
                                    rddl::Context<L>& /*context*/) {
         using Int = typename L::Int;
         using Real = typename L::Real;
-        const Real total = rddl::sum<Real>(xpos_count, [&](rddl::Index c) {
-            return rddl::sum<Real>(ypos_count, [&](rddl::Index r) {
+        const Int total = rddl::sum<Int>(xpos_count, [&](rddl::Index c) {
+            return rddl::sum<Int>(ypos_count, [&](rddl::Index r) {
                 const Int number = rddl::to_int(action.douse[c][r]);
-                const Int number_2 = rddl::wrap_add(number, rddl::to_int(action.clear[c][r]));
-                const Real term = rddl::to_real(number_2);
-                const Real term_2 = 0.5 * term;
-                return rddl::to_real(next.burning[c][r]) +
-                       50.0 * rddl::to_real(HOUSE[c][r] && scratch.ignites[c][r]) + term_2;
+                return rddl::wrap_add(number, rddl::to_int(action.clear[c][r]));
             });
         });
-        return -total;
+        const Int total_2 = rddl::sum<Int>(3, [&](rddl::Index entry) {
+            return rddl::to_int(scratch.ignites[HOUSE_c[entry]][HOUSE_r[entry]]);
+        });
+        const Real term = rddl::to_real(rddl::count_ones(rddl::bits(next.burning))) +
+                          50.0 * rddl::to_real(total_2) + 0.5 * rddl::to_real(total);
+        return -term;
     }
 
     // An episode ends where one of these holds.
@@ -258,12 +254,10 @@ struct Simulator {
     // forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]  (domain.rddl:84)
     template <class L>
     static typename L::Bool invariant_0(const State<L>& state) {
-        using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
-            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
-                return !(state.burning[c][r] && state.bare[c][r]);
-            });
-        });
+        using Int = typename L::Int;
+        const Int bits =
+            rddl::bit_xor(rddl::bit_and(rddl::bits(state.burning), rddl::bits(state.bare)), -1);
+        return rddl::bit_and(rddl::bit_xor(bits, -1), 33554431) == 0;
     }
 
     // Hold for every action that is allowed.
@@ -284,24 +278,21 @@ struct Simulator {
     // forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]  (domain.rddl:77)
     template <class L>
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
-        using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
-            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
-                return !action.douse[c][r] || state.burning[c][r];
-            });
-        });
+        using Int = typename L::Int;
+        const Int bits =
+            rddl::bit_or(rddl::bit_xor(rddl::bits(action.douse), -1), rddl::bits(state.burning));
+        return rddl::bit_and(rddl::bit_xor(bits, -1), 33554431) == 0;
     }
 
     // forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bar...  (domain.rddl:78)
     template <class L>
     static typename L::Bool precondition_1(const State<L>& state, const Action<L>& action) {
-        using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(xpos_count, [&](rddl::Index c) {
-            return rddl::for_all<Bool>(ypos_count, [&](rddl::Index r) {
-                return !action.clear[c][r] ||
-                       !(state.burning[c][r] || state.bare[c][r] || CLEARING[c][r]);
-            });
-        });
+        using Int = typename L::Int;
+        const Int bits =
+            rddl::bit_or(rddl::bit_or(rddl::bits(state.burning), rddl::bits(state.bare)), 24576);
+        const Int bits_2 =
+            rddl::bit_or(rddl::bit_xor(rddl::bits(action.clear), -1), rddl::bit_xor(bits, -1));
+        return rddl::bit_and(rddl::bit_xor(bits_2, -1), 33554431) == 0;
     }
 };
 

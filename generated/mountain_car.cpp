@@ -113,8 +113,7 @@ struct Simulator {
     static void speed(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = state.velocity + 0.0015 * action.throttle - 0.00083333 * scratch.slope;
-        const Real term_2 = rddl::minimum(0.07, term);
-        scratch.speed = rddl::maximum(-0.07, term_2);
+        scratch.speed = rddl::maximum(-0.07, rddl::minimum(0.07, term));
     }
 
     // position'  (domain.rddl:59)

@@ -90,6 +90,11 @@ Spelled Expressions::spell(const ir::Node& node, const ir::Search& search) {
             Level::Primary};
 }
 
+Spelled Expressions::spell(const ir::Node&, const ir::Bits& bits) {
+    const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
+    return {"rddl::bits" + first + "(" + record(bits.buffer) + ")", Level::Primary};
+}
+
 Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
     return {locals_.at(local.local), Level::Primary};
 }

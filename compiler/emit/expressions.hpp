@@ -68,6 +68,7 @@ class Expressions {
     void name(ir::NodeId id, const std::string& name) { named_[id] = name; }
     void name(ir::LocalId local, const std::string& name) { locals_[local] = name; }
     bool is_named(ir::NodeId id) const { return named_.contains(id); }
+    std::size_t named_count() const { return named_.size(); }
     std::string enter(ir::VariableId variable);
     std::string claim(std::string_view wish) { return scope_.claim(wish); }
 
@@ -89,6 +90,7 @@ class Expressions {
     Spelled spell(const ir::Node& node, const ir::Index& index);
     Spelled spell(const ir::Node& node, const ir::Load& load);
     Spelled spell(const ir::Node& node, const ir::Search& search);
+    Spelled spell(const ir::Node& node, const ir::Bits& bits);
     Spelled spell(const ir::Node& node, const ir::Local& local);
     Spelled spell(const ir::Node& node, const ir::Convert& convert);
     Spelled spell(const ir::Node& node, const ir::Apply& apply);

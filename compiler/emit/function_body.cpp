@@ -73,6 +73,10 @@ std::string_view wish_for(const ir::Node& node) {
                 return "best";
         }
     }
+    if (std::holds_alternative<ir::Bits>(node.form)) return "bits";
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (apply && apply->op == Operator::CountOnes) return "count";
+    if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::BitXor) return "bits";
     const bool draws = std::holds_alternative<ir::Sample>(node.form) ||
                        std::holds_alternative<ir::Discrete>(node.form) ||
                        std::holds_alternative<ir::DiscreteOver>(node.form);
@@ -221,7 +225,11 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     // The first of those that are about as long, so that names come in the order of the text.
     const auto first = std::ranges::find_if(
         lengths, [&](std::size_t length) { return 3 * length >= 2 * longest; });
-    name_value(parts[static_cast<std::size_t>(first - lengths.begin())]);
+    const ir::NodeId part = parts[static_cast<std::size_t>(first - lengths.begin())];
+    // Where it has parts that need names itself, these may be enough.
+    const std::size_t names_before = expressions_.named_count();
+    prepare_declaration(part);
+    if (expressions_.named_count() == names_before) name_value(part);
     return true;
 }
 
@@ -231,16 +239,20 @@ void FunctionBody::name_value(ir::NodeId id) {
 
 // "const Real total = ...;"
 std::string FunctionBody::declare(ir::NodeId id) {
-    const ir::Node& node = program()[id];
-    const std::string_view wish = wish_for(node);
-    const bool is_index = is_index_arithmetic(program(), id);
-    const std::string type =
-        "const " + (is_index ? "rddl::Index" : expressions_.type(node.type)) + " ";
     // The parts that need names get them first, so that numbers grow from top to bottom.
-    prepare(type + std::string(wish) + "_99 = ", id);
-    const std::string name = expressions_.claim(wish);
-    write(type + name + " = ", id);
+    prepare_declaration(id);
+    const std::string name = expressions_.claim(wish_for(program()[id]));
+    write(type_in_declaration(id) + name + " = ", id);
     return name;
+}
+
+void FunctionBody::prepare_declaration(ir::NodeId id) {
+    prepare(type_in_declaration(id) + std::string(wish_for(program()[id])) + "_99 = ", id);
+}
+
+std::string FunctionBody::type_in_declaration(ir::NodeId id) {
+    const bool is_index = is_index_arithmetic(program(), id);
+    return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type)) + " ";
 }
 
 // -------------------------------------------------------------------------------- forms

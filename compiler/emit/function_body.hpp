@@ -51,6 +51,8 @@ class FunctionBody {
     bool name_longest_part(ir::NodeId id);
     void name_value(ir::NodeId id);
     std::string declare(ir::NodeId id);
+    void prepare_declaration(ir::NodeId id);
+    std::string type_in_declaration(ir::NodeId id);
 
     // Writes what has been prepared, in the form that fits.
     void write(const std::string& lead, ir::NodeId id);

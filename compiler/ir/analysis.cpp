@@ -3,6 +3,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -119,6 +120,12 @@ class Collector {
         facts_.range = Range{0, size};
     }
 
+    void describe(Scalar, const Bits& bits) {
+        const std::int64_t count = program_[bits.buffer].count() - bits.first;
+        facts_.cost += static_cast<double>(std::min<std::int64_t>(count, 64));
+        facts_.uniform = false;
+    }
+
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
         facts_.finite = false;
@@ -135,10 +142,60 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
         if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
+        if (!facts_.range && is_square(apply)) facts_.range = never_negative;
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
+        if (type == Scalar::Int) facts_.range = range_of_ints(apply, ranges);
         if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
         const bool divides = apply.op == Operator::Divide && is_never_zero(ranges.back());
-        facts_.finite &= divides || keeps_finite(apply.op);
+        const bool is_root = is_power_or_root(apply.op) && is_never_negative(ranges.front()) &&
+                             is_never_negative(ranges.back());
+        facts_.finite &= divides || is_root || keeps_finite(apply.op);
+    }
+
+    bool is_square(const Apply& apply) const {
+        return apply.op == Operator::Multiply && apply.operands[0] == apply.operands[1] &&
+               facts_.finite;
+    }
+    static bool is_power_or_root(Operator op) {
+        return op == Operator::Power || op == Operator::Sqrt;
+    }
+    static bool is_never_negative(const std::optional<Range>& range) {
+        return range && range->lower >= 0;
+    }
+
+    std::optional<Range> range_of_ints(const Apply& apply,
+                                       std::span<const std::optional<Range>> operands) const {
+        if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
+        if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
+        const auto range = ir::range_of(apply.op, operands);
+        const bool is_exact = range && range->lower >= -0x1p53 && range->upper <= 0x1p53;
+        return is_exact ? range : std::nullopt;
+    }
+
+    // The most bits that may be 1.
+    double most_ones(NodeId id) const {
+        const auto ones = [](const Value& value) {
+            return static_cast<double>(
+                std::popcount(static_cast<std::uint64_t>(std::get<std::int64_t>(value))));
+        };
+        return match(
+            program_[id].form, [&](const Constant& constant) { return ones(constant.value); },
+            [&](const Bits& bits) {
+                return std::min(64.0,
+                                static_cast<double>(program_[bits.buffer].count() - bits.first));
+            },
+            [&](const Load& load) {
+                const Buffer& buffer = program_[load.buffer];
+                double most = buffer.storage == Storage::Constant ? 0 : 64;
+                for (std::int64_t i = 0; most < 64 && i < buffer.count(); ++i)
+                    most = std::max(most, ones(buffer.values[i]));
+                return most;
+            },
+            [&](const Apply& apply) {
+                if (apply.op != Operator::BitAnd) return 64.0;
+                return std::min(most_ones(apply.operands[0]), most_ones(apply.operands[1]));
+            },
+            [](const auto&) { return 64.0; });
     }
 
     void describe(Scalar, const Select& select) {
@@ -156,6 +213,9 @@ class Collector {
             facts_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
             facts_.range = range_of_sum(reduce);
+        if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Real &&
+            is_never_negative(range(reduce.body)))
+            facts_.range = never_negative;
     }
 
     std::optional<Range> range_of_sum(const Reduce& sum) const {
@@ -233,6 +293,9 @@ class Collector {
     static bool is_never_zero(const std::optional<Range>& range) {
         return range && (range->lower > 0 || range->upper < 0);
     }
+
+    // Also of what may overflow.
+    static constexpr Range never_negative{0, std::numeric_limits<double>::infinity()};
 
     std::optional<Range> range(NodeId id) const { return known_[id.index].range; }
 
@@ -385,6 +448,7 @@ std::vector<NodeId> operands_of(const Node& node) {
         node.form, [](const Constant&) { return std::vector<NodeId>{}; },
         [](const Index&) { return std::vector<NodeId>{}; },
         [](const Local&) { return std::vector<NodeId>{}; },
+        [](const Bits&) { return std::vector<NodeId>{}; },
         [](const Load& load) { return load.indices; },
         [](const Search& search) { return std::vector{search.value}; },
         [](const Convert& convert) { return std::vector{convert.operand}; },
@@ -446,6 +510,14 @@ std::vector<NodeId> operands_of(const Call& call) {
     add(call.output.indices);
     if (call.place) operands.push_back(call.place->index);
     return operands;
+}
+
+std::optional<BufferId> buffer_read_by(const Node& node) {
+    return match(
+        node.form, [](const Load& load) { return std::optional(load.buffer); },
+        [](const Search& search) { return std::optional(search.table); },
+        [](const Bits& bits) { return std::optional(bits.buffer); },
+        [](const auto&) { return std::optional<BufferId>(); });
 }
 
 std::optional<Place> place_of(const Node& node) {

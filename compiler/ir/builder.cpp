@@ -50,6 +50,10 @@ class Key {
         add(form.table);
         add(form.value);
     }
+    void add(const Bits& form) {
+        add(form.buffer);
+        add(static_cast<std::uint64_t>(form.first));
+    }
     void add(const Load& form) {
         add(form.buffer);
         add(form.indices);
@@ -179,6 +183,10 @@ NodeId Builder::search(BufferId table, NodeId value) {
     return intern({Scalar::Int, Search{table, value}});
 }
 
+NodeId Builder::bits(BufferId buffer, std::int64_t first) {
+    return intern({Scalar::Int, Bits{buffer, first}});
+}
+
 NodeId Builder::local(LocalId id, Scalar type) {
     return intern({type, Local{id}});
 }
@@ -253,6 +261,7 @@ NodeId Builder::rebuild(const Node& node) {
         [&](const Index& form) { return index(form.variable); },
         [&](const Load& form) { return load(form.buffer, form.indices); },
         [&](const Search& form) { return search(form.table, form.value); },
+        [&](const Bits& form) { return bits(form.buffer, form.first); },
         [&](const Local& form) { return local(form.local, node.type); },
         [&](const Convert& form) { return convert(form.operand, node.type); },
         [&](const Apply& form) { return apply(form.op, form.operands, form.place); },

@@ -30,6 +30,8 @@ class Builder {
     NodeId index(VariableId variable);
     NodeId load(BufferId buffer, std::vector<NodeId> indices);
     NodeId search(BufferId table, NodeId value);
+    // `buffer` is no Constant.
+    NodeId bits(BufferId buffer, std::int64_t first);
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type);
     // `place` for exactly the operators that may fault (model/vocabulary.hpp).

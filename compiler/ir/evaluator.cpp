@@ -270,6 +270,10 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                      if constexpr (is_int) return search(form, frame);
                      unreachable_operator();
                  },
+                 [&](const Bits& form) -> T {
+                     if constexpr (is_int) return bits(form, frame);
+                     unreachable_operator();
+                 },
                  [&](const Local& form) -> T {
                      return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
                  },
@@ -299,6 +303,15 @@ std::int64_t Evaluator::search(const Search& form, Frame& frame) const {
     if (table.scalar == Scalar::Real)
         return count_at_most(table.values, value<double>(form.value, frame));
     return count_at_most(table.values, value<std::int64_t>(form.value, frame));
+}
+
+std::int64_t Evaluator::bits(const Bits& form, Frame& frame) const {
+    const std::byte* const bools = element(form.buffer, {}, frame) + form.first;
+    const std::int64_t count = (*program_)[form.buffer].count() - form.first;
+    std::uint64_t bits = 0;
+    for (std::int64_t i = 0; i < std::min<std::int64_t>(count, 64); ++i)
+        bits |= std::uint64_t{bools[i] != std::byte{0}} << i;
+    return static_cast<std::int64_t>(bits);
 }
 
 template <class T>

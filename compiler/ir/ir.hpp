@@ -122,6 +122,13 @@ struct Search {
     NodeId value;
     bool operator==(const Search&) const = default;
 };
+// The elements [first, first + 64) of a table of bools, in row-major order, as the bits of an Int,
+// the first one lowest; bits beyond its end are 0.
+struct Bits {
+    BufferId buffer;
+    std::int64_t first;
+    bool operator==(const Bits&) const = default;
+};
 struct Local {  // the value of an enclosing Let
     LocalId local;
     bool operator==(const Local&) const = default;
@@ -185,7 +192,7 @@ struct Fault {
 
 struct Node {
     Scalar type;
-    std::variant<Constant, Index, Load, Search, Local, Convert, Apply, Select, Reduce, Sample,
+    std::variant<Constant, Index, Load, Search, Bits, Local, Convert, Apply, Select, Reduce, Sample,
                  Discrete, DiscreteOver, Fault>
         form;
     bool operator==(const Node&) const = default;

@@ -1,5 +1,6 @@
 #include "ir/kernels.hpp"
 
+#include <rddl/bits.hpp>
 #include <rddl/distributions.hpp>
 #include <rddl/linear_algebra.hpp>
 
@@ -56,6 +57,14 @@ std::int64_t apply_int(Operator op, std::int64_t a, std::int64_t b, rddl::Place 
             return rddl::maximum(a, b);
         case Operator::Power:
             return rddl::power(context, place, a, b);
+        case Operator::BitAnd:
+            return rddl::bit_and(a, b);
+        case Operator::BitOr:
+            return rddl::bit_or(a, b);
+        case Operator::BitXor:
+            return rddl::bit_xor(a, b);
+        case Operator::CountOnes:
+            return rddl::count_ones(a);
         default:
             unreachable_operator();
     }

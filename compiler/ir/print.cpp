@@ -323,6 +323,9 @@ class Printer {
     std::string text(const Search& form, Scalar, Precedence) const {
         return fmt::format("search({}, {})", element(form.table, {}), expression(form.value));
     }
+    std::string text(const Bits& form, Scalar, Precedence) const {
+        return fmt::format("bits({}, {})", element(form.buffer, {}), form.first);
+    }
     std::string text(const Local& form, Scalar, Precedence) const {
         return fmt::format("%{}", form.local.index);
     }

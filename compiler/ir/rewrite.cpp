@@ -35,7 +35,7 @@ void change_tables(Block& block, const std::function<void(BufferId&)>& change) {
 
 void change_operands(Node& node, const Change& change) {
     match(
-        node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {},
+        node.form, [](Constant&) {}, [](Index&) {}, [](Local&) {}, [](Bits&) {},
         [&](Load& load) { change_all(load.indices, change); },
         [&](Search& search) { change(search.value); },
         [&](Convert& convert) { change(convert.operand); },
@@ -99,6 +99,7 @@ void change_buffers(Program& program, const std::function<void(BufferId&)>& chan
     for (Node& node : program.nodes) {
         if (auto* load = std::get_if<Load>(&node.form)) change(load->buffer);
         if (auto* search = std::get_if<Search>(&node.form)) change(search->table);
+        if (auto* bits = std::get_if<Bits>(&node.form)) change(bits->buffer);
     }
     for (Definition* definition : definitions_of(program)) {
         change(definition->target);

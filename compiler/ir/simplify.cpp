@@ -38,6 +38,11 @@ class Simplifier {
             case Operator::Minimum:
             case Operator::Maximum:
                 return a_ == b_ ? std::optional(a_) : std::nullopt;
+            case Operator::BitAnd:
+                return common_bits();
+            case Operator::BitOr:
+            case Operator::BitXor:
+                return united_bits();
             default:
                 return std::nullopt;
         }
@@ -53,6 +58,22 @@ class Simplifier {
 
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
+
+    static constexpr std::int64_t no_bits = 0, all_bits = -1;
+
+    std::optional<NodeId> common_bits() {
+        if (is(a_, all_bits) || a_ == b_) return b_;
+        if (is(b_, all_bits)) return a_;
+        if (is(a_, no_bits) && droppable(b_)) return a_;
+        if (is(b_, no_bits) && droppable(a_)) return b_;
+        return std::nullopt;
+    }
+    std::optional<NodeId> united_bits() {
+        if (is(a_, no_bits)) return b_;
+        if (is(b_, no_bits)) return a_;
+        if (a_ == b_ && op_ == Operator::BitOr) return a_;
+        return std::nullopt;
+    }
 
     std::optional<NodeId> multiply() {
         if (is_one(a_)) return b_;

@@ -106,11 +106,7 @@ class Verifier {
     }
 
     void ids_are_known(const Node& node) {
-        if (const auto* load = std::get_if<Load>(&node.form)) {
-            require(load->buffer.index < program_.buffers.size(), "there is no buffer {}",
-                    load->buffer.index);
-        }
-        if (const auto* search = std::get_if<Search>(&node.form)) id_is_known(search->table);
+        if (const auto buffer = buffer_read_by(node)) id_is_known(*buffer);
         if (const auto* local = std::get_if<Local>(&node.form)) {
             require(local->local.index < program_.local_count, "there is no local {}",
                     local->local.index);
@@ -228,6 +224,12 @@ class Verifier {
                table.scalar != Scalar::Bool && table.storage == Storage::Constant &&
                table.shape.size() == 1 && is_sorted(table.values);
     }
+    bool fits(const Bits& form, Scalar result) const {
+        const Buffer& buffer = program_[form.buffer];
+        return result == Scalar::Int && buffer.scalar == Scalar::Bool &&
+               buffer.storage != Storage::Constant && form.first >= 0 && form.first % 64 == 0 &&
+               form.first < buffer.count();
+    }
     bool fits(const Local&, Scalar) const { return true; }  // compared with its Let
     bool fits(const Convert& form, Scalar to) const { return type(form.operand) < to; }
     bool fits(const Select& form, Scalar result) const {
@@ -266,6 +268,10 @@ class Verifier {
                 return is_bool && result == Scalar::Bool;
             case Operator::FloorDivide:
             case Operator::FloorModulo:
+            case Operator::BitAnd:
+            case Operator::BitOr:
+            case Operator::BitXor:
+            case Operator::CountOnes:
                 return operand == Scalar::Int && result == Scalar::Int;
             case Operator::Sign:
                 return !is_bool && result == Scalar::Int;
@@ -568,9 +574,7 @@ class Verifier {
                 "a variable of '{}' is not bound", print(program_, root));
         for (NodeId id : below(root)) {
             const Node& node = program_[id];
-            if (const auto* load = std::get_if<Load>(&node.form)) {
-                readable_now(load->buffer, readable);
-            }
+            if (const auto buffer = buffer_read_by(node)) readable_now(*buffer, readable);
             if (const auto* local = std::get_if<Local>(&node.form)) {
                 require(
                     scope.locals.contains(local->local) && let_types_.at(local->local) == node.type,

@@ -67,6 +67,10 @@ constexpr OperatorRow operators[] = {
     {Operator::LnGamma, "ln_gamma", "lngamma", 1, true},
     {Operator::Gamma, "gamma", "gamma", 1, true},
     {Operator::Defined, "defined", "", 1, false},
+    {Operator::BitAnd, "bit_and", "", 2, false},
+    {Operator::BitOr, "bit_or", "", 2, false},
+    {Operator::BitXor, "bit_xor", "", 2, false},
+    {Operator::CountOnes, "count_ones", "", 1, false},
 };
 
 struct ReductionRow {

@@ -35,7 +35,9 @@ enum class Operator : std::uint8_t {
     Hypot,
     Atan2,                                    // atan2[y, x], an extension
     LnGamma, Gamma,                           // fault unless the operand is > 0
-    Defined,                                  // not in RDDL: real -> real, faults on nan
+    // not in RDDL
+    Defined,                                  // real -> real, faults on nan
+    BitAnd, BitOr, BitXor, CountOnes,         // of ints, bit by bit; how many bits are 1
 };
 
 enum class Reduction : std::uint8_t {

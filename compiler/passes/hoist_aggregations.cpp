@@ -139,8 +139,8 @@ class Hoisting {
     bool is_known_before(ir::NodeId id) const {
         const ir::Node& node = program_[id];
         if (std::holds_alternative<ir::Local>(node.form)) return false;
-        const auto* load = std::get_if<ir::Load>(&node.form);
-        if (load && filled_.contains(load->buffer)) return false;
+        const auto buffer = ir::buffer_read_by(node);
+        if (buffer && filled_.contains(*buffer)) return false;
         return std::ranges::all_of(ir::operands_of(node),
                                    [&](ir::NodeId operand) { return is_known_before(operand); });
     }

@@ -28,10 +28,8 @@ std::vector<bool> used_buffers(const ir::Program& program) {
     }
     const std::vector<bool> reachable = ir::reachable_nodes(program);
     for (std::size_t index = 0; index < program.nodes.size(); ++index) {
-        const auto* load = std::get_if<ir::Load>(&program.nodes[index].form);
-        if (load && reachable[index]) used[load->buffer.index] = true;
-        const auto* search = std::get_if<ir::Search>(&program.nodes[index].form);
-        if (search && reachable[index]) used[search->table.index] = true;
+        const auto buffer = ir::buffer_read_by(program.nodes[index]);
+        if (buffer && reachable[index]) used[buffer->index] = true;
     }
     for (const ir::Block* block : ir::blocks_of(program)) {
         ir::for_each_statement<ir::Call>(*block, [&](const ir::Call& call) {

@@ -148,8 +148,8 @@ class Sharing {
     bool is_known_before(ir::NodeId id, const std::set<ir::BufferId>& filled) const {
         const ir::Node& node = program_[id];
         if (std::holds_alternative<ir::Local>(node.form)) return false;
-        const auto* load = std::get_if<ir::Load>(&node.form);
-        if (load && filled.contains(load->buffer)) return false;
+        const auto buffer = ir::buffer_read_by(node);
+        if (buffer && filled.contains(*buffer)) return false;
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
             return is_known_before(operand, filled);
         });
@@ -211,15 +211,16 @@ class Sharing {
         const std::string what = match(
             program_[id].form, [](const ir::Apply& form) { return std::string(name_of(form.op)); },
             [](const ir::Reduce& form) { return std::string(name_of(form.op)); },
+            [](const ir::Bits&) { return std::string("bits"); },
             [](const auto&) { return std::string("value"); });
         const std::string of = first_fluent(id);
         return of.empty() ? what : what + "-" + of;
     }
 
     std::string first_fluent(ir::NodeId id) const {
-        const auto* load = std::get_if<ir::Load>(&program_[id].form);
-        if (load && program_[load->buffer].storage != ir::Storage::Constant)
-            return program_[load->buffer].name;
+        const auto buffer = ir::buffer_read_by(program_[id]);
+        if (buffer && program_[*buffer].storage != ir::Storage::Constant)
+            return program_[*buffer].name;
         for (ir::NodeId operand : ir::operands_of(program_[id])) {
             const std::string name = first_fluent(operand);
             if (!name.empty()) return name;

@@ -181,11 +181,11 @@ class Sharing {
         std::vector<bool> fixed(uses.reached.size());
         for (std::uint32_t index = 0; index < fixed.size(); ++index) {
             const ir::Node& node = program_.nodes[index];
-            const auto* load = std::get_if<ir::Load>(&node.form);
+            const auto buffer = ir::buffer_read_by(node);
             const auto reads = [&](ir::NodeId operand) {
                 return reads_stored[operand.index];
             };
-            reads_stored[index] = (load && stored.contains(load->buffer)) ||
+            reads_stored[index] = (buffer && stored.contains(*buffer)) ||
                                   std::ranges::any_of(ir::operands_of(node), reads);
             fixed[index] = uses.reached[index] && !reads_stored[index] &&
                            std::ranges::all_of(builder_.facts({index}).free_variables, is_bound);

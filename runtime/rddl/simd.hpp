@@ -340,6 +340,43 @@ template <int mode, class Function>
 #endif
 }
 
+// ------------------------------------------------------------------------------------- bits
+
+// How many bits of each lane are 1 (H. Warren, Hacker's Delight, section 5-1).
+[[gnu::always_inline]] inline Ints count_ones(Ints a) {
+#if defined(RDDL_SIMD_AVX512) && defined(__AVX512VPOPCNTDQ__)
+    return (Ints)_mm512_maskz_popcnt_epi64(0xFF, (__m512i)a);
+#else
+    Words bits = reinterpret<Words>(a);
+    bits -= bits >> 1 & 0x5555555555555555;
+    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0F;
+    bits += bits >> 8;
+    bits += bits >> 16;
+    bits += bits >> 32;
+    return reinterpret<Ints>(bits & 0x7F);
+#endif
+}
+
+// Byte i is 0 or 1, as bit i is.
+template <int count>
+[[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes) {
+    static_assert(count > 0 && count <= 64);
+#ifdef RDDL_SIMD_AVX512
+    const __m512i values = _mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - count), bytes);
+    return _mm512_test_epi8_mask(values, values);
+#else
+    std::uint64_t bits = 0;
+    for (int i = 0; i < count; i += 8) {
+        std::uint64_t eight = 0;
+        __builtin_memcpy(&eight, static_cast<const char*>(bytes) + i,
+                         i + 8 < count ? 8 : count - i);
+        bits |= (eight * 0x0102040810204080 >> 56) << i;
+    }
+    return bits;
+#endif
+}
+
 // -------------------------------------------------------------------------------- gathering
 
 [[gnu::always_inline]] inline Reals gather(const double* from, Ints indices) {

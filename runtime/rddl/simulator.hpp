@@ -1,6 +1,7 @@
 // All that an emitted simulator includes.
 #pragma once
 
+#include <rddl/bits.hpp>
 #include <rddl/compiled.hpp>
 #include <rddl/context.hpp>
 #include <rddl/distributions.hpp>

@@ -1,0 +1,92 @@
+// Tables of bools as the bits of ints, and what is done with them.
+#pragma once
+
+#include <rddl/lane.hpp>
+#include <rddl/pack.hpp>
+#include <rddl/pack_ops.hpp>
+#include <rddl/simd.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+
+namespace detail {
+
+// The first of the elements of nested arrays, which lie one after the other, and their number.
+template <class T>
+constexpr const T* first_element(const T& value) {
+    return &value;
+}
+template <class T, std::size_t n>
+constexpr auto first_element(const std::array<T, n>& table) {
+    return first_element(table[0]);
+}
+template <class T>
+inline constexpr Index element_count = 1;
+template <class T, std::size_t n>
+inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) * element_count<T>;
+
+template <int count>
+std::int64_t bits_of(const bool* bools) {
+    return static_cast<std::int64_t>(simd::bits_of_bytes<count>(bools));
+}
+template <int count, int n>
+Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
+    Lanes<std::int64_t, n> bits{0};
+    for (int i = 0; i < count; ++i) {
+        const auto bit = static_cast<std::int64_t>(std::uint64_t{1} << i);
+        bits = select(bools[i], bits | Lanes<std::int64_t, n>{bit}, bits);
+    }
+    return bits;
+}
+
+}  // namespace detail
+
+// The elements [first, first + 64) of a table of bools, in row-major order, as bits of an int, the
+// first one lowest; bits beyond its end are 0.
+template <Index first = 0, class Table>
+auto bits(const Table& table) {
+    constexpr Index count = std::min<Index>(detail::element_count<Table> - first, 64);
+    return detail::bits_of<static_cast<int>(count)>(detail::first_element(table) + first);
+}
+
+// ------------------------------------------------------------------------------- bit by bit
+
+constexpr std::int64_t bit_and(std::int64_t a, std::int64_t b) {
+    return a & b;
+}
+constexpr std::int64_t bit_or(std::int64_t a, std::int64_t b) {
+    return a | b;
+}
+constexpr std::int64_t bit_xor(std::int64_t a, std::int64_t b) {
+    return a ^ b;
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_and(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) & Int(b);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_or(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) | Int(b);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_xor(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) ^ Int(b);
+}
+
+// How many bits are 1.
+constexpr std::int64_t count_ones(std::int64_t a) {
+    return __builtin_popcountll(static_cast<std::uint64_t>(a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
+    return Lanes<std::int64_t, n>::each([](simd::Ints bits) { return simd::count_ones(bits); }, a);
+}
+
+}  // namespace rddl
