@@ -3,6 +3,7 @@
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
 #include "passes/compare_counts.hpp"
+#include "passes/count_bits.hpp"
 #include "passes/count_bools.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
@@ -18,6 +19,7 @@
 #include "passes/search_intervals.hpp"
 #include "passes/share_across_definitions.hpp"
 #include "passes/share_subexpressions.hpp"
+#include "passes/skip_zero_terms.hpp"
 #include "passes/tabulate_constant_fluents.hpp"
 #include "passes/tabulate_constants.hpp"
 #include "passes/tabulate_counts.hpp"
@@ -70,6 +72,10 @@ constexpr Pass in_order[] = {
      passes::tabulate_counts},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
+    {"skip_zero_terms", "sums compute only the expensive terms that a bool lets count",
+     passes::skip_zero_terms},
+    {"count_bits", "sums and tests over tables of bools work on the bits of ints",
+     passes::count_bits},
     {"share_across_definitions", "what several CPFs compute is computed once",
      passes::share_across_definitions},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",

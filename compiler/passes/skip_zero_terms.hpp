@@ -1,0 +1,18 @@
+// A sum computes only the terms that a bool lets count.
+//
+//     sum[i in item](sqrt(state.far[i]) * real(action.recommend[i]))
+//                                       =>
+//     sum[i in item](select(action.recommend[i], sqrt(state.far[i]), 0.0))
+//
+// Where the other factor is expensive, finite and neither draws nor faults. In a sum it does not
+// matter that the product may be -0.0.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+namespace rddlc::passes {
+
+ir::Program skip_zero_terms(ir::Program program, Report& report);
+
+}  // namespace rddlc::passes
