@@ -90,16 +90,15 @@ struct Simulator {
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
             next.running[c] = rddl::branch(
-                context, action.reboot[c], [&] { return true; },
+                context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
                 [&] {
                     const Int number =
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
-                    const Real term = rddl::to_real(number);
-                    const Real term_2 = term * 0.5;
-                    const Real term_3 = 0.5 * term_2;
-                    const Real term_4 = 0.45 + term_3;
-                    const Real term_5 = rddl::select(state.running[c], term_4, 0.05);
-                    return rddl::sample::bernoulli(context, {0, c}, term_5);
+                    const Real term = 0.45 + 0.5 * (rddl::to_real(number) * 0.5);
+                    return rddl::sample::bernoulli(context, {0, c}, term);
+                },
+                [&] {
+                    return rddl::sample::bernoulli(context, {1, c}, 0.05);
                 });
         }
     }
@@ -109,12 +108,8 @@ struct Simulator {
     static typename L::Real reward(const State<L>& state, const Action<L>& action,
                                    const Scratch<L>& /*scratch*/, const State<L>& /*next*/,
                                    rddl::Context<L>& /*context*/) {
-        using Int = typename L::Int;
-        const Int total = rddl::sum<Int>(
-            computer_count, [&](rddl::Index c) { return rddl::to_int(state.running[c]); });
-        const Int total_2 = rddl::sum<Int>(
-            computer_count, [&](rddl::Index c) { return rddl::to_int(action.reboot[c]); });
-        return rddl::to_real(total) - 0.75 * rddl::to_real(total_2);
+        return rddl::to_real(rddl::count_ones(rddl::bits(state.running))) -
+               0.75 * rddl::to_real(rddl::count_ones(rddl::bits(action.reboot)));
     }
 
     // An episode ends where one of these holds.

@@ -22,10 +22,15 @@ bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
 }
 
-bool is_leaf(const ir::Node& node) {
+// Spelled by names alone; other elements than those at loop indices take a call.
+bool is_leaf(const Unit& unit, ir::NodeId id) {
+    const auto is_uniform = [&](ir::NodeId index) {
+        return unit.facts_of(index).uniform;
+    };
     return match(
-        node.form, [](const ir::Constant&) { return true; }, [](const ir::Index&) { return true; },
-        [](const ir::Local&) { return true; }, [](const ir::Load&) { return true; },
+        unit.program[id].form, [](const ir::Constant&) { return true; },
+        [](const ir::Index&) { return true; }, [](const ir::Local&) { return true; },
+        [&](const ir::Load& load) { return std::ranges::all_of(load.indices, is_uniform); },
         [](const auto&) { return false; });
 }
 
@@ -217,7 +222,8 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     const std::vector<ir::NodeId> parts = nameable_parts(id);
     std::vector<std::size_t> lengths;
     for (const ir::NodeId& part : parts) {
-        const bool has_name = expressions_.is_named(part) || is_leaf(program()[part]);
+        const bool has_name = expressions_.is_named(part) || is_leaf(expressions_.unit(), part) ||
+                              is_index_arithmetic(program(), part);
         lengths.push_back(has_name ? 0 : expressions_.text(part).size());
     }
     const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);

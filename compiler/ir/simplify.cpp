@@ -15,7 +15,7 @@ class Simplifier {
             case Operator::Add:
                 return add();
             case Operator::Subtract:
-                return is_zero(b_) ? std::optional(a_) : std::nullopt;
+                return subtract();
             case Operator::Multiply:
                 return multiply();
             case Operator::Divide:
@@ -54,6 +54,21 @@ class Simplifier {
         if (is(a_, std::int64_t{0}) || is(a_, -0.0)) return b_;
         if (is(b_, std::int64_t{0}) || is(b_, -0.0)) return a_;
         return std::nullopt;
+    }
+
+    // (x + 3) - 1 = x + 2 for ints, which wrap around.
+    std::optional<NodeId> subtract() {
+        if (is_zero(b_)) return a_;
+        const auto* sum = std::get_if<Apply>(&node(a_).form);
+        if (!sum || sum->op != Operator::Add || !int_constant(b_)) return std::nullopt;
+        const NodeId first = sum->operands[0], last = sum->operands[1];
+        const NodeId known = int_constant(first) ? first : last;
+        if (!int_constant(known)) return std::nullopt;
+        const NodeId rest = builder_.apply(Operator::Subtract, {known, b_});
+        return builder_.apply(Operator::Add, {known == first ? last : first, rest});
+    }
+    bool int_constant(NodeId id) const {
+        return node(id).type == Scalar::Int && std::holds_alternative<Constant>(node(id).form);
     }
 
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }

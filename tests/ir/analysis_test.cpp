@@ -45,6 +45,24 @@ TEST_F(AnalysisTest, PowersFaultUnlessTheExponentIsKnown) {
     EXPECT_TRUE(facts(w.int_power(w.load(w.count), w.integer(-2))).may_fault);
 }
 
+TEST_F(AnalysisTest, CountsOfBitsHaveARange) {
+    const NodeId bits = w.builder().bits(w.running, 0);
+    EXPECT_EQ(facts(w.apply(Operator::CountOnes, bits)).range->upper, 3);
+    const NodeId two = w.apply(Operator::BitAnd, bits, w.integer(5));
+    EXPECT_EQ(facts(w.apply(Operator::CountOnes, two)).range->upper, 2);
+    EXPECT_EQ(facts(w.apply(Operator::CountOnes, w.load(w.count))).range->upper, 64);
+}
+
+TEST_F(AnalysisTest, SquaresAreNeverNegativeAndHaveFiniteRoots) {
+    const NodeId level = w.load(w.level);
+    const NodeId square = w.apply(Operator::Multiply, level, level);
+    EXPECT_EQ(facts(square).range->lower, 0);
+    EXPECT_TRUE(facts(w.apply(Operator::Sqrt, square)).finite);
+    EXPECT_TRUE(facts(w.apply(Operator::Power, square, w.real(0.5))).finite);
+    EXPECT_FALSE(facts(w.apply(Operator::Power, square, w.real(-0.5))).finite);
+    EXPECT_FALSE(facts(w.apply(Operator::Sqrt, level)).finite);
+}
+
 TEST_F(AnalysisTest, CheapIsAHandfulOfOperations) {
     const NodeId sum = w.apply(Operator::Add, w.load(w.level), w.real(2));
     EXPECT_TRUE(is_cheap(facts(sum)));

@@ -73,6 +73,20 @@ TEST_F(BuilderTest, KnowsIdentitiesOfInts) {
     EXPECT_EQ(w.apply(Operator::Negate, w.apply(Operator::Negate, count())), count());
     EXPECT_EQ(w.apply(Operator::Minimum, count(), count()), count());
     EXPECT_EQ(w.apply(Operator::Equal, count(), count()), w.boolean(true));
+    const NodeId more = w.apply(Operator::Add, w.integer(3), count());
+    EXPECT_EQ(text(w.apply(Operator::Subtract, more, w.integer(1))), "state.count + 2");
+    EXPECT_EQ(w.apply(Operator::Subtract, more, w.integer(3)), count());
+}
+
+TEST_F(BuilderTest, KnowsIdentitiesOfBits) {
+    const NodeId none = w.integer(0), all = w.integer(-1);
+    EXPECT_EQ(w.apply(Operator::BitAnd, count(), none), none);
+    EXPECT_EQ(w.apply(Operator::BitAnd, all, count()), count());
+    EXPECT_EQ(w.apply(Operator::BitAnd, count(), count()), count());
+    EXPECT_EQ(w.apply(Operator::BitOr, none, count()), count());
+    EXPECT_EQ(w.apply(Operator::BitOr, count(), count()), count());
+    EXPECT_EQ(w.apply(Operator::BitXor, count(), none), count());
+    EXPECT_EQ(w.apply(Operator::CountOnes, all), w.integer(64));
 }
 
 TEST_F(BuilderTest, KnowsOnlyExactIdentitiesOfReals) {

@@ -141,6 +141,13 @@ TEST_F(InterpreterTest, ReducesOverAPartOfTheRange) {
     EXPECT_EQ(int_value(b.reduce(Reduction::Product, w.c, place, none)), 1);
 }
 
+TEST_F(InterpreterTest, CountsBits) {
+    const NodeId bits = w.builder().bits(w.running, 0);
+    EXPECT_EQ(int_value(w.apply(Operator::CountOnes, bits)), 2);
+    EXPECT_EQ(int_value(w.apply(Operator::BitOr, bits, w.integer(8))), int_value(bits) + 8);
+    EXPECT_EQ(int_value(w.apply(Operator::BitXor, bits, bits)), 0);
+}
+
 TEST_F(InterpreterTest, NestsReductions) {
     Builder& b = w.builder();
     const NodeId product =

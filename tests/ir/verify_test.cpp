@@ -64,6 +64,12 @@ TEST_F(VerifyTest, FindsSearchesInTablesThatAreNotSorted) {
     EXPECT_EQ(complaint(), "types do not fit in 'search(ENDS, state.level)'");
 }
 
+TEST_F(VerifyTest, FindsBitsOfWhatIsNoTableOfBools) {
+    const NodeId bits = w.builder().bits(w.level, 0);
+    store_of_level().value = w.builder().convert(bits, Scalar::Real);
+    EXPECT_EQ(complaint(), "types do not fit in 'bits(state.level, 0)'");
+}
+
 TEST_F(VerifyTest, FindsExtremesThatMayBeEmpty) {
     const Bounds bounds{w.integer(0), w.integer(2)};
     store_of_level().value = w.builder().reduce(Reduction::Minimum, w.d, w.load(w.level), bounds);

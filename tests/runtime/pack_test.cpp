@@ -125,6 +125,36 @@ TEST(Packs, ComputeWithIntsAsScalarsDo) {
     EXPECT_BITS_OF_SCALARS(absolute(x...), a);
     EXPECT_BITS_OF_SCALARS(sign(x...), a);
     EXPECT_BITS_OF_SCALARS(to_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(bit_and(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(bit_or(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(bit_xor(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(count_ones(x...), a);
+}
+
+// 70 bools in each lane, as two words.
+TEST(Packs, MakeBitsOfBoolsAsScalarsDo) {
+    constexpr std::size_t rows = 7, columns = 10;
+    using Table = std::array<std::array<bool, columns>, rows>;
+    std::mt19937_64 random(12);
+    std::array<Table, width> tables{};
+    std::array<std::array<Bools, columns>, rows> packed{};
+    for (int lane = 0; lane < width; ++lane)
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) {
+                const bool value = random() % 2 == 0;
+                tables[static_cast<std::size_t>(lane)][r][c] = value;
+                packed[r][c].set(lane, value);
+            }
+    for (int lane = 0; lane < width; ++lane) {
+        const Table& table = tables[static_cast<std::size_t>(lane)];
+        std::uint64_t first = 0, last = 0;
+        for (std::size_t i = 0; i < rows * columns; ++i)
+            (i < 64 ? first : last) |= std::uint64_t{table[i / columns][i % columns]} << (i % 64);
+        EXPECT_EQ(rddl::bits(table), static_cast<std::int64_t>(first));
+        EXPECT_EQ(rddl::bits<64>(table), static_cast<std::int64_t>(last));
+        EXPECT_EQ(rddl::bits(packed)[lane], static_cast<std::int64_t>(first));
+        EXPECT_EQ(rddl::bits<64>(packed)[lane], static_cast<std::int64_t>(last));
+    }
 }
 
 // The six comparisons, each once, of a and b.
