@@ -6,7 +6,6 @@
 #include <rddl/any_engine.hpp>
 #include <rddl/batch.hpp>
 #include <rddl/fault_text.hpp>
-#include <rddl/record_checks.hpp>
 #include <rddl/simulator.h>
 #include <rddl/simulator_table.hpp>
 
@@ -84,11 +83,6 @@ class Functions {
             const std::int64_t all = environment_count();
             return begin >= 0 && count >= 0 && begin <= all && count <= all - begin;
         }
-        bool accepts_actions(const void* actions) const {
-            if (problem().action_size == 0) return true;
-            return actions != nullptr &&
-                   records_are_valid(problem(), RDDL_ACTION, actions, environment_count());
-        }
     };
     static Handle& handle(rddl_batch* batch) { return *reinterpret_cast<Handle*>(batch); }
     static const Handle& handle(const rddl_batch* batch) {
@@ -163,12 +157,22 @@ class Functions {
     }
 
     static rddl_error step(rddl_batch* batch, const void* actions, const rddl_transition* out) {
-        if (batch == nullptr || out == nullptr || !handle(batch).accepts_actions(actions))
-            return RDDL_BAD_ARGUMENT;
-        handle(batch).use([&](auto& environments) {
-            environments.step(static_cast<const std::byte*>(actions), *out);
-        });
+        if (batch == nullptr || out == nullptr) return RDDL_BAD_ARGUMENT;
+        const auto* const records = static_cast<const std::byte*>(actions);
+        auto* const one_by_one = std::get_if<OneByOne>(&handle(batch).batch);
+        if (one_by_one == nullptr || one_by_one->environment_count() > 1)
+            return step_several(handle(batch), records, *out);
+        if (!one_by_one->accepts_actions(records)) return RDDL_BAD_ARGUMENT;
+        one_by_one->step_only_block(records, *out);
         return RDDL_OK;
+    }
+    [[gnu::noinline]] static rddl_error step_several(Handle& several, const std::byte* records,
+                                                     const rddl_transition& out) {
+        return several.use([&](auto& environments) {
+            if (!environments.accepts_actions(records)) return RDDL_BAD_ARGUMENT;
+            environments.step(records, out);
+            return RDDL_OK;
+        });
     }
 
     static rddl_error step_values(rddl_batch* batch, rddl_number number, const void* actions,
@@ -218,14 +222,13 @@ class Functions {
 
     static rddl_error violated_preconditions(rddl_batch* batch, const void* actions,
                                              std::int32_t* first_violated) {
-        if (batch == nullptr || first_violated == nullptr ||
-            !handle(batch).accepts_actions(actions))
-            return RDDL_BAD_ARGUMENT;
-        handle(batch).use([&](auto& environments) {
-            environments.violated_preconditions(static_cast<const std::byte*>(actions),
-                                                first_violated);
+        if (batch == nullptr || first_violated == nullptr) return RDDL_BAD_ARGUMENT;
+        return handle(batch).use([&](auto& environments) {
+            const auto* const records = static_cast<const std::byte*>(actions);
+            if (!environments.accepts_actions(records)) return RDDL_BAD_ARGUMENT;
+            environments.violated_preconditions(records, first_violated);
+            return RDDL_OK;
         });
-        return RDDL_OK;
     }
 
     static std::int64_t action_choice_count(const rddl_simulator* simulator) {
@@ -289,12 +292,15 @@ class Functions {
 
     static rddl_error set_state(rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                 const void* states) {
-        if (batch == nullptr || states == nullptr || !handle(batch).has(begin, count) ||
-            !records_are_valid(handle(batch).problem(), RDDL_STATE, states, count))
+        if (batch == nullptr || states == nullptr || !handle(batch).has(begin, count))
             return RDDL_BAD_ARGUMENT;
-        return for_each(batch, begin, count, [&](auto& all, std::int64_t k, std::int64_t i) {
+        return handle(batch).use([&](auto& environments) {
+            const auto* record = static_cast<const std::byte*>(states);
+            if (!environments.accepts_states(record, count)) return RDDL_BAD_ARGUMENT;
             const std::int64_t size = handle(batch).problem().state_size;
-            all.set_state(i, static_cast<const std::byte*>(states) + k * size);
+            for (std::int64_t i = begin; i < begin + count; ++i, record += size)
+                environments.set_state(i, record);
+            return RDDL_OK;
         });
     }
 

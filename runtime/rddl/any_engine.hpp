@@ -32,12 +32,10 @@ class AnyEngine {
         reset_ = [](const void* self, std::byte* state, Context<L>& context) {
             of<E>(self).reset(state, context);
         };
-        advance_ = [](const void* self, const Columns& state_columns,
-                      const Columns& observation_columns, Episodes<L>& episodes,
-                      std::int64_t horizon, const std::byte* actions, const StepBuffers& buffers,
-                      std::byte* states, std::byte* observations) -> Real {
-            return rddl::advance(of<E>(self), state_columns, observation_columns, episodes, horizon,
-                                 actions, buffers, states, observations);
+        advance_ = [](const void* self, const Blocks<L>& blocks, const StepBuffers& memory,
+                      std::int64_t b, const std::byte* actions,
+                      const rddl_transition& out) -> Bool {
+            return rddl::advance(of<E>(self), blocks, memory, b, actions, out);
         };
         terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
             return of<E>(self).terminal(state, context);
@@ -73,12 +71,9 @@ class AnyEngine {
     }
 
     // As rddl::advance.
-    typename L::Real advance(const Columns& state_columns, const Columns& observation_columns,
-                             Episodes<L>& episodes, std::int64_t horizon, const std::byte* actions,
-                             const StepBuffers& buffers, std::byte* states,
-                             std::byte* observations) const {
-        return advance_(engine_, state_columns, observation_columns, episodes, horizon, actions,
-                        buffers, states, observations);
+    typename L::Bool advance(const Blocks<L>& blocks, const StepBuffers& memory, std::int64_t b,
+                             const std::byte* actions, const rddl_transition& out) const {
+        return advance_(engine_, blocks, memory, b, actions, out);
     }
 
     bool has_policy() const { return has_policy_; }
@@ -92,7 +87,6 @@ class AnyEngine {
   private:
     using Bool = typename L::Bool;
     using Int = typename L::Int;
-    using Real = typename L::Real;
 
     template <class E>
     static const E& of(const void* self) {
@@ -105,8 +99,8 @@ class AnyEngine {
     std::size_t memory_size_;
 
     void (*reset_)(const void*, std::byte*, Context<L>&);
-    Real (*advance_)(const void*, const Columns&, const Columns&, Episodes<L>&, std::int64_t,
-                     const std::byte*, const StepBuffers&, std::byte*, std::byte*);
+    Bool (*advance_)(const void*, const Blocks<L>&, const StepBuffers&, std::int64_t,
+                     const std::byte*, const rddl_transition&);
     Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
     Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
     void (*reset_policy_)(const void*, std::byte*) = nullptr;
@@ -116,12 +110,10 @@ class AnyEngine {
 
 // One step, all of it compiled with the simulator: most values then never leave registers.
 template <class L>
-typename L::Real advance(const AnyEngine<L>& engine, const Columns& state_columns,
-                         const Columns& observation_columns, Episodes<L>& episodes,
-                         std::int64_t horizon, const std::byte* actions, const StepBuffers& buffers,
-                         std::byte* states, std::byte* observations) {
-    return engine.advance(state_columns, observation_columns, episodes, horizon, actions, buffers,
-                          states, observations);
+typename L::Bool advance(const AnyEngine<L>& engine, const Blocks<L>& blocks,
+                         const StepBuffers& memory, std::int64_t b, const std::byte* actions,
+                         const rddl_transition& out) {
+    return engine.advance(blocks, memory, b, actions, out);
 }
 
 }  // namespace rddl

@@ -11,6 +11,7 @@
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
 #include <rddl/policy.hpp>
+#include <rddl/record_checks.hpp>
 #include <rddl/simulator.h>
 #include <rddl/threads.hpp>
 
@@ -20,6 +21,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 namespace rddl {
@@ -86,8 +88,9 @@ class Batch {
           observations_(options.partially_observed ? block_count() : 0, engine.observation_size()),
           memories_(has_policy(engine) ? block_count() : 0, memory_size(engine)),
           episodes_(block_count()),
-          workspaces_(static_cast<std::size_t>(options.thread_count), Workspace(engine)),
-          team_(options.thread_count) {
+          workspaces_(make_workspaces()),
+          team_(options.thread_count),
+          blocks_(blocks()) {
         for (int lane = lanes_of(episodes_.size() - 1); lane < width; ++lane)
             set_lane(episodes_.back().present, lane, false);
         reset(nullptr, nullptr);
@@ -103,18 +106,30 @@ class Batch {
           observations_(other.observations_),
           memories_(other.memories_),
           episodes_(other.episodes_),
-          workspaces_(other.workspaces_),
-          team_(other.options_.thread_count) {}
+          workspaces_(make_workspaces()),
+          team_(other.options_.thread_count),
+          blocks_(blocks()) {}
     Batch& operator=(const Batch&) = delete;
 
     std::int64_t environment_count() const { return options_.environment_count; }
     const Columns& action_columns() const { return action_columns_; }
 
+    // Whether the engine may be given these actions, one record for each environment, or `count`
+    // states.
+    bool accepts_actions(const std::byte* records) const {
+        if (records == nullptr) return action_columns_.row_size == 0;
+        return action_columns_.any_value_is_valid ||
+               records_are_valid(action_columns_, records, options_.environment_count);
+    }
+    bool accepts_states(const std::byte* records, std::int64_t count) const {
+        return records_are_valid(state_columns_, records, count);
+    }
+
     // --------------------------------------------------------------- one environment
 
     std::int64_t steps(std::int64_t i) const { return get_lane(at(i).steps, lane_of(i)); }
     std::int64_t episode_number(std::int64_t i) const { return get_lane(at(i).number, lane_of(i)); }
-    std::uint8_t causes(std::int64_t i) const { return at(i).causes(lane_of(i)); }
+    std::uint8_t causes(std::int64_t i) const { return at(i).ends.causes(lane_of(i)); }
 
     // The fault of the episode, or of the last one until this one makes a step; else nothing.
     const FaultRecord* fault(std::int64_t i) const {
@@ -155,9 +170,12 @@ class Batch {
 
     void step(const std::byte* actions, const rddl_transition& out) {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
-            read_actions(workspace, actions, b);
-            step_block(workspace, b, out);
+            step_block(workspace, b, block_of_actions(workspace, actions, b), out);
         });
+    }
+    // The same, faster, where there is one block.
+    void step_only_block(const std::byte* actions, const rddl_transition& out) {
+        step_block(workspaces_[0], 0, block_of_actions(workspaces_[0], actions, 0), out);
     }
 
     // The same with matrices of numbers; `observations` may be null.
@@ -166,7 +184,7 @@ class Batch {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
             read_values(L{}, action_columns_, actions + b * width * action_columns_.value_count,
                         lanes_of(b), workspace.action[0]);
-            step_block(workspace, b, out);
+            step_block(workspace, b, workspace.action[0], out);
             if (observations != nullptr) write_observation_values(observations, b);
         });
     }
@@ -179,8 +197,7 @@ class Batch {
     // The first violated precondition of each environment's action, or -1.
     void violated_preconditions(const std::byte* actions, std::int32_t* first_violated) {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
-            read_actions(workspace, actions, b);
-            const auto first = violated_precondition(workspace, b);
+            const auto first = violated_precondition(b, block_of_actions(workspace, actions, b));
             for (int lane = 0; lane < lanes_of(b); ++lane)
                 first_violated[b * width + lane] = static_cast<std::int32_t>(get_lane(first, lane));
         });
@@ -212,7 +229,7 @@ class Batch {
                 for (int lane = 0; lane < width; ++lane)
                     read_record(L{}, action_columns_, record, workspace.action[0], lane);
                 const bool possible = choice == 0 || problem_->max_nondef_actions != 0;
-                const auto first = violated_precondition(workspace, b);
+                const auto first = violated_precondition(b, workspace.action[0]);
                 for (int lane = 0; lane < lanes_of(b); ++lane)
                     masks[(b * width + lane) * choices + choice] =
                         possible && get_lane(first, lane) < 0;
@@ -229,9 +246,8 @@ class Batch {
               scratch(1, engine.scratch_size()),
               next(1, engine.state_size()),
               observation(1, engine.observation_size()),
-              next_memory(1, memory_size(engine)) {}
-
-        StepBuffers step_buffers() { return {scratch[0], next[0], observation[0]}; }
+              next_memory(1, memory_size(engine)),
+              step_buffers{scratch[0], next[0], observation[0]} {}
 
         DecisionBuffers decision_buffers() { return {scratch[0], action[0], next_memory[0]}; }
 
@@ -241,7 +257,24 @@ class Batch {
         Records next;
         Records observation;
         Records next_memory;
+        StepBuffers step_buffers;  // in the records above, which stay where they are when moved
     };
+
+    std::vector<Workspace> make_workspaces() const {
+        std::vector<Workspace> workspaces;
+        for (int k = 0; k < options_.thread_count; ++k) workspaces.emplace_back(*engine_);
+        return workspaces;
+    }
+
+    Blocks<L> blocks() {
+        return {.environment_count = options_.environment_count,
+                .horizon = options_.horizon,
+                .episodes = episodes_.data(),
+                .states = states_[0],
+                .observations = options_.partially_observed ? observations_[0] : nullptr,
+                .state_columns = &state_columns_,
+                .observation_columns = &observation_columns_};
+    }
 
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
@@ -251,10 +284,7 @@ class Batch {
     }
     // Environments in the block.
     int lanes_of(std::size_t b) const { return lanes_of(static_cast<std::int64_t>(b)); }
-    int lanes_of(std::int64_t b) const {
-        return static_cast<int>(
-            std::min<std::int64_t>(width, options_.environment_count - b * width));
-    }
+    int lanes_of(std::int64_t b) const { return blocks_.lanes_of(b); }
     Episodes<L>& at(std::int64_t i) { return episodes_[index(i / width)]; }
     const Episodes<L>& at(std::int64_t i) const { return episodes_[index(i / width)]; }
     std::byte* observed(std::int64_t b) {
@@ -274,9 +304,19 @@ class Batch {
         });
     }
 
-    void read_actions(Workspace& workspace, const std::byte* actions, std::int64_t b) {
-        read_records(L{}, action_columns_, actions + b * width * action_columns_.row_size,
-                     lanes_of(b), workspace.action[0]);
+    // The actions of a block. That of one environment is the caller's record, if that is aligned and
+    // holds the same reals.
+    const std::byte* block_of_actions(Workspace& workspace, const std::byte* actions,
+                                      std::int64_t b) const {
+        const std::byte* const rows = actions + b * width * action_columns_.row_size;
+        if constexpr (std::is_same_v<L, Scalar>)
+            if (rows != nullptr && is_aligned(rows, action_columns_.alignment)) return rows;
+        read_records(L{}, action_columns_, rows, lanes_of(b), workspace.action[0]);
+        return workspace.action[0];
+    }
+    static bool is_aligned(const std::byte* record, std::int64_t alignment) {
+        return (reinterpret_cast<std::uintptr_t>(record) &
+                static_cast<std::uintptr_t>(alignment - 1)) == 0;
     }
 
     void start(Workspace& workspace, std::int64_t b, Bool lanes) {
@@ -293,36 +333,38 @@ class Batch {
         merge(L{}, observation_columns_, lanes, workspace.observation[0], observations_[b]);
     }
 
-    // Of the action in the workspace.
-    typename L::Int violated_precondition(Workspace& workspace, std::int64_t b) const {
+    typename L::Int violated_precondition(std::int64_t b, const std::byte* actions) const {
         const Episodes<L>& episodes = episodes_[index(b)];
         Context<L> context = episodes.context_of_step(episodes.present);
-        return engine_->violated_precondition(states_[b], workspace.action[0], context);
+        return engine_->violated_precondition(states_[b], actions, context);
     }
 
-    void step_block(Workspace& workspace, std::int64_t b, const rddl_transition& out) {
-        Episodes<L>& episodes = episodes_[index(b)];
-        const Bool was_over = episodes.present && episodes.over();
-        const auto rewards =
-            advance(*engine_, state_columns_, observation_columns_, episodes, options_.horizon,
-                    workspace.action[0], workspace.step_buffers(), states_[b], observed(b));
-        if (options_.autoreset == RDDL_AUTORESET_NEXT_STEP && any(was_over))
-            start(workspace, b, was_over);
-
-        const std::int64_t first = b * width;
-        if (out.rewards != nullptr) write_reals(rewards, out.rewards + first, lanes_of(b));
-        if (out.terminated != nullptr)
-            write_flags(episodes.terminated, out.terminated + first, lanes_of(b));
-        if (out.truncated != nullptr)
-            write_flags(episodes.truncated(), out.truncated + first, lanes_of(b));
-        for (int lane = 0; out.causes != nullptr && lane < lanes_of(b); ++lane)
-            out.causes[first + lane] = episodes.causes(lane);
-        const Bool ended = episodes.present && episodes.over();
-        if (options_.autoreset == RDDL_AUTORESET_SAME_STEP && any(ended)) {
-            write_final_observations(out.final_observations, b, ended);
-            start_keeping_faults(workspace, b, ended);
-        }
+    RDDL_ALWAYS_INLINE void step_block(Workspace& workspace, std::int64_t b,
+                                       const std::byte* actions, const rddl_transition& out) {
+        if (options_.autoreset == RDDL_AUTORESET_NEXT_STEP && any(episodes_[index(b)].over()))
+            return start_instead(workspace, b, actions, out);
+        const Bool over = advance(*engine_, blocks_, workspace.step_buffers, b, actions, out);
+        if (options_.autoreset == RDDL_AUTORESET_SAME_STEP && any(over))
+            start_after_step(workspace, b, over, out);
         write_observations(out.observations, b);
+    }
+
+    // A step of a block where some episodes are over: the next ones start instead. Apart, as what
+    // follows, so that other steps save no registers for it.
+    [[gnu::noinline]] void start_instead(Workspace& workspace, std::int64_t b,
+                                         const std::byte* actions, const rddl_transition& out) {
+        const Bool were_over = episodes_[index(b)].over();
+        advance(*engine_, blocks_, workspace.step_buffers, b, actions, out);
+        start(workspace, b, were_over);
+        write_ends(blocks_, b, episodes_[index(b)].ends, out);
+        write_observations(out.observations, b);
+    }
+
+    // The next episodes of lanes whose episodes the step ended.
+    [[gnu::noinline]] void start_after_step(Workspace& workspace, std::int64_t b, Bool lanes,
+                                            const rddl_transition& out) {
+        write_final_observations(out.final_observations, b, lanes);
+        start_keeping_faults(workspace, b, lanes);
     }
 
     // The fault that ended an episode can be read until the next one makes a step.
@@ -367,6 +409,7 @@ class Batch {
     std::vector<Episodes<L>> episodes_;
     std::vector<Workspace> workspaces_;
     Team team_;
+    Blocks<L> blocks_;  // of the members above
 };
 
 }  // namespace rddl

@@ -30,9 +30,11 @@ struct Column {
 
 struct Columns {
     std::vector<Column> list;
-    std::int64_t row_size = 0;     // bytes of a record of the C interface
-    std::int64_t value_count = 0;  // of a row
-    std::int64_t block_size = 0;   // bytes
+    std::int64_t row_size = 0;       // bytes of a record of the C interface
+    std::int64_t value_count = 0;    // of a row
+    std::int64_t block_size = 0;     // bytes
+    std::int64_t alignment = 1;      // of a block, in bytes
+    bool any_value_is_valid = true;  // they are ints and reals
 };
 
 // Calls visit.template operator()<T>() with the type that a scalar has in packs or scalars.
@@ -54,7 +56,6 @@ Columns columns_of(const rddl_problem& problem, rddl_role role, std::int64_t row
     };
     Columns columns;
     columns.row_size = row_size;
-    std::int64_t alignment = 1;
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
         if (fluent.role != role) continue;
@@ -65,11 +66,12 @@ Columns columns_of(const rddl_problem& problem, rddl_role role, std::int64_t row
             columns.list.push_back(
                 {fluent.scalar, limit, fluent.count, columns.value_count, fluent.offset, offset});
             columns.block_size = offset + fluent.count * static_cast<std::int64_t>(sizeof(T));
-            alignment = std::max(alignment, static_cast<std::int64_t>(alignof(T)));
+            columns.alignment = std::max(columns.alignment, static_cast<std::int64_t>(alignof(T)));
         });
         columns.value_count += fluent.count;
+        columns.any_value_is_valid &= fluent.scalar != RDDL_BOOL && !is_object;
     }
-    columns.block_size = round_up(columns.block_size, alignment);
+    columns.block_size = round_up(columns.block_size, columns.alignment);
     return columns;
 }
 

@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstring>
 
 namespace rddl {
 
@@ -64,6 +65,60 @@ concept PolicyEngine = StartingEngine<E> &&
     // next memory. In a fully observed problem the state is what is observed.
     {engine.act(record, record, target, target, target, context)};
 };
+
+// Where a step leaves its results until it is known not to have faulted.
+struct StepBuffers {
+    std::byte* scratch;
+    std::byte* next;
+    std::byte* observation;
+};
+
+// An engine that is compiled with its records.
+template <class E>
+concept TypedEngine = Engine<E> && requires {
+    typename E::State;
+    typename E::Scratch;
+    typename E::Observation;
+};
+
+// Calls use(buffers) with these or, for small records, with variables, which the compiler may keep
+// in registers.
+template <class E, class Use>
+decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
+    constexpr std::size_t most_bytes = 4096;  // of the stack
+    if constexpr (TypedEngine<E>) {
+        struct Records {
+            typename E::Scratch scratch;
+            typename E::State next;
+            typename E::Observation observation;
+        };
+        if constexpr (sizeof(Records) <= most_bytes) {
+            Records records;
+            return use(StepBuffers{reinterpret_cast<std::byte*>(&records.scratch),
+                                   reinterpret_cast<std::byte*>(&records.next),
+                                   reinterpret_cast<std::byte*>(&records.observation)});
+        }
+    }
+    return use(buffers);
+}
+
+// Copies of whole blocks. Where their type is known they need not pass through memory.
+template <Engine E>
+void copy_state(const E& engine, const std::byte* from, std::byte* to) {
+    if constexpr (TypedEngine<E>)
+        *reinterpret_cast<typename E::State*>(to) =
+            *reinterpret_cast<const typename E::State*>(from);
+    else if (engine.state_size() > 0)
+        std::memcpy(to, from, engine.state_size());
+}
+template <Engine E>
+void copy_observation(const E& engine, const std::byte* from, std::byte* to) {
+    if constexpr (TypedEngine<E>)
+        *reinterpret_cast<typename E::Observation*>(to) =
+            *reinterpret_cast<const typename E::Observation*>(from);
+    else if (engine.observation_size() > 0)
+        std::memcpy(to, from, engine.observation_size());
+}
 
 template <StartingEngine E>
 constexpr bool has_policy(const E& engine) {

@@ -38,22 +38,17 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
 }  // namespace detail
 
 // Every bool must be 0 or 1 and every object value the index of an object; numbers are free.
-inline bool records_are_valid(const rddl_problem& problem, rddl_role role, const void* records,
+inline bool records_are_valid(const Columns& columns, const std::byte* records,
                               std::int64_t record_count) {
-    const auto* bytes = static_cast<const std::byte*>(records);
-    const std::int64_t size = role == RDDL_ACTION ? problem.action_size : problem.state_size;
-    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
-        const rddl_fluent& fluent = problem.fluents[f];
-        if (fluent.role != role) continue;
-        const bool is_bool = fluent.scalar == RDDL_BOOL;
-        if (!is_bool && fluent.range_type < 0) continue;
-        for (std::int64_t i = 0; i < record_count; ++i) {
-            const std::byte* values = bytes + i * size + fluent.offset;
-            const bool valid =
-                is_bool ? detail::are_bools(values, fluent.count)
-                        : detail::are_objects(values, fluent.count,
-                                              problem.types[fluent.range_type].object_count);
-            if (!valid) return false;
+    for (const Column& column : columns.list) {
+        const std::byte* values = records + column.row;
+        const std::byte* const end = values + record_count * columns.row_size;
+        if (column.scalar == RDDL_BOOL) {
+            for (; values != end; values += columns.row_size)
+                if (!detail::are_bools(values, column.count)) return false;
+        } else if (column.limit > 0) {
+            for (; values != end; values += columns.row_size)
+                if (!detail::are_objects(values, column.count, column.limit)) return false;
         }
     }
     return true;

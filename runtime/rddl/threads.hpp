@@ -19,6 +19,7 @@ struct Range {
 // The worker's share of [0, count). The cuts are at multiples of `unit` where there are enough, so
 // that workers write to different cache lines of arrays of bytes.
 constexpr Range share_of(int worker, int workers, std::int64_t count, std::int64_t unit) {
+    if (workers == 1) return {0, count};  // without two divisions
     const std::int64_t step = count >= unit * workers ? unit : 1;
     const std::int64_t units = count / step;
     const auto cut = [&](std::int64_t k) {
