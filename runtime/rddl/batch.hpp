@@ -304,8 +304,8 @@ class Batch {
         });
     }
 
-    // The actions of a block. That of one environment is the caller's record, if that is aligned and
-    // holds the same reals.
+    // The actions of a block. That of one environment is the caller's record, if that is aligned
+    // and holds the same reals.
     const std::byte* block_of_actions(Workspace& workspace, const std::byte* actions,
                                       std::int64_t b) const {
         const std::byte* const rows = actions + b * width * action_columns_.row_size;

@@ -281,11 +281,15 @@ auto floor_div(const A& a, const B& b) {
                      [](std::int64_t x, std::int64_t y) { return floor_div(x, y); });
 }
 template <class A, class B>
-requires SomePack<A, B>
-auto floor_mod(const A& a, const B& b) {
+requires SomePack<A, B> RDDL_INLINE auto floor_mod(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     using Element = typename Result::Element;
-    return map_lanes(Result(a), Result(b), [](Element x, Element y) { return floor_mod(x, y); });
+    const Result x(a), y(b);
+    if constexpr (std::is_floating_point_v<Element>)
+        return floor_mod(x, y);
+    else
+        return map_lanes(
+            x, y, [](Element dividend, Element divisor) { return floor_mod(dividend, divisor); });
 }
 
 // ---------------------------------------------------------------------- ints and reals alike
@@ -319,13 +323,17 @@ template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
-    return select(x <= y || is_nan(x), x, y);
+    if constexpr (std::is_floating_point_v<A>)  // most often a constant
+        if (!is_zero_or_nan(a)) return select(x < y, x, y);
+    return select(y < x || is_nan(b), y, x);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
-    return select(x >= y || is_nan(x), x, y);
+    if constexpr (std::is_floating_point_v<A>)
+        if (!is_zero_or_nan(a)) return select(x > y, x, y);
+    return select(y > x || is_nan(b), y, x);
 }
 
 // ----------------------------------------------------------------------------- real functions

@@ -37,10 +37,12 @@ struct EvenEntries {
     static constexpr Entry per_unit =
         size < 2 ? Entry{0} : static_cast<Entry>(size - 1) / (table[size - 1] - table[0]);
 
-    // nan becomes 0.
+    static constexpr Entry place_of_zero = Entry{1} - table[0] * per_unit;
+
+    // Of the value on that line. nan becomes 0.
     template <class Value>
     static constexpr Value clamped_place(Value value) {
-        const Value place = (value - table[0]) * per_unit + Entry{1};
+        const Value place = value * per_unit + place_of_zero;
         const Value least = select(place > Entry{0}, place, Value{Entry{0}});
         constexpr auto most = static_cast<Entry>(size);
         return select(least < most, least, Value{most});

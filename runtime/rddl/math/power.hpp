@@ -81,18 +81,23 @@ RDDL_ALWAYS_INLINE R rare_power(R base, R exponent, R of_magnitude) {
     return select(exponent == 0.0 || base == 1.0, R{1.0}, result);
 }
 
+// Where not all exponents are 2.
+template <class R>
+R any_power(R base, R exponent) {
+    const R result = power_of_positive(absolute(base), exponent);
+    const auto squares = exponent == 2.0;
+    const auto ordinary = base > 0.0 && base <= greatest_real && exponent == exponent;
+    const R chosen = select(squares, base * base, result);
+    if (!any(!ordinary)) return chosen;
+    return select(ordinary || squares, chosen, rare_power(base, exponent, result));
+}
+
 }  // namespace detail
 
+// By far the most frequent exponent is a constant 2.
 template <RealLanes R>
-R power(R base, R exponent) {
-    const R square = base * base;
-    const auto squares = exponent == 2.0;  // by far the most frequent
-    if (!any(!squares)) return square;
-    const R result = detail::power_of_positive(absolute(base), exponent);
-    const auto ordinary = base > 0.0 && base <= detail::greatest_real && exponent == exponent;
-    const R chosen = select(squares, square, result);
-    if (!any(!ordinary)) return chosen;
-    return select(ordinary || squares, chosen, detail::rare_power(base, exponent, result));
+RDDL_ALWAYS_INLINE R power(R base, R exponent) {
+    return any(!(exponent == 2.0)) ? detail::any_power(base, exponent) : base * base;
 }
 
 }  // namespace rddl

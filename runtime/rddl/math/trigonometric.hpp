@@ -88,8 +88,10 @@ RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
 
 }  // namespace detail
 
+// These two are inlined, since a sine is often wanted beside the cosine of the same angle, which is
+// then reduced once.
 template <RealLanes R>
-R sin(R a) {
+RDDL_ALWAYS_INLINE R sin(R a) {
     const auto [quadrants, rest] = detail::angle(a);
     const auto s = detail::sine(rest);
     const auto c = detail::cosine(rest);
@@ -100,7 +102,7 @@ R sin(R a) {
 }
 
 template <RealLanes R>
-R cos(R a) {
+RDDL_ALWAYS_INLINE R cos(R a) {
     const auto [quadrants, rest] = detail::angle(a);
     const auto s = detail::sine(rest);
     const auto c = detail::cosine(rest);
