@@ -69,7 +69,10 @@ std::vector<std::string> compiler_command(Processors processors) {
     const char* compiler = std::getenv("CXX");
     std::vector<std::string> command = words(compiler ? compiler : "");
     if (command.empty()) command = {"c++"};
-    command.insert(command.end(), {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off"});
+    // Lanes are vectors already. GCC would put numbers of one environment together as well, which
+    // costs more than it gains where they then wait for each other, as in a polynomial.
+    command.insert(command.end(),
+                   {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize"});
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
