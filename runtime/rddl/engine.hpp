@@ -94,6 +94,10 @@ decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
         };
         if constexpr (sizeof(Records) <= most_bytes) {
             Records records;
+            if constexpr (E::Lane::width == 1) {  // callers get all bytes of them, padding too
+                records.next = typename E::State();
+                records.observation = typename E::Observation();
+            }
             return use(StepBuffers{reinterpret_cast<std::byte*>(&records.scratch),
                                    reinterpret_cast<std::byte*>(&records.next),
                                    reinterpret_cast<std::byte*>(&records.observation)});

@@ -71,6 +71,19 @@ TEST(Interface, WritesOnlyWhatIsAskedFor) {
     EXPECT_EQ(functions.reset(batch.get(), nullptr, nullptr), RDDL_OK);
 }
 
+TEST(Interface, ReadsActionsAtAnyAddress) {
+    const rddl_batch_options one{1, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+    TinyBatch aligned(one), unaligned(one);
+    aligned.actions[0] = action_of(1, 2);
+    aligned.step();
+    std::array<std::byte, sizeof(ActionRecord) + 1> bytes;
+    std::memcpy(&bytes[1], aligned.actions.data(), sizeof(ActionRecord));
+    const rddl_transition nothing{};
+    EXPECT_EQ(functions.step(unaligned.get(), &bytes[1], &nothing), RDDL_OK);
+    EXPECT_EQ(std::memcmp(aligned.states().data(), unaligned.states().data(), sizeof(StateRecord)),
+              0);
+}
+
 TEST(Interface, TakesTheHorizonFromTheInstanceOrTheOptions) {
     for (const auto& [option, expected] : {std::pair(-1, 50), {3, 3}}) {
         TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option, 0});

@@ -220,6 +220,28 @@ TEST(Accuracy, MakesPowersExactThatAreIntegers) {
 
 // ------------------------------------------------------------------------ special arguments
 
+// Near whole multiples of the divisor the rounded quotient may be one too great.
+TEST(Accuracy, OfRemaindersIsThatOfTheCLibrary) {
+    const auto expected = [](double a, double b) {
+        const double remainder = std::fmod(a, b);
+        if (remainder == 0) return std::copysign(0.0, b);
+        return (remainder < 0) != (b < 0) ? remainder + b : remainder;
+    };
+    Random random(7);
+    for (int i = 0; i < 100'000; ++i) {
+        const double divisor = any_argument(random);
+        const double multiple = static_cast<double>(random() >> random() % 64) * divisor;
+        for (const double near : {multiple, std::nextafter(multiple, 0.0),
+                                  std::nextafter(multiple, infinity), any_argument(random)})
+            for (const double dividend : {near, -near}) {
+                const double remainder = floor_mod(dividend, divisor);
+                const double correct = expected(dividend, divisor);
+                if (std::isnan(remainder) && std::isnan(correct)) continue;
+                ASSERT_EQ(bits_of(remainder), bits_of(correct)) << dividend << " " << divisor;
+            }
+    }
+}
+
 TEST(SpecialArguments, AreTreatedAsByC) {
     for (const Function& f : functions)
         for (const double a : special_arguments()) {
