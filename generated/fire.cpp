@@ -188,9 +188,8 @@ struct Simulator {
                                     state.burning[ignites_n[entry]][ignites_m[entry]],
                                     ignites_entries[entry], 1.0);
                             });
-                        const rddl::Index number = rddl::wrap_add(rddl::wrap_mul(c, 5), r);
                         const Real term = 1.0 - 0.9995 * product;
-                        return rddl::sample::bernoulli(context, {1, number}, term);
+                        return rddl::sample::bernoulli(context, {1, c * 5 + r}, term);
                     });
             }
         }
@@ -254,10 +253,7 @@ struct Simulator {
     // forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]  (domain.rddl:84)
     template <class L>
     static typename L::Bool invariant_0(const State<L>& state) {
-        using Int = typename L::Int;
-        const Int bits =
-            rddl::bit_xor(rddl::bit_and(rddl::bits(state.burning), rddl::bits(state.bare)), -1);
-        return rddl::bit_and(rddl::bit_xor(bits, -1), 33554431) == 0;
+        return rddl::bit_and(rddl::bits(state.burning), rddl::bits(state.bare)) == 0;
     }
 
     // Hold for every action that is allowed.
@@ -280,8 +276,8 @@ struct Simulator {
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
         using Int = typename L::Int;
         const Int bits =
-            rddl::bit_or(rddl::bit_xor(rddl::bits(action.douse), -1), rddl::bits(state.burning));
-        return rddl::bit_and(rddl::bit_xor(bits, -1), 33554431) == 0;
+            rddl::bit_and(rddl::bits(action.douse), rddl::bit_xor(rddl::bits(state.burning), -1));
+        return bits == 0;
     }
 
     // forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bar...  (domain.rddl:78)
@@ -290,9 +286,7 @@ struct Simulator {
         using Int = typename L::Int;
         const Int bits =
             rddl::bit_or(rddl::bit_or(rddl::bits(state.burning), rddl::bits(state.bare)), 24576);
-        const Int bits_2 =
-            rddl::bit_or(rddl::bit_xor(rddl::bits(action.clear), -1), rddl::bit_xor(bits, -1));
-        return rddl::bit_and(rddl::bit_xor(bits_2, -1), 33554431) == 0;
+        return rddl::bit_and(rddl::bits(action.clear), bits) == 0;
     }
 };
 

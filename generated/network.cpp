@@ -90,15 +90,13 @@ struct Simulator {
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
             next.running[c] = rddl::branch(
-                context, action.reboot[c], [&] { return true; }, [&] { return state.running[c]; },
+                context, action.reboot[c], [&] { return true; },
                 [&] {
                     const Int number =
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
                     const Real term = 0.45 + 0.5 * (rddl::to_real(number) * 0.5);
-                    return rddl::sample::bernoulli(context, {0, c}, term);
-                },
-                [&] {
-                    return rddl::sample::bernoulli(context, {1, c}, 0.05);
+                    const Real term_2 = rddl::select(state.running[c], term, 0.05);
+                    return rddl::sample::bernoulli(context, {0, c}, term_2);
                 });
         }
     }

@@ -128,13 +128,9 @@ constexpr std::int64_t power(Context<ScalarOf<R>>& context, Place place, std::in
 
 // ------------------------------------------------------------------- ints and reals alike
 
-constexpr bool is_nan(std::int64_t) {
-    return false;
-}
-constexpr bool is_nan(double a) {
-    return a != a;
-}
-constexpr bool is_nan(float a) {
+template <class T>
+requires std::is_arithmetic_v<T>
+constexpr bool is_nan(T a) {
     return a != a;
 }
 
