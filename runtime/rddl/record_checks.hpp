@@ -12,14 +12,14 @@ namespace rddl {
 
 namespace detail {
 
-// Whether all bytes are 0 or 1; eight at a time, since every step of a batch asks.
+// Whether all bytes are 0 or 1; 8 at a time, since every step of a batch asks.
 inline bool are_bools(const std::byte* bytes, std::int64_t count) {
     std::uint64_t all = 0;
     std::int64_t k = 0;
     for (; k + 8 <= count; k += 8) {
-        std::uint64_t eight;
-        std::memcpy(&eight, bytes + k, sizeof eight);
-        all |= eight;
+        std::uint64_t chunk;
+        std::memcpy(&chunk, bytes + k, sizeof chunk);
+        all |= chunk;
     }
     for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
     return (all & 0xFEFEFEFEFEFEFEFE) == 0;

@@ -368,10 +368,10 @@ template <int count>
 #else
     std::uint64_t bits = 0;
     for (int i = 0; i < count; i += 8) {
-        std::uint64_t eight = 0;
-        __builtin_memcpy(&eight, static_cast<const char*>(bytes) + i,
+        std::uint64_t chunk = 0;
+        __builtin_memcpy(&chunk, static_cast<const char*>(bytes) + i,
                          i + 8 < count ? 8 : count - i);
-        bits |= (eight * 0x0102040810204080 >> 56) << i;
+        bits |= (chunk * 0x0102040810204080 >> 56) << i;
     }
     return bits;
 #endif

@@ -39,6 +39,11 @@ TEST(TabulateCounts, BeginsWithTheLeastCount) {
               "x-by-count[sum[o in obj](select(state.p[o], -1, 0)) - -3]");
 }
 
+TEST(TabulateCounts, TakesSumsOfCounts) {
+    EXPECT_EQ(tabulated("exp[(sum_{?o : obj} p(?o)) + sum_{?o : obj} ~p(?o)]"),
+              "x-by-count[sum[o in obj](int(state.p[o])) + sum[o in obj](int(!state.p[o]))]");
+}
+
 TEST(TabulateCounts, LeavesCheapExpressions) {
     const Texts x = of_x("2.0 * sum_{?o : obj} p(?o) + 1.0", passes::tabulate_counts);
     EXPECT_EQ(x.before, x.after);
@@ -46,7 +51,7 @@ TEST(TabulateCounts, LeavesCheapExpressions) {
 
 TEST(TabulateCounts, LeavesWhatDependsOnMore) {
     for (const char* cpf :
-         {"exp[x * sum_{?o : obj} p(?o)]", "exp[(sum_{?o : obj} p(?o)) + sum_{?o : obj} ~p(?o)]",
+         {"exp[x * sum_{?o : obj} p(?o)]", "exp[(sum_{?o : obj} p(?o)) * sum_{?o : obj} ~p(?o)]",
           "exp[0.5 * sum_{?o : obj} (p(?o) * E(?o))]"}) {
         const Texts x = of_x(cpf, passes::tabulate_counts);
         EXPECT_EQ(x.before, x.after);
