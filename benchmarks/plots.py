@@ -93,7 +93,7 @@ def draw_batches(results: Path):
         axes.minorticks_off()
         axes.margins(y=0.1)
         axes.set_ylim(bottom=0)
-    all_axes[0][0].legend()
+    figure.legend(*all_axes[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     figure.supxlabel("environments in the batch")
     figure.supylabel("million steps/s")
     return figure
@@ -118,7 +118,7 @@ def main() -> int:
             continue
         with plt.rc_context(STYLE):
             figure = draw(options.results)
-            figure.tight_layout()
+            figure.set_layout_engine("constrained")
             figure.savefig(options.images / f"{name}.png")
             plt.close(figure)
         print(f"written: {options.images / name}.png")
