@@ -132,9 +132,15 @@ Program rewrite(Program program, const Replace& replace) {
 }
 
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known) {
-    if (const auto found = known.find(id); found != known.end()) return found->second;
+    return replace_in(builder, id, known, [](NodeId) { return std::optional<NodeId>(); });
+}
+
+NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find) {
+    if (const auto before = known.find(id); before != known.end()) return before->second;
+    if (const auto found = find(id)) return known[id] = *found;
     Node node = builder.program()[id];
-    change_operands(node, [&](NodeId& operand) { operand = replace_in(builder, operand, known); });
+    change_operands(node,
+                    [&](NodeId& operand) { operand = replace_in(builder, operand, known, find); });
     return known[id] = builder.rebuild(node);
 }
 

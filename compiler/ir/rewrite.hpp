@@ -20,6 +20,10 @@ Program rewrite(Program program, const Replace& replace);
 // A node with others in place of those below it (or of itself) that are keys of `known`; what it
 // finds out is added there.
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
+// The same where `find` gives what stands for a node that is not known yet; none: itself, with what
+// is found in its operands. So the outermost nodes that something is found for are replaced.
+using Find = std::function<std::optional<NodeId>(NodeId)>;
+NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
 // Drops unreachable nodes.
 Program collect_garbage(Program program);
 

@@ -40,20 +40,16 @@ class Counting {
           evaluator_(std::as_const(program_)) {}
 
     ir::Program run() && {
-        ir::change_roots(program_, [&](ir::NodeId& root) { root = rewritten(root); });
+        std::map<ir::NodeId, ir::NodeId> done;
+        const auto find = [&](ir::NodeId id) {
+            return counted(id);
+        };
+        ir::change_roots(
+            program_, [&](ir::NodeId& root) { root = ir::replace_in(builder_, root, done, find); });
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    ir::NodeId rewritten(ir::NodeId id) {
-        if (const auto known = done_.find(id); known != done_.end()) return known->second;
-        const auto in_bits = counted(id);
-        if (in_bits) return done_[id] = *in_bits;
-        ir::Node node = program_[id];
-        ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
-        return done_[id] = builder_.rebuild(node);
-    }
-
     std::optional<ir::NodeId> counted(ir::NodeId id) {
         const std::optional<Nest> nest = nest_of(id);
         if (!nest) return std::nullopt;
@@ -86,7 +82,7 @@ class Counting {
         return nest;
     }
 
-    // Sets places_ and entries_; false if the condition is not about elements at known places.
+    // Sets places_; false if the condition is not about elements at known places.
     bool find_places(const Nest& nest) {
         double entries = 1;
         for (const ir::VariableId variable : variables_) entries *= size_of(variable);
@@ -344,12 +340,9 @@ class Counting {
                          .values = std::move(values),
                          .span = origin.span};
         std::vector<ir::NodeId> indices;
-        for (const ir::VariableId variable : variables_) {
-            table.shape.push_back(program_[variable].size);
-            if (program_[variable].type) table.types.push_back(*program_[variable].type);
+        for (const ir::VariableId variable : variables_)
             indices.push_back(builder_.index(variable));
-        }
-        if (table.types.size() != table.shape.size()) table.types.clear();
+        set_dimensions(program_, table, variables_);
         return builder_.load(constant_table(program_, std::move(table)), std::move(indices));
     }
 
@@ -372,7 +365,6 @@ class Counting {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
-    std::map<ir::NodeId, ir::NodeId> done_;
 
     // Of the aggregation at hand.
     std::vector<ir::VariableId> variables_;  // that choose the row

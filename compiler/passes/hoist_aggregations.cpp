@@ -194,12 +194,10 @@ class Hoisting {
                           .finite = builder_.facts(id).finite};
         for (ir::VariableId variable : dimensions) {
             const ir::Variable& dimension = program_[variable];
-            buffer.shape.push_back(dimension.size);
-            if (dimension.type) buffer.types.push_back(*dimension.type);
             buffer.name +=
                 "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
-        if (buffer.types.size() != buffer.shape.size()) buffer.types.clear();
+        set_dimensions(program_, buffer, dimensions);
         buffer.name = unused_name(program_, buffer.name);
         program_.buffers.push_back(std::move(buffer));
         return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};

@@ -23,6 +23,18 @@ std::string unused_name(const ir::Program& program, const std::string& wish) {
     return name;
 }
 
+void set_dimensions(const ir::Program& program, ir::Buffer& table,
+                    const std::vector<ir::VariableId>& variables) {
+    table.shape.clear();
+    table.types.clear();
+    for (const ir::VariableId variable : variables) {
+        table.shape.push_back(program[variable].size);
+        if (program[variable].type) table.types.push_back(*program[variable].type);
+    }
+    // Of objects in all dimensions, or in none.
+    if (table.types.size() != table.shape.size()) table.types.clear();
+}
+
 ir::BufferId constant_table(ir::Program& program, ir::Buffer table) {
     for (std::uint32_t index = 0; index < program.buffers.size(); ++index) {
         if (are_alike(program.buffers[index], table)) return {index};

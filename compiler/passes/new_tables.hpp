@@ -4,11 +4,16 @@
 #include "ir/ir.hpp"
 
 #include <string>
+#include <vector>
 
 namespace rddlc::passes {
 
 // The name, or the name with the first number that no buffer has.
 std::string unused_name(const ir::Program& program, const std::string& wish);
+
+// Gives a table a dimension for each of these loop indices, in this order.
+void set_dimensions(const ir::Program& program, ir::Buffer& table,
+                    const std::vector<ir::VariableId>& variables);
 
 // A table like this one, if there is one already; else a new one, named as it wishes if nobody else
 // is.

@@ -119,19 +119,16 @@ class Tabulation {
         : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {}
 
     ir::Program run() && {
-        ir::change_roots(program_, [&](ir::NodeId& root) { root = rewritten(root); });
+        std::map<ir::NodeId, ir::NodeId> done;
+        const auto find = [&](ir::NodeId id) {
+            return looked_up(id);
+        };
+        ir::change_roots(
+            program_, [&](ir::NodeId& root) { root = ir::replace_in(builder_, root, done, find); });
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    ir::NodeId rewritten(ir::NodeId id) {
-        if (const auto known = done_.find(id); known != done_.end()) return known->second;
-        if (const auto found = looked_up(id)) return done_[id] = *found;
-        ir::Node node = program_[id];
-        ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
-        return done_[id] = builder_.rebuild(node);
-    }
-
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
         const ir::Facts facts = builder_.facts(id);
         if (facts.uniform || !facts.free_variables.empty() || facts.may_fault) return std::nullopt;
@@ -157,7 +154,6 @@ class Tabulation {
     Report& report_;
     ir::Builder builder_;
     ir::Evaluator evaluator_;
-    std::map<ir::NodeId, ir::NodeId> done_;
 };
 
 // -------------------------------------------------------------- one object in each piece

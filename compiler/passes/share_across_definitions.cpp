@@ -196,12 +196,7 @@ class Sharing {
                           .values = {},
                           .span = span,
                           .finite = builder_.facts(id).finite};
-        for (ir::VariableId variable : builder_.facts(id).free_variables) {
-            const ir::Variable& dimension = program_[variable];
-            buffer.shape.push_back(dimension.size);
-            if (dimension.type) buffer.types.push_back(*dimension.type);
-        }
-        if (buffer.types.size() != buffer.shape.size()) buffer.types.clear();
+        set_dimensions(program_, buffer, builder_.facts(id).free_variables);
         program_.buffers.push_back(std::move(buffer));
         return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
     }

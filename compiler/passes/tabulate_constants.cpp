@@ -116,11 +116,7 @@ class Tabulation {
                           .fluent = {},
                           .values = *std::move(values),
                           .span = span};
-        for (ir::VariableId variable : variables) {
-            buffer.shape.push_back(program_[variable].size);
-            if (program_[variable].type) buffer.types.push_back(*program_[variable].type);
-        }
-        if (buffer.types.size() != buffer.shape.size()) buffer.types.clear();
+        set_dimensions(program_, buffer, variables);
         buffer.finite = are_finite(buffer.values);
         tables_.emplace(id, Table{std::move(variables), std::move(buffer)});
         return true;

@@ -91,11 +91,8 @@ class Tabulation {
     }
 
     ir::NodeId rewritten(ir::NodeId id) {
-        if (const auto known = done_.find(id); known != done_.end()) return known->second;
-        if (const auto element = looked_up(id)) return done_[id] = *element;
-        ir::Node node = program_[id];
-        ir::change_operands(node, [&](ir::NodeId& operand) { operand = rewritten(operand); });
-        return done_[id] = builder_.rebuild(node);
+        return ir::replace_in(builder_, id, done_,
+                              [&](ir::NodeId part) { return looked_up(part); });
     }
 
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
