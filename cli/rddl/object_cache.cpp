@@ -1,24 +1,20 @@
 #include "object_cache.hpp"
 
 #include "driver/extern_headers.hpp"
-#include "driver/process.hpp"
 #include "driver/shared_object.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "prepared_runtime.hpp"
 #include "progress.hpp"
 #include "read_text.hpp"
 #include "sha256.hpp"
 #include "support/render.hpp"
+#include "work_folder.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
@@ -29,32 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// All headers of the runtime, by name; empty if there are none.
-std::string runtime_text() {
-    const auto folder = runtime_include_folder();
-    if (!folder) return {};
-    std::vector<fs::path> headers;
-    for (const auto& entry : fs::recursive_directory_iterator(*folder / "rddl"))
-        if (entry.is_regular_file()) headers.push_back(entry.path());
-    std::sort(headers.begin(), headers.end());
-    std::string text;
-    for (const fs::path& header : headers)
-        text += header.lexically_relative(*folder).string() + '\0' + read_text(header) + '\0';
-    return text;
-}
-
-// What the compiler of a command says about itself: the words before its options are asked.
-std::string compiler_version(const std::vector<std::string>& command) {
-    const auto is_option = [](const std::string& word) {
-        return word.starts_with('-');
-    };
-    const auto end = std::find_if(command.begin(), command.end(), is_option);
-    std::vector<std::string> question(command.begin(), end);
-    question.emplace_back("--version");
-    const auto answer = run_process(question);
-    return answer ? answer->output : "";
-}
-
 // The user's headers with what they include.
 std::string extern_text(const std::vector<fs::path>& headers) {
     std::string text;
@@ -64,39 +34,10 @@ std::string extern_text(const std::vector<fs::path>& headers) {
 }
 
 // Everything that the compiled code depends on.
-std::string content_key(const std::string& text, const CacheOptions& options) {
-    const auto command =
-        shared_object_command("simulator.cpp", "simulator.so", Processors::LikeThis);
-    return sha256(fmt::format("{}\n{}\n{}\n{}\n{}", text, runtime_text(),
-                              extern_text(options.extern_headers), fmt::join(command, " "),
-                              compiler_version(command)));
+std::string content_key(const std::string& text, const std::string& toolchain,
+                        const CacheOptions& options) {
+    return sha256(fmt::format("{}\n{}\n{}", text, toolchain, extern_text(options.extern_headers)));
 }
-
-// A folder of our own beside the final place, so that a rename is atomic; removed at the end.
-class WorkFolder {
-  public:
-    explicit WorkFolder(const fs::path& parent) {
-        std::error_code error;
-        fs::create_directories(parent, error);
-        std::string pattern = (parent / "building-XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
-            throw Failure(
-                fmt::format("cannot write to '{}': {}", parent.string(), std::strerror(errno)),
-                "set XDG_CACHE_HOME to a folder that can be written");
-        path_ = pattern;
-    }
-    ~WorkFolder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 // Tells on a terminal what takes so long.
 class CompilingMessage {
@@ -132,32 +73,18 @@ bool is_sealed(const fs::path& object) {
     return sha256(std::string_view(content).substr(0, end)) == content.substr(end);
 }
 
-// What all simulators link, made on the first use; nothing if it cannot be made.
-std::optional<fs::path> cached_batches() {
-    const auto command = batches_command("batches.o");
-    const std::string key = sha256(fmt::format("{}\n{}\n{}", runtime_text(),
-                                               fmt::join(command, " "), compiler_version(command)));
-    const fs::path target = cache_folder() / (key + ".o");
-    if (fs::exists(target)) return target;
-    const WorkFolder work(target.parent_path());
-    const fs::path object = work.path() / "batches.o";
-    const auto result = run_process(batches_command(object));
-    if (!result || result->status != 0) return std::nullopt;
-    fs::rename(object, target);
-    return target;
-}
-
-void build(const std::string& text, const fs::path& target, const CacheOptions& options) {
+void build(const std::string& text, const std::string& toolchain, const fs::path& target,
+           const CacheOptions& options) {
     const WorkFolder work(target.parent_path());
     const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
     std::ofstream(source, std::ios::binary) << text;
-    const auto batches = cached_batches();
+    const auto prepared = prepared_runtime(target.parent_path(), toolchain);
     if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
     Diagnostics diagnostics;
     bool built = false;
     try {
         built = build_shared_object(source, object, Processors::LikeThis, options.extern_headers,
-                                    diagnostics, batches);
+                                    diagnostics, prepared);
     } catch (const std::logic_error&) {
         // Ctrl-C reaches the compiler, too.
         if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
@@ -185,10 +112,11 @@ fs::path cache_folder() {
 }
 
 CachedObject cached_object(const std::string& text, const CacheOptions& options) {
-    const fs::path target = cache_folder() / (content_key(text, options) + ".so");
+    const std::string toolchain = toolchain_text();
+    const fs::path target = cache_folder() / (content_key(text, toolchain, options) + ".so");
     if (!options.ignore_cache && is_sealed(target)) return {target, std::nullopt};
     const CompilingMessage message(options.what, !options.quiet);
-    build(text, target, options);
+    build(text, toolchain, target, options);
     return {target, message.done()};
 }
 

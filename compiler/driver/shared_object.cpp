@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <future>
 #include <sstream>
 #include <stdexcept>
@@ -84,16 +85,48 @@ bool is_refused(const std::optional<ProcessResult>& result) {
     return result && result->status != 0 && result->status < 128;
 }
 
-// What is linked saves most of the time. Where it is refused, all is compiled.
+// Names within a folder of what is prepared. Compilers look for the third when they are told to
+// include the second, which stands for it where they do not take it.
+constexpr const char* batches_name = "batches.o";
+constexpr const char* header_name = "simulator.hpp";
+constexpr const char* precompiled_name = "simulator.hpp.gch";
+
+std::vector<std::string> batches_command(const fs::path& source, const fs::path& output) {
+    std::vector<std::string> command = compiler_command(Processors::LikeThis);
+    command.insert(command.end(),
+                   {"-fvisibility=hidden", "-c", "-o", output.string(), source.string()});
+    return command;
+}
+
+std::vector<std::string> header_command(const fs::path& source, const fs::path& output) {
+    std::vector<std::string> command = compiler_command(Processors::LikeThis);
+    command.insert(command.end(), {"-fvisibility-inlines-hidden", "-DRDDL_LINKS_BATCHES", "-x",
+                                   "c++-header", "-o", output.string(), source.string()});
+    return command;
+}
+
+bool succeeds(const std::optional<ProcessResult>& result) {
+    return result && result->status == 0;
+}
+
+// With what is prepared, which saves most of the time; where the compiler refuses a part of that,
+// without. The user's headers come before those of the runtime, so that these are not prepared.
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
-                                     const std::optional<fs::path>& batches) {
-    if (batches) {
-        std::vector<std::string> linking = command;
-        linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", batches->string()});
-        auto result = run_process(linking);
+                                     const std::optional<fs::path>& prepared,
+                                     bool has_extern_headers) {
+    if (!prepared) return run_process(command);
+    std::vector<std::string> linking = command;
+    linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", (*prepared / batches_name).string()});
+    std::error_code ignored;
+    if (!has_extern_headers && fs::exists(*prepared / precompiled_name, ignored)) {
+        std::vector<std::string> including = linking;
+        including.insert(including.end(), {"-include", (*prepared / header_name).string()});
+        auto result = run_process(including);
         if (!is_refused(result)) return result;
+        fs::remove(*prepared / precompiled_name, ignored);
     }
-    return run_process(command);
+    auto result = run_process(linking);
+    return is_refused(result) ? run_process(command) : result;
 }
 
 #ifdef __x86_64__
@@ -182,17 +215,25 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
     return command;
 }
 
-std::vector<std::string> batches_command(const fs::path& output) {
-    std::vector<std::string> command = compiler_command(Processors::LikeThis);
-    const fs::path source = runtime_include_folder().value_or("") / "rddl" / "batches.cpp";
-    command.insert(command.end(),
-                   {"-fvisibility=hidden", "-c", "-o", output.string(), source.string()});
-    return command;
+bool prepare_runtime(const fs::path& folder) {
+    const fs::path runtime = runtime_include_folder().value_or("") / "rddl";
+    auto header = std::async(std::launch::async, run_process,
+                             header_command(runtime / "simulator.hpp", folder / precompiled_name));
+    const auto batches =
+        run_process(batches_command(runtime / "batches.cpp", folder / batches_name));
+    std::ofstream(folder / header_name) << "#include <rddl/simulator.hpp>\n";
+    const auto header_result = header.get();
+    if (is_refused(header_result)) {
+        std::error_code ignored;
+        fs::remove(folder / precompiled_name, ignored);
+        return succeeds(batches);
+    }
+    return succeeds(batches) && succeeds(header_result);
 }
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
                          const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics,
-                         const std::optional<fs::path>& batches) {
+                         const std::optional<fs::path>& prepared) {
     if (!runtime_include_folder()) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},
@@ -202,8 +243,9 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
         return false;
     }
     const std::vector<std::string> command = shared_object_command(source, output, processors);
-    const auto result =
-        processors == Processors::Any ? compile_for_any(source, output) : compile(command, batches);
+    const auto result = processors == Processors::Any
+                            ? compile_for_any(source, output)
+                            : compile(command, prepared, !extern_headers.empty());
     if (!result) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},

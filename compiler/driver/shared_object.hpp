@@ -23,12 +23,15 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
                                                const std::filesystem::path& output,
                                                Processors processors);
 
-// Compiles what is the same for all simulators, rddl/batches.cpp, for processors like this one.
-std::vector<std::string> batches_command(const std::filesystem::path& output);
+// Compiles into a folder what is the same for all simulators for processors like this one: the code
+// of batches (rddl/batches.cpp), which they can link, and, if the compiler can do that, the headers
+// that they include. False if there is no such code afterwards.
+bool prepare_runtime(const std::filesystem::path& folder);
 
 // For any processor of x86-64, the object holds the simulator for each instruction set; its entry
-// chooses when it is called. For those like this one, it links `batches`, the output of that
-// command, if it is given and can be linked; else all is compiled.
+// chooses when it is called. For those like this one, it is made with what prepare_runtime has put
+// into the folder `prepared`, if there is one, as far as the compiler takes that; else all is
+// compiled. A precompiled header that it refuses is removed.
 //
 // False, with the reason reported, if there is no compiler or no runtime, or if the compiler
 // refuses a text that includes the user's headers. Without headers that is never the user's
@@ -37,6 +40,6 @@ bool build_shared_object(const std::filesystem::path& source, const std::filesys
                          Processors processors,
                          const std::vector<std::filesystem::path>& extern_headers,
                          Diagnostics& diagnostics,
-                         const std::optional<std::filesystem::path>& batches = {});
+                         const std::optional<std::filesystem::path>& prepared = {});
 
 }  // namespace rddlc

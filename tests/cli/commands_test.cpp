@@ -339,10 +339,21 @@ std::vector<std::filesystem::path> shared_objects(const std::filesystem::path& c
         if (entry.path().extension() == ".so") found.push_back(entry.path());
     return found;
 }
-// Files that are there once for all problems: the code of batches.
-std::ptrdiff_t shared_files(const std::filesystem::path& cache) {
-    return std::ranges::count_if(std::filesystem::directory_iterator(cache / "rddlc"),
-                                 [](const auto& file) { return file.path().extension() == ".o"; });
+// Folders of what is compiled once for all problems.
+std::vector<std::filesystem::path> prepared_folders(const std::filesystem::path& cache) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(cache / "rddlc"))
+        if (entry.path().extension() == ".runtime") found.push_back(entry.path());
+    return found;
+}
+std::ptrdiff_t file_count(const std::filesystem::path& folder) {
+    const std::filesystem::directory_iterator files(folder);
+    return std::distance(begin(files), end(files));
+}
+std::ptrdiff_t occurrences(std::string_view part, const std::string& text) {
+    std::ptrdiff_t count = 0;
+    for (auto at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+    return count;
 }
 
 TEST_F(Program, CompilesOnceAndRepairsTheCache) {
@@ -350,9 +361,8 @@ TEST_F(Program, CompilesOnceAndRepairsTheCache) {
     ASSERT_EQ(run(run_it).status, 0);
     const auto kept = shared_objects(cache());
     ASSERT_EQ(kept.size(), 1u);
-    const std::filesystem::directory_iterator files(cache() / "rddlc");
-    EXPECT_EQ(std::distance(begin(files), end(files)), 1 + shared_files(cache()))
-        << "nothing else is left behind";
+    EXPECT_EQ(prepared_folders(cache()).size(), 1u);
+    EXPECT_EQ(file_count(cache() / "rddlc"), 2) << "nothing else is left behind";
     const auto written = std::filesystem::last_write_time(kept[0]);
 
     // Kept: works without a compiler of this name being run on the text again.
@@ -374,6 +384,57 @@ TEST_F(Program, CompilesOnceAndRepairsTheCache) {
     write_file(folder_ / "domain.rddl", domain);
     EXPECT_EQ(run(run_it).status, 0);
     EXPECT_EQ(shared_objects(cache()).size(), 2u);
+}
+
+TEST_F(Program, PreparesForAllProblemsOnce) {
+    write_file(folder_ / "log.sh", "echo \"$@\" >>log; exec c++ \"$@\"");
+    const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
+    const std::string compiler = "CXX='sh log.sh'";
+    ASSERT_EQ(run(run_it, compiler).status, 0);
+    ASSERT_EQ(run(run_it, compiler).status, 0);
+    const std::string log = read_file(folder_ / "log");
+    EXPECT_EQ(occurrences("batches.cpp", log), 1) << log;
+    EXPECT_EQ(occurrences("c++-header", log), 1) << log;
+    EXPECT_EQ(occurrences("-include", log), 2) << log;
+}
+
+TEST_F(Program, KeepsWhatIsPreparedForTheLatestToolchains) {
+    for (const char* name : {"a", "b", "c", "d"})
+        write_file(cache() / "rddlc" / (std::string(name) + ".runtime") / "batches.o", "");
+    ASSERT_EQ(run("run domain.rddl instance.rddl --quiet").status, 0);
+    EXPECT_EQ(prepared_folders(cache()).size(), 4u);
+    EXPECT_FALSE(std::filesystem::exists(cache() / "rddlc" / "a.runtime"));
+}
+
+TEST_F(Program, CompilesWhateverBecomesOfThePrecompiledHeader) {
+    const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
+    ASSERT_EQ(run(run_it).status, 0);
+    const auto header = prepared_folders(cache()).at(0) / "simulator.hpp.gch";
+    const auto size = std::filesystem::file_size(header);
+    std::filesystem::resize_file(header, size / 2);
+    EXPECT_EQ(run(run_it).status, 0);
+    EXPECT_EQ(run(run_it).status, 0);
+    write_file(header, "");
+    EXPECT_EQ(run(run_it).status, 0);
+    std::filesystem::remove(header);
+    EXPECT_EQ(run(run_it).status, 0);
+
+    // A compiler that makes none is not asked again.
+    write_file(folder_ / "log.sh",
+               "echo \"$@\" >>log; case \"$*\" in *c++-header*) exit 1; esac; exec c++ \"$@\"");
+    EXPECT_EQ(run(run_it, "CXX='sh log.sh'").status, 0);
+    EXPECT_EQ(run(run_it, "CXX='sh log.sh'").status, 0);
+    EXPECT_EQ(occurrences("c++-header", read_file(folder_ / "log")), 1);
+}
+
+TEST_F(Program, FillsTheCacheInSeveralProcessesAtOnce) {
+    const std::string both =
+        fmt::format("({0}) & first=$!; ({0}) & second=$!; wait $first && wait $second",
+                    command("run domain.rddl instance.rddl --quiet") + " >/dev/null");
+    EXPECT_EQ(std::system(both.c_str()), 0);
+    EXPECT_EQ(prepared_folders(cache()).size(), 1u);
+    EXPECT_EQ(shared_objects(cache()).size(), 1u);
+    EXPECT_EQ(file_count(cache() / "rddlc"), 2) << "nothing else is left behind";
 }
 
 TEST_F(Program, NeedsNoCompilerToInterpret) {

@@ -35,9 +35,10 @@ class SharedObject : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    bool builds(const fs::path& object, const fs::path& batches) {
+    bool builds(const fs::path& object, const std::optional<fs::path>& prepared = {}) {
         Diagnostics diagnostics;
-        return build_shared_object(network, object, Processors::LikeThis, {}, diagnostics, batches);
+        return build_shared_object(network, object, Processors::LikeThis, {}, diagnostics,
+                                   prepared);
     }
     bool builds_for_any(const fs::path& object) {
         Diagnostics diagnostics;
@@ -74,20 +75,25 @@ Behaviour behaviour_of(const fs::path& object, int lanes = 0) {
     return behaviour;
 }
 
-TEST_F(SharedObject, is_the_same_whether_batches_are_linked_or_compiled) {
-    const fs::path batches = folder_ / "batches.o";
-    const auto made = run_process(batches_command(batches));
-    ASSERT_TRUE(made && made->status == 0) << (made ? made->output : "no C++ compiler");
-    ASSERT_TRUE(builds(folder_ / "linked.so", batches));
+TEST_F(SharedObject, is_the_same_with_and_without_what_is_prepared) {
+    ASSERT_TRUE(prepare_runtime(folder_));
+    const fs::path header = folder_ / "simulator.hpp.gch";
+    EXPECT_TRUE(fs::exists(header));
+    ASSERT_TRUE(builds(folder_ / "prepared.so", folder_));
+    EXPECT_TRUE(fs::exists(header));
 
-    // What is no object cannot be linked.
-    const fs::path damaged = folder_ / "damaged.o";
-    std::ofstream(damaged) << "no object";
-    ASSERT_TRUE(builds(folder_ / "whole.so", damaged));
+    // Neither is one: the header is not tried again, and batches are compiled.
+    fs::resize_file(header, fs::file_size(header) / 2);
+    ASSERT_TRUE(builds(folder_ / "linked.so", folder_));
+    EXPECT_FALSE(fs::exists(header));
+    std::ofstream(folder_ / "batches.o") << "no object";
+    ASSERT_TRUE(builds(folder_ / "damaged.so", folder_));
+    ASSERT_TRUE(builds(folder_ / "whole.so"));
 
-    const auto states = behaviour_of(folder_ / "linked.so").states;
+    const auto states = behaviour_of(folder_ / "whole.so").states;
     EXPECT_FALSE(states.empty());
-    EXPECT_EQ(states, behaviour_of(folder_ / "whole.so").states);
+    for (const char* name : {"prepared.so", "linked.so", "damaged.so"})
+        EXPECT_EQ(behaviour_of(folder_ / name).states, states) << name;
 }
 
 #ifdef __x86_64__

@@ -1,0 +1,21 @@
+// What is the same for all simulators, compiled once: the code of batches and the runtime's
+// headers.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rddlc::cli {
+
+// What compiled code depends on, besides its own text: the runtime's headers, the compiler's
+// command line and its version.
+std::string toolchain_text();
+
+// The folder within `cache` that prepare_runtime (driver/shared_object.hpp) fills for that
+// toolchain, now or earlier; nothing if it cannot. Those of other toolchains are removed but for
+// the latest few.
+std::optional<std::filesystem::path> prepared_runtime(const std::filesystem::path& cache,
+                                                      const std::string& toolchain);
+
+}  // namespace rddlc::cli
