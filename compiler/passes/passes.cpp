@@ -7,6 +7,7 @@
 #include "passes/count_bools.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
+#include "passes/find_finite_fluents.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/fuse_interm_fluents.hpp"
@@ -45,6 +46,8 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
+    {"find_finite_fluents", "tells which fluents are never inf or nan, for the passes below",
+     passes::find_finite_fluents},
     {"fast_math", "only with --fast-math: what is right for real numbers, if not for floating ones",
      passes::fast_math, true},
     {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
