@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -44,6 +45,47 @@ TEST(Team, ReturnsWhenAllAreDone) {
             ++done;
         });
         EXPECT_EQ(done, team.size());
+    }
+}
+
+// Those who wait are awake in some of these jobs, asleep in others, and about to fall asleep.
+TEST(Team, RunsJobsAfterPausesOfAnyLength) {
+    for (const int size : {2, 5}) {
+        Team team(size);
+        std::vector<int> calls(static_cast<std::size_t>(team.size()), 0);
+        for (int job = 0; job < 300; ++job) {
+            const auto microseconds = [&](int worker) {
+                return std::chrono::microseconds((job * 7 + worker * 31) % 120);
+            };
+            const auto begin = std::chrono::steady_clock::now();
+            while (std::chrono::steady_clock::now() - begin < microseconds(0)) {
+            }
+            team.run([&](int worker) {
+                if (job % 3 == 0) std::this_thread::sleep_for(microseconds(worker));
+                ++calls[static_cast<std::size_t>(worker)];
+            });
+        }
+        for (const int count : calls) EXPECT_EQ(count, 300);
+    }
+}
+
+TEST(Waiting, ReturnsWhenTheValueChanges) {
+    for (const bool may_be_awake : {false, true}) {
+        Waiting waiting(may_be_awake);
+        std::atomic<int> value = 0;
+        std::thread other([&] {
+            for (int i = 0; i < 200; ++i) {
+                while (value.load() != 2 * i) std::this_thread::yield();
+                ++value;
+                value.notify_one();
+            }
+        });
+        for (int i = 0; i < 200; ++i) {
+            waiting.wait(value, 2 * i);
+            EXPECT_EQ(value, 2 * i + 1);
+            ++value;
+        }
+        other.join();
     }
 }
 
