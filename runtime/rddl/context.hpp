@@ -83,12 +83,14 @@ struct Context<ScalarOf<R>> {
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
     FaultRecord fault{};
 
-    // Of one series, step and twice as many neighbouring indices as a register has lanes
-    // (random.hpp), the even ones first.
+    // Of one series and step and pairs of neighbouring indices, the even ones first; uniform or of
+    // another kind (random.hpp).
+    static constexpr int most_pairs = simd::lanes_of<R> > 8 ? simd::lanes_of<R> : 8;
     struct Recent {
         std::uint32_t series = no_series;
+        std::uint32_t kind;
         std::uint32_t chunk;
-        R numbers[2][simd::lanes_of<R>];
+        R numbers[2][most_pairs];
         constexpr Recent() {}  // leaves the numbers as they are, to be quick
     };
     std::array<Recent, recent_series> recent{};

@@ -10,7 +10,9 @@
 #include <rddl/pack_ops.hpp>
 #include <rddl/philox.hpp>
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -70,7 +72,7 @@ RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_numbe
 }
 
 // A loop draws for one index after the other, so some are made at once: for packs the draws of two
-// neighbours, for one environment as many as a register has room for.
+// neighbours, for one environment those of as many pairs as a register has lanes.
 template <int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
                               std::uint32_t block_number) {
@@ -90,32 +92,75 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
     return place.index % 2 == 0 ? recent.even : recent.odd;
 }
 
-template <class R>
+namespace detail {
+
+// 0, 1, 2, ...
+template <int n>
+inline constexpr auto lane_numbers = [] {
+    std::array<std::uint64_t, static_cast<std::size_t>(n)> numbers{};
+    for (std::size_t lane = 0; lane < numbers.size(); ++lane) numbers[lane] = lane;
+    return numbers;
+}();
+
+}  // namespace detail
+
+// What a uniform number becomes before parameters have a part in it: nothing else, or a draw of a
+// standard distribution (distributions/continuous.hpp).
+struct Uniform {
+    static constexpr std::uint32_t kind = 0;
+    template <class Real>
+    static RDDL_INLINE Real of(const Real& number) {
+        return number;
+    }
+};
+
+// How many pairs of neighbours are made at once: of uniform numbers as many as a register has
+// lanes.
+template <class Standard, class R>
+inline constexpr int pairs_at_once =
+    Standard::kind == Uniform::kind ? simd::lanes_of<R> : Context<ScalarOf<R>>::most_pairs;
+
+template <class Standard, class R>
 [[gnu::noinline]] void refill(Context<ScalarOf<R>>& context, std::uint32_t series,
                               std::uint32_t chunk) {
-    constexpr int lanes = simd::lanes_of<R>;
+    constexpr int lanes = pairs_at_once<Standard, R>;
     using Word = Lanes<std::uint64_t, lanes>;
-    Word block_numbers;
-    for (int lane = 0; lane < lanes; ++lane)
-        block_numbers.set(lane, std::uint64_t{chunk} * lanes + lane);
+    const Word first{std::uint64_t{chunk} * lanes};
     const auto draws = first_numbers<R, Word>(
-        Word{std::uint64_t{context.step}}, series, block_numbers,
+        Word{std::uint64_t{context.step}}, series,
+        first + Word::load(detail::lane_numbers<lanes>.data()),
         {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
-    auto& recent = context.recent[series % recent_series];
+    auto& recent = context.recent[(series + Standard::kind) % recent_series];
     recent.series = series;
+    recent.kind = Standard::kind;
     recent.chunk = chunk;
-    draws.even.store(recent.numbers[0]);
-    draws.odd.store(recent.numbers[1]);
+    Standard::of(draws.even).store(recent.numbers[0]);
+    Standard::of(draws.odd).store(recent.numbers[1]);
+}
+
+template <class Standard, class R>
+RDDL_INLINE R recent_number(Context<ScalarOf<R>>& context, Place place) {
+    constexpr int pairs = pairs_at_once<Standard, R>;
+    const std::uint32_t chunk = place.index / 2 / pairs;
+    const auto& recent = context.recent[(place.series + Standard::kind) % recent_series];
+    const bool is_there =
+        recent.series == place.series && recent.kind == Standard::kind && recent.chunk == chunk;
+    if (!is_there) refill<Standard>(context, place.series, chunk);
+    return recent.numbers[place.index % 2][place.index / 2 % pairs];
 }
 
 template <class R>
-R uniform_at(Context<ScalarOf<R>>& context, Place place) {
-    constexpr int lanes = simd::lanes_of<R>;
-    const std::uint32_t chunk = place.index / 2 / lanes;
-    const auto& recent = context.recent[place.series % recent_series];
-    if (recent.series != place.series || recent.chunk != chunk)
-        refill(context, place.series, chunk);
-    return recent.numbers[place.index % 2][place.index / 2 % lanes];
+RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
+    return recent_number<Uniform>(context, place);
+}
+
+// A draw of a standard distribution. Alone, those of neighbours are made with it, in registers,
+// unless the compiler sees that it has none.
+template <class Standard, class L>
+RDDL_INLINE typename L::Real standard_at(Context<L>& context, Place place) {
+    if constexpr (L::width == 1)
+        if (!__builtin_constant_p(place.index)) return recent_number<Standard>(context, place);
+    return Standard::of(uniform_at(context, place));
 }
 
 template <class L>

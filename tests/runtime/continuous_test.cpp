@@ -69,6 +69,20 @@ TEST(Normal, OfVarianceZeroIsItsMean) {
     EXPECT_FALSE(context.fault);
 }
 
+// Neighbours are made together, and one draw from several distributions may share a series.
+TEST(StandardDraws, AreThoseOfTheirUniformNumbers) {
+    Context<Scalar> context{stream_key(1, 2, 3), 4, {}}, other = context;
+    for (Index index = 0; index < 100; ++index) {
+        const double u = open_uniform_at(other, {5, index});
+        EXPECT_EQ(sample::normal(context, {5, index}, 0.0, 1.0), normal_quantile(u));
+        EXPECT_EQ(uniform_at(context, {5, index}), uniform_at(other, {5, index}));
+        EXPECT_EQ(sample::exponential(context, {5, index}, 1.0), -ln(u));
+        EXPECT_EQ(sample::normal(context, {8, index}, 0.0, 1.0),
+                  normal_quantile(open_uniform_at(other, {8, index})));
+        EXPECT_EQ(sample::exponential(context, {5, 7}, 1.0), -ln(open_uniform_at(other, {5, 7})));
+    }
+}
+
 TEST(Exponential, FitsItsLawByMean) {
     for (const double mean : {1.0, 20.0, 1e-9}) {
         const auto draws = draws_of(

@@ -9,8 +9,30 @@
 #include <rddl/ops.hpp>
 #include <rddl/random.hpp>
 
+#include <cstdint>
 #include <limits>
 #include <numbers>
+
+namespace rddl {
+
+struct StandardNormal {
+    static constexpr std::uint32_t kind = 1;
+    template <class Real>
+    static Real of(const Real& number) {
+        return normal_quantile(open_unit_real(number));
+    }
+};
+
+// -ln U.
+struct StandardExponential {
+    static constexpr std::uint32_t kind = 2;
+    template <class Real>
+    static Real of(const Real& number) {
+        return -ln(open_unit_real(number));
+    }
+};
+
+}  // namespace rddl
 
 namespace rddl::sample {
 
@@ -30,11 +52,11 @@ typename L::Real uniform(Context<L>& context, Place place, typename L::Real lowe
 
 // Variance, not standard deviation; variance 0 gives the mean.
 template <class L>
-typename L::Real normal(Context<L>& context, Place place, typename L::Real mean,
-                        typename L::Real variance) {
+RDDL_INLINE typename L::Real normal(Context<L>& context, Place place, typename L::Real mean,
+                                    typename L::Real variance) {
     using Real = typename L::Real;
     const auto valid = context.require(variance >= 0.0, FaultKind::Variance, place, variance);
-    const Real standard = normal_quantile(open_uniform_at(context, place));
+    const Real standard = standard_at<StandardNormal>(context, place);
     return select(valid, mean + sqrt(variance) * standard, Real{0});
 }
 
@@ -43,7 +65,7 @@ template <class L>
 typename L::Real exponential(Context<L>& context, Place place, typename L::Real mean) {
     using Real = typename L::Real;
     const auto valid = context.require(mean > 0.0, FaultKind::Mean, place, mean);
-    return select(valid, -ln(open_uniform_at(context, place)) * mean, Real{0});
+    return select(valid, standard_at<StandardExponential>(context, place) * mean, Real{0});
 }
 
 namespace detail {
@@ -64,7 +86,7 @@ typename L::Real weibull(Context<L>& context, Place place, typename L::Real shap
                          typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
-    const Real standard = -ln(open_uniform_at(context, place));
+    const Real standard = standard_at<StandardExponential>(context, place);
     return select(valid, scale * power(standard, Real{1} / shape), Real{0});
 }
 
@@ -74,7 +96,7 @@ typename L::Real pareto(Context<L>& context, Place place, typename L::Real shape
                         typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, scale);
-    const Real logarithm = -ln(open_uniform_at(context, place)) / shape;
+    const Real logarithm = standard_at<StandardExponential>(context, place) / shape;
     return select(valid, scale * exp_minus_one(logarithm), Real{0});
 }
 
@@ -84,7 +106,7 @@ typename L::Real gumbel(Context<L>& context, Place place, typename L::Real locat
                         typename L::Real scale) {
     using Real = typename L::Real;
     const auto valid = context.require(scale > 0.0, FaultKind::Scale, place, scale);
-    const Real standard = -ln(-ln(open_uniform_at(context, place)));
+    const Real standard = -ln(standard_at<StandardExponential>(context, place));
     return select(valid, location + scale * standard, Real{0});
 }
 
@@ -117,7 +139,7 @@ typename L::Real gompertz(Context<L>& context, Place place, typename L::Real sha
                           typename L::Real rate) {
     using Real = typename L::Real;
     const auto valid = detail::require_shape_and_scale(context, place, shape, rate);
-    const Real standard = -ln(open_uniform_at(context, place));
+    const Real standard = standard_at<StandardExponential>(context, place);
     return select(valid, ln_one_plus(standard / shape) / rate, Real{0});
 }
 
