@@ -2,6 +2,8 @@
 
 import argparse
 import json
+import os
+import signal
 import subprocess
 from dataclasses import asdict
 from pathlib import Path
@@ -9,13 +11,22 @@ from pathlib import Path
 from document import ROOT
 
 
-def bench(rddl: Path, *arguments: object) -> dict:
-    """What `rddl bench ARGUMENTS --json` prints. RuntimeError with its message if it fails."""
-    command = [rddl, "bench", *arguments, "--json"]
-    result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if result.returncode != 0:
-        raise RuntimeError(result.stderr.strip())
-    return json.loads(result.stdout)
+def bench(rddl: Path, *arguments: object, limit: float | None = None) -> dict:
+    """What `rddl bench ARGUMENTS --json` prints. RuntimeError with its message if it fails, or if it and
+    what it has started need more than `limit` seconds."""
+    command = list(map(str, [rddl, "bench", *arguments, "--json"]))
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, **pipes, start_new_session=True) as process:
+        try:
+            output, messages = process.communicate(timeout=limit)
+        except BaseException as error:
+            os.killpg(process.pid, signal.SIGKILL)
+            if isinstance(error, subprocess.TimeoutExpired):
+                raise RuntimeError(f"no figures within {limit:g} s") from None
+            raise
+    if process.returncode != 0:
+        raise RuntimeError(messages.strip())
+    return json.loads(output)
 
 
 def size_options(name: str, description: str, sizes: tuple[int, ...], counted: str) -> argparse.ArgumentParser:

@@ -1,29 +1,34 @@
 """Our batches against the compiled, vmapped rollouts of pyRDDLGym-jax, on the same processor.
 
     python3 -m venv .jaxvenv && .jaxvenv/bin/pip install -r benchmarks/requirements-jax.txt
-    .venv/bin/python benchmarks/compare_jax.py             some minutes
-    .venv/bin/python benchmarks/compare_jax.py --require   and fail below the limits
-    .venv/bin/python benchmarks/compare_jax.py --write     and docs/benchmarks.md
-    .venv/bin/python benchmarks/compare_jax.py --real=float    ours in 32 bits, as jax
+    .venv/bin/python benchmarks/compare_jax.py                 all problems; an hour
+    .venv/bin/python benchmarks/compare_jax.py Pendulum_gym    some problems
+    .venv/bin/python benchmarks/compare_jax.py --require       and fail below the limits
+    .venv/bin/python benchmarks/compare_jax.py --write         and docs/benchmarks.md
+    .venv/bin/python benchmarks/compare_jax.py --threads 2     with so many instead of one
 
-Each problem is one run of `rddl bench --against=jax`: both sides with one thread and with as many as
-there are cores, each at its best batch size, jax after its compilation. jax computes in 32 bits, its
-default, and checks neither ends of episodes nor preconditions; ours ends episodes, and computes in 64 bits
-unless told otherwise, which the summary says. The time to the first step is that of a program that is
-given the files: for jax to import it (told apart in the table), to read the files and to compile a single
-step; for us to compile, twice. What all simulators link is compiled before, as pyRDDLGym-jax is installed
-before.
+Of each problem of rddlrepository the instance of median size; those that pyRDDLGym-jax does not run are
+told with its reason. Each is a run of `rddl bench --against=jax`: jax after its compilation, then ours in
+64 bits, each at its best batch size; and one of ours in 32 bits (--real=float), in which jax computes by
+default. With one thread, steps are told for a second of processor time, which other programs on the
+machine do not inflate. jax checks neither ends of episodes nor preconditions; ours ends episodes. The time to the
+first step is that of a program that is given the files: for jax to import it (told apart in the table), to
+read the files and to compile a single step; for us to compile, twice. What all simulators link is compiled
+before, as pyRDDLGym-jax is installed before.
 
-Limits: geometric means of the ratios, with as many threads, of at least 10; and a first step that is
-sooner.
+What is measured is kept in a file (--results), so that a run that was interrupted goes on where it was;
+--fresh begins anew. A problem that takes longer than --limit is given up.
+
+Limits: geometric means of the ratios of at least 10, both in 32 bits; and a first step that is sooner.
 """
 
 import argparse
+import json
 import math
 import statistics
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from bench import bench
@@ -31,7 +36,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
 
-from problems import CORE, Case, repository_cases, smallest_median_largest  # noqa: E402
+from problems import CORE, Case, all_problems, repository_cases, smallest_median_largest  # noqa: E402
 
 LEAST_RATIO = 10.0
 OUR_BATCHES = "64,256,1024,4096"
@@ -42,9 +47,11 @@ class Comparison:
     """Of one instance."""
 
     label: str
+    threads: int
     jax_version: str
-    ours: dict[int, float]  # best steps per second, by the number of threads
-    jax: dict[int, float]
+    jax: float  # steps per second of the best batch
+    doubles: float  # ours
+    floats: float
     our_first_step: float  # seconds
     jax_first_step: float  # once it is imported
     jax_import: float
@@ -53,35 +60,65 @@ class Comparison:
     def is_sooner(self) -> bool:
         return self.our_first_step < self.jax_import + self.jax_first_step
 
-    def ratio(self, threads: int) -> float:
-        return self.ours[threads] / self.jax[threads]
+    @property
+    def doubles_ratio(self) -> float:
+        return self.doubles / self.jax
+
+    @property
+    def floats_ratio(self) -> float:
+        return self.floats / self.jax
 
 
-def best_by_threads(measurements: list[dict]) -> dict[int, float]:
-    best: dict[int, float] = {}
-    for m in measurements:
-        best[m["threads"]] = max(best.get(m["threads"], 0.0), m["steps_per_second"])
-    return best
+@dataclass
+class NotRun:
+    """An instance that pyRDDLGym-jax does not run."""
+
+    label: str
+    threads: int
+    reason: str
 
 
-def compare(case: Case, options: argparse.Namespace) -> Comparison:
-    arguments = ["--against=jax", "--python", options.jax_python, "--batch", OUR_BATCHES]
-    arguments += ["--seconds", options.seconds, "--threads", options.threads, f"--real={options.real}"]
-    figures = bench(options.rddl, case.domain_path, case.instance_path, *arguments)
-    (peer,) = figures["peers"]
+def best_rate(measurements: list[dict], threads: int) -> float:
+    """Of one thread in processor time, which other programs on the machine do not inflate."""
+    time = "processor_seconds" if threads == 1 else "seconds"
+    return max(m["steps"] / m[time] for m in measurements if m["threads"] == threads)
+
+
+def compare(case: Case, options: argparse.Namespace) -> Comparison | NotRun:
+    common = [case.domain_path, case.instance_path, "--batch", OUR_BATCHES]
+    common += ["--seconds", options.seconds, "--threads", options.threads]
+    peer_options = ["--against=jax", "--python", options.jax_python]
+    try:
+        doubles = bench(options.rddl, *common, *peer_options, limit=options.limit)
+    except RuntimeError as error:
+        return NotRun(case.label, options.threads, reason_of(str(error)))
+    floats = bench(options.rddl, *common, "--real=float")
+    (peer,) = doubles["peers"]
     return Comparison(
         case.label,
+        options.threads,
         peer["version"],
-        best_by_threads(figures["measurements"]),
-        best_by_threads(peer["measurements"]),
-        figures["first_step_seconds"],
+        best_rate(peer["measurements"], options.threads),
+        best_rate(doubles["measurements"], options.threads),
+        best_rate(floats["measurements"], options.threads),
+        doubles["first_step_seconds"],
         peer["first_step_seconds"],
         peer["import_seconds"],
     )
 
 
+def reason_of(message: str) -> str:
+    """What the table has room for; RuntimeError if it is not pyRDDLGym-jax that could not do it."""
+    begin = "pyRDDLGym-jax cannot run this problem: "
+    if begin not in message and not message.startswith("no figures within"):
+        raise RuntimeError(message)
+    lines = message.split(begin)[-1].split("hint:")[0].splitlines()
+    words = " ".join(" ".join(lines).replace("|", "/").split())
+    return words if len(words) <= 160 else words[:157] + "..."
+
+
 def prepare(case: Case, options: argparse.Namespace) -> None:
-    """The first use of rddl on a machine compiles what all simulators link."""
+    """The first use of rddl on a machine compiles what is the same for all simulators."""
     command = [options.rddl, "run", case.domain_path, case.instance_path, "--no-cache", "--horizon", "1"]
     subprocess.run(list(map(str, command)), stdout=subprocess.DEVNULL, check=True)
 
@@ -91,83 +128,125 @@ def median_case(problem: str) -> Case:
     return cases[len(cases) // 2]
 
 
-def rows_of(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
-    threads = sorted(comparisons[0].jax)
-    head = ["instance"]
-    for count in threads:
-        head += [f"jax, {count} threads", "rddlc", "ratio"]
-    rows = [(*head, "jax's import", "its first step", "rddlc's")]
-    for c in comparisons:
-        cells = [c.label]
-        for count in threads:
-            cells += [f"{c.jax[count]:,.0f}", f"{c.ours[count]:,.0f}", f"{c.ratio(count):.1f}"]
-        seconds = (c.jax_import, c.jax_first_step, c.our_first_step)
-        rows.append((*cells, *(f"{value:.2f} s" for value in seconds)))
+class Results:
+    """What is measured, in a file; what this run measures is added at once."""
+
+    def __init__(self, path: Path, fresh: bool):
+        self.path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if fresh:
+            path.unlink(missing_ok=True)
+        lines = path.read_text().splitlines() if path.exists() else []
+        records = [json.loads(line) for line in lines]
+        entries = [(NotRun if "reason" in record else Comparison)(**record) for record in records]
+        self.entries = {(entry.label, entry.threads): entry for entry in entries}
+
+    def add(self, entry: Comparison | NotRun) -> None:
+        self.entries[entry.label, entry.threads] = entry
+        with self.path.open("a") as file:
+            file.write(json.dumps(asdict(entry)) + "\n")
+
+
+TITLES = ("instance", "jax", "rddlc, doubles", "ratio", "rddlc, floats", "ratio")
+TIME_TITLES = ("jax's import", "its first step", "rddlc's")
+
+
+def row_of(c: Comparison) -> tuple[str, ...]:
+    speeds = (f"{c.jax:,.0f}", f"{c.doubles:,.0f}", f"{c.doubles_ratio:.1f}")
+    seconds = (c.jax_import, c.jax_first_step, c.our_first_step)
+    row = (c.label, *speeds, f"{c.floats:,.0f}", f"{c.floats_ratio:.1f}")
+    return (*row, *(f"{value:.2f} s" for value in seconds))
+
+
+def geometric_mean(values: list[float]) -> float:
+    return math.exp(statistics.fmean(map(math.log, values)))
+
+
+def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
+    rows = [("ratio", "geometric mean", "at least 10", "least", "of")]
+    for name, ratio in (("floats", "floats_ratio"), ("doubles", "doubles_ratio")):
+        ordered = sorted(comparisons, key=lambda comparison: getattr(comparison, ratio))
+        ratios = [getattr(comparison, ratio) for comparison in ordered]
+        enough = sum(value >= LEAST_RATIO for value in ratios)
+        counts = f"{enough} of {len(ratios)}"
+        rows.append((name, f"{geometric_mean(ratios):.1f}", counts, f"{ratios[0]:.1f}", ordered[0].label))
+    ordered = sorted(comparisons, key=lambda c: (c.jax_import + c.jax_first_step) / c.our_first_step)
+    ratios = [(c.jax_import + c.jax_first_step) / c.our_first_step for c in ordered]
+    sooner = f"{sum(c.is_sooner for c in comparisons)} of {len(comparisons)} are sooner"
+    rows.append(("first step", f"{geometric_mean(ratios):.1f}", sooner, f"{ratios[0]:.1f}", ordered[0].label))
     return rows
-
-
-def mean_ratio(comparisons: list[Comparison], threads: int) -> float:
-    return math.exp(statistics.fmean(math.log(c.ratio(threads)) for c in comparisons))
-
-
-def summary_text(comparisons: list[Comparison], real: str) -> str:
-    parts = []
-    for threads in sorted(comparisons[0].jax):
-        least = min(c.ratio(threads) for c in comparisons)
-        mean = mean_ratio(comparisons, threads)
-        parts.append(f"with {threads} threads {mean:.1f} times the throughput (least {least:.1f})")
-    sooner = sum(c.is_sooner for c in comparisons)
-    means = f"rddlc computes in {real}s; geometric means: {', '.join(parts)}"
-    return f"{means}; first step sooner in {sooner} of {len(comparisons)}"
 
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
     """What is below its limit, a line each."""
-    lines = []
-    for threads in sorted(comparisons[0].jax):
-        mean = mean_ratio(comparisons, threads)
-        if mean < LEAST_RATIO:
-            lines.append(f"with {threads} threads: the geometric mean {mean:.1f} is below {LEAST_RATIO:g}")
-    late = [c.label for c in comparisons if not c.is_sooner]
-    return lines + [f"{label}: the first step is not sooner" for label in late]
+    mean = geometric_mean([c.floats_ratio for c in comparisons])
+    lines = [f"floats: the geometric mean {mean:.1f} is below {LEAST_RATIO:g}"] if mean < LEAST_RATIO else []
+    return lines + [f"{c.label}: the first step is not sooner" for c in comparisons if not c.is_sooner]
+
+
+def write_document(comparisons: list[Comparison], not_run: list[NotRun]) -> None:
+    about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {len(comparisons)} instances"
+    write_section("jax", f"{about}:\n\n{markdown_table(summary_rows(comparisons))}")
+    table = markdown_table([(*TITLES, *TIME_TITLES), *map(row_of, comparisons)])
+    reasons = "".join(f"\n* {entry.label}: {entry.reason}" for entry in not_run)
+    write_section("jax by problem", f"{table}\n\nNot run by it:\n{reasons or 'none'}")
 
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository")
+    parser.add_argument("problems", nargs="*", help="names of problems of rddlrepository (all)")
     parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
     default = ROOT / ".jaxvenv/bin/python"
     parser.add_argument("--jax-python", type=Path, default=default, help="Python with pyRDDLGym-jax")
     parser.add_argument("--seconds", type=float, default=0.5, help="of each measurement")
-    parser.add_argument("--threads", type=int, default=2, help="the most threads, besides one")
-    parser.add_argument("--real", choices=("double", "float"), default="double", help="what ours computes in")
+    parser.add_argument("--limit", type=float, default=240, help="seconds for a problem, until it is given up")
+    parser.add_argument("--threads", type=int, default=1, help="of both")
+    default = ROOT / "build/benchmarks/compare_jax.jsonl"
+    parser.add_argument("--results", type=Path, default=default, help="file that keeps the figures")
+    parser.add_argument("--fresh", action="store_true", help="measure again what the file has")
     parser.add_argument("--require", action="store_true", help="fail below the limits")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.write and options.threads != 1:
+        parser.error("--write is for one thread")
+    return options
+
+
+def measure_missing(cases: list[Case], results: Results, options: argparse.Namespace) -> list[str]:
+    """Those that failed, a line each."""
+    failures = []
+    for number, case in enumerate(cases, 1):
+        key = (case.label, options.threads)
+        if key not in results.entries:
+            try:
+                results.add(compare(case, options))
+            except RuntimeError as error:
+                failures.append(f"{case.label}: {error}")
+                print(failures[-1], flush=True)
+                continue
+        entry = results.entries[key]
+        text = "  ".join(row_of(entry)) if isinstance(entry, Comparison) else f"{entry.label}: {entry.reason}"
+        print(f"{number}/{len(cases)}  {text}", flush=True)
+    return failures
 
 
 def main() -> int:
     options = parse_arguments()
-    comparisons, failures = [], []
-    prepare(median_case(CORE[0]), options)
-    for problem in options.problems or CORE:
-        case = median_case(problem)
-        try:
-            comparisons.append(compare(case, options))
-        except RuntimeError as error:
-            failures.append(f"{case.label}: {error}")
-            print(failures[-1], flush=True)
-            continue
-        print("  ".join(rows_of(comparisons[-1:])[-1]), flush=True)
+    cases = [median_case(problem) for problem in options.problems or all_problems()]
+    results = Results(options.results, options.fresh)
+    if any((case.label, options.threads) not in results.entries for case in cases):
+        prepare(median_case(CORE[0]), options)
+    failures = measure_missing(cases, results, options)
+    keys = [(case.label, options.threads) for case in cases]
+    entries = [results.entries[key] for key in keys if key in results.entries]
+    comparisons = [entry for entry in entries if isinstance(entry, Comparison)]
     if not comparisons:
         return 1
-    print(f"\n{summary_text(comparisons, options.real)}")
+    print("", *("  ".join(row) for row in summary_rows(comparisons)), sep="\n")
     short = shortfalls(comparisons)
     print(*short, sep="\n")
     if options.write:
-        summary = summary_text(comparisons, options.real)
-        about = f"{machine_text()}; pyRDDLGym-jax {comparisons[0].jax_version}; {summary}"
-        write_section("jax", f"{about}:\n\n{markdown_table(rows_of(comparisons))}")
+        write_document(comparisons, [entry for entry in entries if isinstance(entry, NotRun)])
     return 1 if failures or (options.require and short) else 0
 
 

@@ -37,8 +37,10 @@ class Rollouts:
             rollout(next(numbers))
             return batch * self.horizon, time.perf_counter() - begin
 
+        begin = time.process_time()
         steps, elapsed = steps_in(seconds, run)
-        return {"environments": batch, "threads": cores, "steps": steps, "seconds": elapsed}
+        figures = {"environments": batch, "threads": cores, "steps": steps, "seconds": elapsed}
+        return {**figures, "processor_seconds": time.process_time() - begin}
 
     def bytes_per_environment(self) -> int:
         return sum(np.asarray(value).nbytes for value in self.fluents.values())

@@ -105,6 +105,7 @@ nlohmann::ordered_json to_json(const std::vector<Measurement>& all) {
         figures["threads"] = m.threads;
         figures["steps"] = m.steps;
         figures["seconds"] = m.seconds;
+        if (m.processor_seconds > 0) figures["processor_seconds"] = m.processor_seconds;
         figures["steps_per_second"] = m.steps_per_second();
         out.push_back(std::move(figures));
     }

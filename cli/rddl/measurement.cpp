@@ -8,6 +8,7 @@
 #endif
 
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace rddlc::cli {
@@ -18,6 +19,14 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// That the threads of this process have used so far. Other programs do not count, so that it tells
+// on a busy machine how fast one thread is on an idle one.
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
 // The arrays that a step fills.
@@ -53,14 +62,16 @@ Measurement measure(const rddl_simulator& simulator, const RandomCourse& course,
     options.lane_count = stepping.lanes;
     options.thread_count = stepping.threads;
     Outcomes outcomes(course.environments);
-    Measurement result{course.environments, stepping.lanes, stepping.threads, 0, 0};
+    Measurement result{course.environments, stepping.lanes, stepping.threads, 0, 0, 0};
     do {
         const Batch batch = create_batch(simulator, options);
         simulator.step(batch.get(), course.of_step(0), &outcomes.transition);
+        const double processor_begin = processor_seconds();
         const auto begin = Clock::now();
         for (std::int64_t step = 1; step < course.steps; ++step)
             simulator.step(batch.get(), course.of_step(step), &outcomes.transition);
         result.seconds += seconds_since(begin);
+        result.processor_seconds += processor_seconds() - processor_begin;
         result.steps += (course.steps - 1) * course.environments;
     } while (result.seconds < seconds && !is_interrupted());
     return result;

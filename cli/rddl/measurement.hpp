@@ -16,6 +16,7 @@ struct Measurement {
     int threads = 0;
     std::int64_t steps = 0;  // of all environments
     double seconds = 0;
+    double processor_seconds = 0;  // of all threads; 0: unknown
 
     double steps_per_second() const { return static_cast<double>(steps) / seconds; }
 };

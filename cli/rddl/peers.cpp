@@ -80,8 +80,8 @@ PeerFigures figures_of(const nlohmann::json& answer) {
                         answer["first_step_seconds"],
                         {}};
     for (const nlohmann::json& m : answer["measurements"])
-        figures.measurements.push_back(
-            {m["environments"], 0, m["threads"], m["steps"], m["seconds"]});
+        figures.measurements.push_back({m["environments"], 0, m["threads"], m["steps"],
+                                        m["seconds"], m.value("processor_seconds", 0.0)});
     return figures;
 }
 

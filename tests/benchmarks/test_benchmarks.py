@@ -15,6 +15,7 @@ from unittest.mock import patch
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
+import bench  # noqa: E402
 import compare  # noqa: E402
 import compare_jax  # noqa: E402
 import document  # noqa: E402
@@ -79,29 +80,66 @@ class Compare(unittest.TestCase):
 
 
 class CompareJax(unittest.TestCase):
-    def comparison(self, ours: float, first_step: float) -> compare_jax.Comparison:
-        return compare_jax.Comparison("p 1", "3.1", {1: ours, 2: 2 * ours}, {1: 10.0, 2: 10.0}, first_step, 1.0, 0.5)
+    def comparison(self, floats: float, first_step: float) -> compare_jax.Comparison:
+        return compare_jax.Comparison("p 1", 1, "3.1", 10.0, 50.0, floats, first_step, 1.0, 0.5)
 
     def test_limits(self):
         self.assertEqual(compare_jax.shortfalls([self.comparison(100, 1.4)]), [])
         late_and_slow = compare_jax.shortfalls([self.comparison(90, 1.6)])
         self.assertEqual(
             late_and_slow,
-            ["with 1 threads: the geometric mean 9.0 is below 10", "p 1: the first step is not sooner"],
+            ["floats: the geometric mean 9.0 is below 10", "p 1: the first step is not sooner"],
         )
 
-    def test_takes_the_best_batch_of_each_number_of_threads(self):
+    def test_summary(self):
+        rows = compare_jax.summary_rows([self.comparison(100, 1.0), self.comparison(400, 3.0)])
+        self.assertEqual(
+            rows[1:],
+            [
+                ("floats", "20.0", "2 of 2", "10.0", "p 1"),
+                ("doubles", "5.0", "0 of 2", "5.0", "p 1"),
+                ("first step", "0.9", "1 of 2 are sooner", "0.5", "p 1"),
+            ],
+        )
+
+    def test_takes_the_best_batch_with_these_threads(self):
         measurements = [
-            {"threads": 1, "steps_per_second": 5.0},
-            {"threads": 2, "steps_per_second": 7.0},
-            {"threads": 1, "steps_per_second": 6.0},
+            {"threads": 1, "steps": 10, "seconds": 3.0, "processor_seconds": 2.0},
+            {"threads": 2, "steps": 70, "seconds": 5.0, "processor_seconds": 10.0},
+            {"threads": 1, "steps": 12, "seconds": 2.0, "processor_seconds": 2.0},
         ]
-        self.assertEqual(compare_jax.best_by_threads(measurements), {1: 6.0, 2: 7.0})
+        self.assertEqual(compare_jax.best_rate(measurements, 1), 6.0)
+        self.assertEqual(compare_jax.best_rate(measurements, 2), 14.0)
+
+    def test_reasons(self):
+        reason = "rddl: pyRDDLGym-jax cannot run this problem: KeyError: 'a|b'\n  more\nhint: none\n"
+        self.assertEqual(compare_jax.reason_of(reason), "KeyError: 'a/b' more")
+        self.assertEqual(len(compare_jax.reason_of(reason.replace("more", "x" * 300))), 160)
+        with self.assertRaises(RuntimeError):
+            compare_jax.reason_of("rddl: no such problem")
+
+    def test_goes_on_where_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "results.jsonl"
+            results = compare_jax.Results(file, fresh=False)
+            results.add(compare_jax.NotRun(f"{PROBLEM} 0", 1, "why"))
+            results.add(self.comparison(100, 1.0))
+            self.assertEqual(compare_jax.Results(file, fresh=False).entries, results.entries)
+            # Neither program is needed for what the file has.
+            status, text = run_program(compare_jax.main, PROBLEM, "--rddl", "/nowhere/rddl", "--results", file)
+            self.assertEqual((status, text), (1, f"1/1  {PROBLEM} 0: why\n"))
+            self.assertEqual(compare_jax.Results(file, fresh=True).entries, {})
 
     def test_says_what_is_missing(self):
-        status, text = run_program(compare_jax.main, PROBLEM, "--rddl", RDDL, "--jax-python", "/nowhere/python")
+        with tempfile.TemporaryDirectory() as folder:
+            options = ["--rddl", RDDL, "--jax-python", "/nowhere/python", "--results", Path(folder) / "r.jsonl"]
+            status, text = run_program(compare_jax.main, PROBLEM, *options)
         self.assertEqual(status, 1)
         self.assertIn("cannot run '/nowhere/python'", text)
+
+    def test_gives_up_after_the_limit(self):
+        with self.assertRaisesRegex(RuntimeError, "no figures within 0.01 s"):
+            bench.bench(Path(RDDL), PROBLEM, "--seconds", 5, limit=0.01)
 
 
 class LegalActions(unittest.TestCase):
@@ -213,7 +251,7 @@ class Document(unittest.TestCase):
 
     def test_sections_of_the_page_exist(self):
         text = document.DOCUMENT.read_text()
-        for name in ("comparison", "comparison by problem", "jax", "handwritten", "growth", "compile cost"):
+        for name in ("comparison", "comparison by problem", "jax", "jax by problem", "handwritten", "growth", "compile cost"):
             self.assertEqual(text.count(f"<!-- begin of {name} -->"), 1, name)
             self.assertEqual(text.count(f"<!-- end of {name} -->"), 1, name)
 
