@@ -410,8 +410,8 @@ inline constexpr rddl::Site sites[] = {
 }  // namespace about
 
 inline const rddl_simulator* simulator() {
-    using Engine = rddl::Compiled<Simulator>;
-    using Packed = rddl::Packed<Simulator, 16>;
+    using Engine = rddl::Compiled<Simulator, about::problem>;
+    using Packed = rddl::Packed<Simulator, about::problem, 16>;
     static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
     return table.get();
 }

@@ -298,8 +298,8 @@ inline constexpr rddl_problem problem = {
 }  // namespace about
 
 inline const rddl_simulator* simulator() {
-    using Engine = rddl::Compiled<Simulator>;
-    using Packed = rddl::Packed<Simulator, 16>;
+    using Engine = rddl::Compiled<Simulator, about::problem>;
+    using Packed = rddl::Packed<Simulator, about::problem, 16>;
     static const rddl::SimulatorTable<Engine, Packed> table(about::problem, {}, Engine());
     return table.get();
 }

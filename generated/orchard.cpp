@@ -292,7 +292,7 @@ inline constexpr rddl::Site sites[] = {
 }  // namespace about
 
 inline const rddl_simulator* simulator() {
-    using Engine = rddl::Compiled<Simulator>;
+    using Engine = rddl::Compiled<Simulator, about::problem>;
     static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
     return table.get();
 }

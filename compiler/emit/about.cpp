@@ -369,7 +369,7 @@ std::string table_definition(const Unit& unit) {
     std::string text;
     if (has_packs(unit)) {
         const bool floats = unit.program.real == RealType::Float;
-        text += fmt::format("    using Packed = rddl::Packed<Simulator, {}{}>;\n",
+        text += fmt::format("    using Packed = rddl::Packed<Simulator, about::problem, {}{}>;\n",
                             unit.options.lane_count, floats ? ", float" : "");
     }
     for (const std::string& line :

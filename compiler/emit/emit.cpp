@@ -39,10 +39,11 @@ std::string without_double_blanks(const std::string& text) {
 }
 
 std::string engine(const Unit& unit) {
-    if (unit.program.policy) return "rddl::Compiled<Simulator, Policy>";
+    if (unit.program.policy)
+        return "rddl::Compiled<Simulator, about::problem, rddl::Scalar, Policy>";
     if (unit.program.real == RealType::Float)
-        return "rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<float>>";
-    return "rddl::Compiled<Simulator>";
+        return "rddl::Compiled<Simulator, about::problem, rddl::ScalarOf<float>>";
+    return "rddl::Compiled<Simulator, about::problem>";
 }
 
 std::string simulator(const Unit& unit) {

@@ -96,8 +96,8 @@ bool Interpreter::terminal(const std::byte* state, Context& context) const {
     return any;
 }
 
-int Interpreter::violated_invariant(const std::byte* state, Context& context) const {
-    return first_violated(program_->invariants, Records().set(Storage::State, state), context);
+bool Interpreter::violates_invariant(const std::byte* state, Context& context) const {
+    return first_violated(program_->invariants, Records().set(Storage::State, state), context) >= 0;
 }
 
 int Interpreter::violated_precondition(const std::byte* state, const std::byte* action,

@@ -37,8 +37,9 @@ class Interpreter {
 
     // Does any termination condition hold?
     bool terminal(const std::byte* state, Context& context) const;
+    // Is there an invariant that does not hold, or faults?
+    bool violates_invariant(const std::byte* state, Context& context) const;
     // The first that does not hold, or faults; or -1.
-    int violated_invariant(const std::byte* state, Context& context) const;
     int violated_precondition(const std::byte* state, const std::byte* action,
                               Context& context) const;
 

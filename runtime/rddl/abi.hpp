@@ -163,7 +163,7 @@ class Functions {
         if (one_by_one == nullptr || one_by_one->environment_count() > 1)
             return step_several(handle(batch), records, *out);
         if (!one_by_one->accepts_actions(records)) return RDDL_BAD_ARGUMENT;
-        one_by_one->step_only_block(records, *out);
+        one_by_one->step_only_one(records, *out);
         return RDDL_OK;
     }
     [[gnu::noinline]] static rddl_error step_several(Handle& several, const std::byte* records,

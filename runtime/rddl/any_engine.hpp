@@ -5,6 +5,7 @@
 // indirect call for a block of environments.
 #pragma once
 
+#include <rddl/advance.hpp>
 #include <rddl/context.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
@@ -32,10 +33,9 @@ class AnyEngine {
         reset_ = [](const void* self, std::byte* state, Context<L>& context) {
             of<E>(self).reset(state, context);
         };
-        advance_ = [](const void* self, const Blocks<L>& blocks, const StepBuffers& memory,
-                      std::int64_t b, const std::byte* actions,
-                      const rddl_transition& out) -> Bool {
-            return rddl::advance(of<E>(self), blocks, memory, b, actions, out);
+        advance_ = [](const void* self, const Blocks<L>& blocks, Range range, Actions actions,
+                      const StepBuffers& memory, const rddl_transition& out) RDDL_INLINE_LAMBDA {
+            return rddl::advance(of<E>(self), blocks, range, actions, memory, out);
         };
         terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
             return of<E>(self).terminal(state, context);
@@ -71,9 +71,9 @@ class AnyEngine {
     }
 
     // As rddl::advance.
-    typename L::Bool advance(const Blocks<L>& blocks, const StepBuffers& memory, std::int64_t b,
-                             const std::byte* actions, const rddl_transition& out) const {
-        return advance_(engine_, blocks, memory, b, actions, out);
+    Stop<L> advance(const Blocks<L>& blocks, Range range, Actions actions,
+                    const StepBuffers& memory, const rddl_transition& out) const {
+        return advance_(engine_, blocks, range, actions, memory, out);
     }
 
     bool has_policy() const { return has_policy_; }
@@ -99,8 +99,8 @@ class AnyEngine {
     std::size_t memory_size_;
 
     void (*reset_)(const void*, std::byte*, Context<L>&);
-    Bool (*advance_)(const void*, const Blocks<L>&, const StepBuffers&, std::int64_t,
-                     const std::byte*, const rddl_transition&);
+    Stop<L> (*advance_)(const void*, const Blocks<L>&, Range, Actions, const StepBuffers&,
+                        const rddl_transition&);
     Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
     Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
     void (*reset_policy_)(const void*, std::byte*) = nullptr;
@@ -108,12 +108,11 @@ class AnyEngine {
                  std::byte*, Context<L>&) = nullptr;
 };
 
-// One step, all of it compiled with the simulator: most values then never leave registers.
+// Compiled with the simulator.
 template <class L>
-typename L::Bool advance(const AnyEngine<L>& engine, const Blocks<L>& blocks,
-                         const StepBuffers& memory, std::int64_t b, const std::byte* actions,
-                         const rddl_transition& out) {
-    return engine.advance(blocks, memory, b, actions, out);
+Stop<L> advance(const AnyEngine<L>& engine, const Blocks<L>& blocks, Range range, Actions actions,
+                const StepBuffers& memory, const rddl_transition& out) {
+    return engine.advance(blocks, range, actions, memory, out);
 }
 
 }  // namespace rddl

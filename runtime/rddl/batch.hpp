@@ -7,6 +7,7 @@
 #pragma once
 
 #include <rddl/action_choices.hpp>
+#include <rddl/advance.hpp>
 #include <rddl/columns.hpp>
 #include <rddl/engine.hpp>
 #include <rddl/episode.hpp>
@@ -169,13 +170,16 @@ class Batch {
     }
 
     void step(const std::byte* actions, const rddl_transition& out) {
-        for_each_block([&](Workspace& workspace, std::int64_t b) {
-            step_block(workspace, b, block_of_actions(workspace, actions, b), out);
+        for_each_share([&](Workspace& workspace, Range share) {
+            while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
     }
-    // The same, faster, where there is one block.
-    void step_only_block(const std::byte* actions, const rddl_transition& out) {
-        step_block(workspaces_[0], 0, block_of_actions(workspaces_[0], actions, 0), out);
+    // The same, faster, where there is one environment.
+    RDDL_ALWAYS_INLINE void step_only_one(const std::byte* actions, const rddl_transition& out) {
+        if (std::is_same_v<L, Scalar> && are_blocks(actions))
+            step_blocks(workspaces_[0], {0, 1}, {actions, nullptr}, out);
+        else
+            step_some(workspaces_[0], {0, 1}, actions, out);
     }
 
     // The same with matrices of numbers; `observations` may be null.
@@ -184,7 +188,7 @@ class Batch {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
             read_values(L{}, action_columns_, actions + b * width * action_columns_.value_count,
                         lanes_of(b), workspace.action[0]);
-            step_block(workspace, b, workspace.action[0], out);
+            step_blocks(workspace, {b, b + 1}, {nullptr, workspace.action[0]}, out);
             if (observations != nullptr) write_observation_values(observations, b);
         });
     }
@@ -247,7 +251,7 @@ class Batch {
               next(1, engine.state_size()),
               observation(1, engine.observation_size()),
               next_memory(1, memory_size(engine)),
-              step_buffers{scratch[0], next[0], observation[0]} {}
+              step_buffers{action[0], scratch[0], next[0], observation[0]} {}
 
         DecisionBuffers decision_buffers() { return {scratch[0], action[0], next_memory[0]}; }
 
@@ -267,12 +271,15 @@ class Batch {
     }
 
     Blocks<L> blocks() {
+        constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
         return {.environment_count = options_.environment_count,
-                .horizon = options_.horizon,
+                .horizon = options_.horizon > 0 ? options_.horizon : never,
+                .autoreset = options_.autoreset,
                 .episodes = episodes_.data(),
                 .states = states_[0],
                 .observations = options_.partially_observed ? observations_[0] : nullptr,
                 .state_columns = &state_columns_,
+                .action_columns = &action_columns_,
                 .observation_columns = &observation_columns_};
     }
 
@@ -295,34 +302,41 @@ class Batch {
     }
 
     template <class Body>
-    void for_each_block(Body&& body) {
+    void for_each_share(Body&& body) {
         team_.run([&](int worker) {
             const auto blocks = static_cast<std::int64_t>(block_count());
-            const Range share = share_of(worker, team_.size(), blocks, 64 / width);
-            Workspace& workspace = workspaces_[static_cast<std::size_t>(worker)];
+            body(workspaces_[static_cast<std::size_t>(worker)],
+                 share_of(worker, team_.size(), blocks, 64 / width));
+        });
+    }
+    template <class Body>
+    void for_each_block(Body&& body) {
+        for_each_share([&](Workspace& workspace, Range share) {
             for (std::int64_t b = share.begin; b < share.end; ++b) body(workspace, b);
         });
     }
 
-    // The actions of a block. That of one environment is the caller's record, if that is aligned
-    // and holds the same reals.
-    const std::byte* block_of_actions(Workspace& workspace, const std::byte* actions,
+    // The actions of a block.
+    const std::byte* block_of_actions(Workspace& workspace, const std::byte* rows,
                                       std::int64_t b) const {
-        const std::byte* const rows = actions + b * width * action_columns_.row_size;
-        if constexpr (std::is_same_v<L, Scalar>)
-            if (rows != nullptr && is_aligned(rows, action_columns_.alignment)) return rows;
-        read_records(L{}, action_columns_, rows, lanes_of(b), workspace.action[0]);
+        read_records(L{}, action_columns_, rows + b * width * action_columns_.row_size, lanes_of(b),
+                     workspace.action[0]);
         return workspace.action[0];
     }
-    static bool is_aligned(const std::byte* record, std::int64_t alignment) {
-        return (reinterpret_cast<std::uintptr_t>(record) &
-                static_cast<std::uintptr_t>(alignment - 1)) == 0;
+    // Whether rows of single environments are blocks as they stand.
+    bool are_blocks(const std::byte* rows) const {
+        return rows != nullptr && (reinterpret_cast<std::uintptr_t>(rows) &
+                                   static_cast<std::uintptr_t>(action_columns_.alignment - 1)) == 0;
+    }
+
+    Streams streams() const {
+        return {options_.seed, problem_->stochastic != 0 || has_policy(*engine_)};
     }
 
     void start(Workspace& workspace, std::int64_t b, Bool lanes) {
         const std::uint64_t identity = static_cast<std::uint64_t>(options_.first_environment) +
                                        static_cast<std::uint64_t>(b * width);
-        start_next(*engine_, state_columns_, episodes_[index(b)], lanes, options_.seed, identity,
+        start_next(*engine_, state_columns_, episodes_[index(b)], lanes, streams(), identity,
                    workspace.next[0], states_[b]);
         if (options_.partially_observed) clear_observations(workspace, b, lanes);
         if constexpr (PolicyEngine<E>)
@@ -339,25 +353,46 @@ class Batch {
         return engine_->violated_precondition(states_[b], actions, context);
     }
 
-    RDDL_ALWAYS_INLINE void step_block(Workspace& workspace, std::int64_t b,
-                                       const std::byte* actions, const rddl_transition& out) {
-        if (options_.autoreset == RDDL_AUTORESET_NEXT_STEP && any(episodes_[index(b)].over()))
-            return start_instead(workspace, b, actions, out);
-        const Bool over = advance(*engine_, blocks_, workspace.step_buffers, b, actions, out);
-        if (options_.autoreset == RDDL_AUTORESET_SAME_STEP && any(over))
-            start_after_step(workspace, b, over, out);
-        write_observations(out.observations, b);
+    // Steps as many blocks from range.begin on as can be stepped together; the first one left.
+    RDDL_ALWAYS_INLINE std::int64_t step_some(Workspace& workspace, Range range,
+                                              const std::byte* rows, const rddl_transition& out) {
+        const std::int64_t b = range.begin;
+        const bool whole = std::is_same_v<L, Scalar> ? are_blocks(rows) : lanes_of(b) == width;
+        if (!whole) {
+            const std::byte* const block = block_of_actions(workspace, rows, b);
+            return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);
+        }
+        const std::int64_t whole_blocks = options_.environment_count / width;
+        const bool together = out.observations == nullptr;  // those of a block are written while
+        range.end = together ? std::min(range.end, whole_blocks) : b + 1;  // it is in the cache
+        return step_blocks(workspace, range, {rows, nullptr}, out);
+    }
+    RDDL_ALWAYS_INLINE std::int64_t step_blocks(Workspace& workspace, Range range, Actions actions,
+                                                const rddl_transition& out) {
+        const Stop<L> stop =
+            advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
+        if (stop.block < range.end) {
+            if (any(stop.over))
+                start_after_step(workspace, stop.block, stop.over, out);
+            else
+                start_instead(workspace, stop.block, actions, out);
+        }
+        const std::int64_t end = std::min(stop.block + 1, range.end);
+        for (std::int64_t b = range.begin; out.observations != nullptr && b < end; ++b)
+            write_observations(out.observations, b);
+        return end;
     }
 
     // A step of a block where some episodes are over: the next ones start instead. Apart, as what
     // follows, so that other steps save no registers for it.
-    [[gnu::noinline]] void start_instead(Workspace& workspace, std::int64_t b,
-                                         const std::byte* actions, const rddl_transition& out) {
+    [[gnu::noinline]] void start_instead(Workspace& workspace, std::int64_t b, Actions actions,
+                                         const rddl_transition& out) {
         const Bool were_over = episodes_[index(b)].over();
-        advance(*engine_, blocks_, workspace.step_buffers, b, actions, out);
+        Blocks<L> without_resets = blocks_;
+        without_resets.autoreset = RDDL_AUTORESET_DISABLED;
+        advance(*engine_, without_resets, {b, b + 1}, actions, workspace.step_buffers, out);
         start(workspace, b, were_over);
         write_ends(blocks_, b, episodes_[index(b)].ends, out);
-        write_observations(out.observations, b);
     }
 
     // The next episodes of lanes whose episodes the step ended.
@@ -376,8 +411,8 @@ class Batch {
     }
 
     void write_observations(void* records, std::int64_t b) const {
-        if (records == nullptr) return;
         const std::int64_t size = observation_columns_.row_size;
+        if (records == nullptr) return;
         write_records(L{}, observation_columns_, observed(b),
                       static_cast<std::byte*>(records) + b * width * size, lanes_of(b));
     }

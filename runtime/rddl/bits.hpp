@@ -1,6 +1,7 @@
 // Tables of bools as the bits of ints, and what is done with them.
 #pragma once
 
+#include <rddl/bool_rows.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/pack.hpp>
 #include <rddl/pack_ops.hpp>
@@ -31,16 +32,11 @@ inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) *
 
 template <int count>
 std::int64_t bits_of(const bool* bools) {
-    return static_cast<std::int64_t>(simd::bits_of_bytes<count>(bools));
+    return static_cast<std::int64_t>(simd::bits_of_bytes(bools, count));
 }
 template <int count, int n>
 Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
-    Lanes<std::int64_t, n> bits{0};
-    for (int i = 0; i < count; ++i) {
-        const auto bit = static_cast<std::int64_t>(std::uint64_t{1} << i);
-        bits = select(bools[i], bits | Lanes<std::int64_t, n>{bit}, bits);
-    }
-    return bits;
+    return bits_in_lanes<count>(bools);
 }
 
 }  // namespace detail

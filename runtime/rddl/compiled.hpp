@@ -1,12 +1,15 @@
 // An emitted simulator as an engine (engine.hpp), for one environment or for packs of them.
 #pragma once
 
+#include <rddl/columns.hpp>
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/pack_ops.hpp>
+#include <rddl/simulator.h>
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace rddl {
 
@@ -20,7 +23,8 @@ struct NoPolicy {
     struct Memory {};
 };
 
-template <class Simulator, class Policy = NoPolicy, class L = Scalar>
+// `problem` describes the simulator.
+template <class Simulator, const rddl_problem& problem, class L = Scalar, class Policy = NoPolicy>
 struct Compiled {
     using Lane = L;
     using State = typename Simulator::template State<L>;
@@ -32,6 +36,8 @@ struct Compiled {
                   std::is_trivially_copyable_v<Scratch> &&
                   std::is_trivially_copyable_v<Observation> &&
                   std::is_trivially_copyable_v<Memory>);
+
+    static constexpr auto action_columns = known_action_columns<L, problem>();
 
     static constexpr std::size_t state_size() { return record_size<State>; }
     static constexpr std::size_t action_size() { return record_size<Action>; }
@@ -56,17 +62,24 @@ struct Compiled {
         return Simulator::reward(current, chosen, workspace, following, context);
     }
 
+    // All are evaluated: one of them may fault.
     static typename L::Bool terminal(const std::byte* state, Context<L>& context) {
         typename L::Bool holds{false};
-        for (Index k = 0; k < Simulator::termination_count; ++k)
+        for_each_index<Simulator::termination_count>([&](Index k) RDDL_INLINE_LAMBDA {
             holds = Simulator::termination(k, as<State>(state), context) || holds;
+        });
         return holds;
     }
 
-    static typename L::Int violated_invariant(const std::byte* state, Context<L>& context) {
-        return first_violated(Simulator::invariant_count, context, [&](Index k) {
-            return Simulator::invariant(k, as<State>(state), context);
+    static typename L::Bool violates_invariant(const std::byte* state, Context<L>& context) {
+        typename L::Bool violated{false};
+        for_each_index<Simulator::invariant_count>([&](Index k) RDDL_INLINE_LAMBDA {
+            evaluate_where(!violated, context, [&]() RDDL_INLINE_LAMBDA {
+                const typename L::Bool holds = Simulator::invariant(k, as<State>(state), context);
+                violated = violated || !holds || context.faulted();
+            });
         });
+        return violated;
     }
 
     static typename L::Int violated_precondition(const std::byte* state, const std::byte* action,
@@ -94,6 +107,29 @@ struct Compiled {
     }
 
   private:
+    // Calls body with 0, 1, ..., count - 1, as constants.
+    template <Index count, class Body>
+    static RDDL_INLINE void for_each_index(Body&& body) {
+        [&]<Index... k>(std::integer_sequence<Index, k...>) RDDL_INLINE_LAMBDA {
+            (body(k), ...);
+        }
+        (std::make_integer_sequence<Index, count>());
+    }
+
+    // The other lanes cannot fault meanwhile.
+    template <class Body>
+    static RDDL_INLINE void evaluate_where(typename L::Bool lanes, Context<L>& context,
+                                           Body&& body) {
+        if constexpr (L::width == 1) {
+            if (lanes) body();
+        } else {
+            const typename L::Bool active = context.active;
+            context.active = active && lanes;
+            body();
+            context.active = active;
+        }
+    }
+
     // Of the conditions 0 .. count - 1; -1 where all hold.
     template <class Condition>
     static typename L::Int first_violated(Index count, const Context<L>& context,
@@ -121,7 +157,7 @@ struct Compiled {
 };
 
 // The same simulator for packs of n environments, with reals of type R.
-template <class Simulator, int n, class R = double>
-using Packed = Compiled<Simulator, NoPolicy, Pack<n, R>>;
+template <class Simulator, const rddl_problem& problem, int n, class R = double>
+using Packed = Compiled<Simulator, problem, Pack<n, R>>;
 
 }  // namespace rddl

@@ -10,6 +10,7 @@
 
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
+#include <rddl/real.hpp>
 
 #include <concepts>
 #include <cstddef>
@@ -46,8 +47,8 @@ concept Engine = StartingEngine<E> &&
     {
         engine.step(record, record, target, target, target, context)
         } -> std::convertible_to<typename E::Lane::Real>;
-    // As violated_precondition.
-    { engine.violated_invariant(record, context) } -> std::convertible_to<typename E::Lane::Int>;
+    // Whether an invariant does not hold, or faults.
+    { engine.violates_invariant(record, context) } -> std::convertible_to<typename E::Lane::Bool>;
 };
 
 // An engine that may have a policy. Memory is what the policy remembers within an episode.
@@ -66,8 +67,9 @@ concept PolicyEngine = StartingEngine<E> &&
     {engine.act(record, record, target, target, target, context)};
 };
 
-// Where a step leaves its results until it is known not to have faulted.
+// The actions of a step, and where it leaves its results until it is known not to have faulted.
 struct StepBuffers {
+    std::byte* action;
     std::byte* scratch;
     std::byte* next;
     std::byte* observation;
@@ -77,17 +79,20 @@ struct StepBuffers {
 template <class E>
 concept TypedEngine = Engine<E> && requires {
     typename E::State;
+    typename E::Action;
     typename E::Scratch;
     typename E::Observation;
+    E::action_columns;
 };
 
 // Calls use(buffers) with these or, for small records, with variables, which the compiler may keep
 // in registers.
 template <class E, class Use>
-decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
+RDDL_ALWAYS_INLINE decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
     constexpr std::size_t most_bytes = 4096;  // of the stack
     if constexpr (TypedEngine<E>) {
         struct Records {
+            typename E::Action action;
             typename E::Scratch scratch;
             typename E::State next;
             typename E::Observation observation;
@@ -98,7 +103,8 @@ decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
                 records.next = typename E::State();
                 records.observation = typename E::Observation();
             }
-            return use(StepBuffers{reinterpret_cast<std::byte*>(&records.scratch),
+            return use(StepBuffers{reinterpret_cast<std::byte*>(&records.action),
+                                   reinterpret_cast<std::byte*>(&records.scratch),
                                    reinterpret_cast<std::byte*>(&records.next),
                                    reinterpret_cast<std::byte*>(&records.observation)});
         }
@@ -114,6 +120,15 @@ void copy_state(const E& engine, const std::byte* from, std::byte* to) {
             *reinterpret_cast<const typename E::State*>(from);
     else if (engine.state_size() > 0)
         std::memcpy(to, from, engine.state_size());
+}
+template <Engine E>
+void copy_action(const E& engine, const std::byte* from, std::byte* to) {
+    if (from == to) return;
+    if constexpr (TypedEngine<E>)
+        *reinterpret_cast<typename E::Action*>(to) =
+            *reinterpret_cast<const typename E::Action*>(from);
+    else if (engine.action_size() > 0)
+        std::memcpy(to, from, engine.action_size());
 }
 template <Engine E>
 void copy_observation(const E& engine, const std::byte* from, std::byte* to) {

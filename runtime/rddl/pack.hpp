@@ -17,6 +17,7 @@
 #include <utility>
 
 #define RDDL_INLINE RDDL_ALWAYS_INLINE constexpr
+#define RDDL_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace rddl::inline RDDL_SIMD_LEVEL {
 
@@ -101,15 +102,18 @@ struct Lanes {
         return each_part(operation, std::make_index_sequence<part_count>(), operands...);
     }
 
-    static RDDL_INLINE Lanes load(const T* from) {
+    static RDDL_INLINE Lanes load(const T* from) { return load_bytes(from); }
+    // From addresses that are `distance` bytes apart.
+    static RDDL_INLINE Lanes load_apart(const std::byte* from, std::int64_t distance) {
+        if (distance == sizeof(T)) return load_bytes(from);
         Lanes result;
         for (int p = 0; p < part_count; ++p)
-            __builtin_memcpy(&result.part[p], from + p * part_width, sizeof(Vector));
+            result.part[p] = simd::load_apart<Vector>(from + p * part_width * distance, distance);
         return result;
     }
-    RDDL_INLINE void store(T* to) const {
+    RDDL_INLINE void store(void* to) const {
         for (int p = 0; p < part_count; ++p)
-            __builtin_memcpy(to + p * part_width, &part[p], sizeof(Vector));
+            __builtin_memcpy(static_cast<char*>(to) + p * sizeof(Vector), &part[p], sizeof(Vector));
     }
 
     RDDL_INLINE T operator[](int lane) const { return part[lane / part_width][lane % part_width]; }
@@ -162,6 +166,13 @@ struct Lanes {
     friend RDDL_INLINE Mask<n> operator!=(Lanes a, Lanes b) { return !(a == b); }
 
   private:
+    static RDDL_INLINE Lanes load_bytes(const void* from) {
+        Lanes result;
+        for (int p = 0; p < part_count; ++p)
+            __builtin_memcpy(&result.part[p], static_cast<const char*>(from) + p * sizeof(Vector),
+                             sizeof(Vector));
+        return result;
+    }
     static RDDL_INLINE Lanes filled(T value) {
         return each([value] { return value - Vector{}; });  // keeps -0.0
     }

@@ -251,6 +251,20 @@ RDDL_INLINE Lanes<std::uint64_t, n> multiply_low_halves(const Lanes<std::uint64_
         [](auto x, auto y) { return simd::multiply_low_halves(x, y); }, a, b);
 }
 
+template <int n>
+RDDL_INLINE Lanes<std::uint64_t, n> upper_halves(const Lanes<std::uint64_t, n>& a) {
+    return Lanes<std::uint64_t, n>::each([](auto x) { return simd::upper_halves(x); }, a);
+}
+constexpr std::uint64_t join_lower_halves(std::uint64_t low, std::uint64_t high) {
+    return (low & 0xFFFFFFFF) | high << 32;
+}
+template <int n>
+RDDL_INLINE Lanes<std::uint64_t, n> join_lower_halves(const Lanes<std::uint64_t, n>& low,
+                                                      const Lanes<std::uint64_t, n>& high) {
+    return Lanes<std::uint64_t, n>::each(
+        [](auto x, auto y) { return simd::join_lower_halves(x, y); }, low, high);
+}
+
 // --------------------------------------------------------------------------- int arithmetic
 
 template <class A, class B>
@@ -442,25 +456,26 @@ RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
         return begin + place_in<Row, Int>(rest...);
 }
 
-// The elements that each lane chooses from a table: its own where the elements are packs.
-template <class T, int n>
+// The elements that each lane chooses from a table of `count`: its own where the elements are
+// packs.
+template <std::int64_t, class T, int n>
 requires std::is_arithmetic_v<T>
 auto gather(const T* elements, const Lanes<std::int64_t, n>& indices) {
     return map_lanes(indices, [elements](std::int64_t place) { return elements[place]; });
 }
-template <int n>
+template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
-    return Lanes<double, n>::each([elements](auto x) { return simd::gather(elements, x); },
+    return Lanes<double, n>::each([elements](auto x) { return simd::look_up<count>(elements, x); },
                                   indices);
 }
-template <int n>
+template <std::int64_t, int n>
 auto gather(const float* elements, const Lanes<std::int64_t, n>& indices) {
     Lanes<float, n> result;
     for (int p = 0; p < result.part_count; ++p)
         result.part[p] = simd::gather(elements, indices.part[2 * p], indices.part[2 * p + 1]);
     return result;
 }
-template <class T, int n>
+template <std::int64_t count, class T, int n>
 auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) {
     Lanes<std::int64_t, n> places;
     for (int p = 0; p < places.part_count; ++p) {
@@ -469,12 +484,12 @@ auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) 
     }
     const T* const values = reinterpret_cast<const T*>(elements);
     if constexpr (std::is_same_v<T, float>)
-        return gather(values, places);
+        return gather<count * n>(values, places);
     else
         return Lanes<T, n>::each([values](auto part) { return simd::gather(values, part); },
                                  places);
 }
-template <int n>
+template <std::int64_t, int n>
 auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
     Mask<n> result{false};
     for (int lane = 0; lane < n; ++lane) result.set(lane, elements[indices[lane]][lane]);
@@ -488,8 +503,9 @@ template <class Array, class... Indices>
 requires SomePack<Indices...> RDDL_INLINE auto at(const Array& array, const Indices&... indices) {
     constexpr int n = std::max({detail::pack_width<Indices>...});
     const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(indices...);
-    using Element = typename detail::Nested<Array>::Element;
-    return detail::gather(reinterpret_cast<const Element*>(&array), place);
+    using Nested = detail::Nested<Array>;
+    return detail::gather<Nested::count>(reinterpret_cast<const typename Nested::Element*>(&array),
+                                         place);
 }
 
 }  // namespace rddl

@@ -25,12 +25,16 @@ constexpr std::uint64_t multiply_low_halves(std::uint64_t a, std::uint64_t b) {
     return (a & 0xFFFFFFFF) * (b & 0xFFFFFFFF);
 }
 
+constexpr std::uint64_t upper_halves(std::uint64_t a) {
+    return a >> 32;
+}
+
 template <class Word>
 RDDL_INLINE Block<Word> one_round(const Block<Word>& counter, const Key<Word>& key) {
     const Word first = multiply_low_halves(counter[0], Word{std::uint64_t{0xD2511F53}});
     const Word second = multiply_low_halves(counter[2], Word{std::uint64_t{0xCD9E8D57}});
-    return {(second >> 32) ^ counter[1] ^ key[0], second, (first >> 32) ^ counter[3] ^ key[1],
-            first};
+    return {upper_halves(second) ^ counter[1] ^ key[0], second,
+            upper_halves(first) ^ counter[3] ^ key[1], first};
 }
 
 // The same key and counter always give the same four words.

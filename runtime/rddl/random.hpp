@@ -29,7 +29,7 @@ constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
 // The upper 52 bits of two words, low word first: a multiple of 2^-52 in [0, 1).
 template <class R = double, class Word>
 requires std::same_as<R, double> RDDL_INLINE auto unit_real(Word low, Word high) {
-    const Word mantissa = ((high << 32) >> 12) | ((low << 32) >> 44);
+    const Word mantissa = join_lower_halves(low, high) >> 12;
     const Word one = Word{std::uint64_t{0x3FF0000000000000}};
     return real_of_bits(mantissa | one) - 1.0;
 }
@@ -77,10 +77,12 @@ template <int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
                               std::uint32_t block_number) {
     using Word = Lanes<std::uint64_t, n>;
-    const auto draws =
-        first_numbers<R, Word>(context.step, series, Word{std::uint64_t{block_number}},
-                               {context.key_low, context.key_high});
-    context.recent[series % recent_series] = {series, block_number, draws.even, draws.odd};
+    const auto words = philox::generate<philox::draw_rounds>(
+        philox::Block<Word>{context.step, Word{std::uint64_t{series}},
+                            Word{std::uint64_t{block_number}}, Word{std::uint64_t{0}}},
+        philox::Key<Word>{context.key_low, context.key_high});
+    context.recent[series % recent_series] = {
+        series, block_number, unit_real<R>(words[0], words[1]), unit_real<R>(words[2], words[3])};
 }
 
 template <int n, class R>

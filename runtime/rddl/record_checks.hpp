@@ -40,6 +40,7 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
 // Every bool must be 0 or 1 and every object value the index of an object; numbers are free.
 inline bool records_are_valid(const Columns& columns, const std::byte* records,
                               std::int64_t record_count) {
+    if (columns.has_only_bools) return detail::are_bools(records, record_count * columns.row_size);
     for (const Column& column : columns.list) {
         const std::byte* values = records + column.row;
         const std::byte* const end = values + record_count * columns.row_size;

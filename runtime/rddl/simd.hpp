@@ -30,6 +30,7 @@
 #include <cmath>
 #include <type_traits>
 
+// What is filled lane by lane is zeroed first, since g++ warns of uninitialised values otherwise.
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
 // ------------------------------------------------------------------------------- registers
@@ -234,6 +235,25 @@ template <class V>
 #endif
 }
 
+// The upper 32 bits of each lane as the lower ones; those above are any.
+[[gnu::always_inline]] inline Words upper_halves(Words a) {
+#ifdef RDDL_SIMD_AVX512
+    // Not by a shift, since one execution port does all of those and the products, too.
+    return (Words)_mm512_maskz_shuffle_epi32(0xFFFF, (__m512i)a, static_cast<_MM_PERM_ENUM>(0xF5));
+#else
+    return a >> 32;
+#endif
+}
+// The lower 32 bits of two.
+[[gnu::always_inline]] inline Words join_lower_halves(Words low, Words high) {
+#ifdef RDDL_SIMD_AVX512
+    return (Words)_mm512_mask_shuffle_epi32((__m512i)low, 0xAAAA, (__m512i)high,
+                                            static_cast<_MM_PERM_ENUM>(0xA0));
+#else
+    return (low & 0xFFFFFFFF) | high << 32;
+#endif
+}
+
 // Exactly rounded.
 [[gnu::always_inline]] inline Reals square_root(Reals a) {
 #ifdef RDDL_SIMD_AVX512
@@ -331,7 +351,7 @@ template <int mode, class Function>
 #ifdef RDDL_SIMD_AVX512
     return (Ints)_mm512_maskz_cvttpd_epi64(0xFF, a);
 #else
-    Ints result;
+    Ints result{};
     for (int i = 0; i < lanes; ++i) {
         const bool holds = a[i] >= -0x1p63 && a[i] < 0x1p63;
         result[i] = holds ? static_cast<std::int64_t>(a[i]) : INT64_MIN;
@@ -342,10 +362,32 @@ template <int mode, class Function>
 
 // ------------------------------------------------------------------------------------- bits
 
-// How many bits of each lane are 1 (H. Warren, Hacker's Delight, section 5-1).
+// How many bits of each lane are 1: a table for 4 bits where registers can look up bytes (W. Mula,
+// N. Kurz, D. Lemire, Faster Population Counts Using AVX2 Instructions, 2018), else sums of
+// neighbours (H. Warren, Hacker's Delight, section 5-1).
 [[gnu::always_inline]] inline Ints count_ones(Ints a) {
 #if defined(RDDL_SIMD_AVX512) && defined(__AVX512VPOPCNTDQ__)
     return (Ints)_mm512_maskz_popcnt_epi64(0xFF, (__m512i)a);
+#elif defined(__AVX2__)
+    constexpr std::int64_t counts_of_0_to_7 = 0x0302020102010100;
+    constexpr std::int64_t counts_of_8_to_15 = 0x0403030203020201;
+    const Ints low_bits = a & 0x0F0F0F0F0F0F0F0F;
+    const Ints high_bits = a >> 4 & 0x0F0F0F0F0F0F0F0F;
+#ifdef RDDL_SIMD_AVX512
+    constexpr __mmask64 all = ~std::uint64_t{0};
+    const __m512i counts =
+        (__m512i)Ints{counts_of_0_to_7, counts_of_8_to_15, counts_of_0_to_7, counts_of_8_to_15,
+                      counts_of_0_to_7, counts_of_8_to_15, counts_of_0_to_7, counts_of_8_to_15};
+    const __m512i low = _mm512_maskz_shuffle_epi8(all, counts, (__m512i)low_bits);
+    const __m512i high = _mm512_maskz_shuffle_epi8(all, counts, (__m512i)high_bits);
+    return (Ints)_mm512_sad_epu8(_mm512_maskz_add_epi8(all, low, high), __m512i{});
+#else
+    const __m256i counts =
+        (__m256i)Ints{counts_of_0_to_7, counts_of_8_to_15, counts_of_0_to_7, counts_of_8_to_15};
+    const __m256i low = _mm256_shuffle_epi8(counts, (__m256i)low_bits);
+    const __m256i high = _mm256_shuffle_epi8(counts, (__m256i)high_bits);
+    return (Ints)_mm256_sad_epu8(_mm256_add_epi8(low, high), __m256i{});
+#endif
 #else
     Words bits = reinterpret<Words>(a);
     bits -= bits >> 1 & 0x5555555555555555;
@@ -358,10 +400,17 @@ template <int mode, class Function>
 #endif
 }
 
-// Byte i is 0 or 1, as bit i is.
-template <int count>
-[[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes) {
-    static_assert(count > 0 && count <= 64);
+// 8 bytes of 0 or 1 as 8 bits, and back; byte i is bit i.
+constexpr std::uint64_t bits_of_bytes(std::uint64_t bytes) {
+    return bytes * 0x0102040810204080 >> 56;
+}
+constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
+    const std::uint64_t selected = bits * 0x0101010101010101 & 0x8040201008040201;
+    return (selected + 0x7F7F7F7F7F7F7F7F) >> 7 & 0x0101010101010101;
+}
+
+// Of 0 < `count` <= 64 bytes.
+[[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
     const __m512i values = _mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - count), bytes);
     return _mm512_test_epi8_mask(values, values);
@@ -371,9 +420,26 @@ template <int count>
         std::uint64_t chunk = 0;
         __builtin_memcpy(&chunk, static_cast<const char*>(bytes) + i,
                          i + 8 < count ? 8 : count - i);
-        bits |= (chunk * 0x0102040810204080 >> 56) << i;
+        bits |= bits_of_bytes(chunk) << i;
     }
     return bits;
+#endif
+}
+// The first `count` > 0 of the n bits.
+template <int n>
+[[gnu::always_inline]] inline void store_as_bytes(std::uint64_t bits, void* bytes, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint64_t stored = ~std::uint64_t{0} >> (64 - count);
+    if constexpr (n <= 16)
+        _mm_mask_storeu_epi8(bytes, static_cast<__mmask16>(stored),
+                             _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1));
+    else
+        _mm512_mask_storeu_epi8(bytes, stored, _mm512_maskz_set1_epi8(bits, 1));
+#else
+    for (int i = 0; i < count; i += 8) {
+        const std::uint64_t chunk = bytes_of_bits(bits >> i & 0xFF);
+        __builtin_memcpy(static_cast<char*>(bytes) + i, &chunk, count - i < 8 ? count - i : 8);
+    }
 #endif
 }
 
@@ -385,10 +451,25 @@ template <int count>
 #elif defined(__AVX2__)
     return _mm256_i64gather_pd(from, (__m256i)indices, 8);
 #else
-    Reals result;
+    Reals result{};
     for (int i = 0; i < lanes; ++i) result[i] = from[indices[i]];
     return result;
 #endif
+}
+// From a table of `count` values, which registers may be able to hold.
+template <std::int64_t count>
+[[gnu::always_inline]] inline Reals look_up(const double* table, Ints indices) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (count <= 16) {
+        constexpr int first_half = count < 8 ? count : 8, second_half = count - first_half;
+        const Reals first = _mm512_maskz_loadu_pd((1 << first_half) - 1, table);
+        if constexpr (second_half == 0)
+            return _mm512_maskz_permutexvar_pd(0xFF, (__m512i)indices, first);
+        const Reals second = _mm512_maskz_loadu_pd((1 << second_half) - 1, table + first_half);
+        return _mm512_permutex2var_pd(first, (__m512i)indices, second);
+    }
+#endif
+    return gather(table, indices);
 }
 [[gnu::always_inline]] inline Floats gather(const float* from, Ints first, Ints second) {
 #ifdef RDDL_SIMD_AVX512
@@ -398,7 +479,7 @@ template <int count>
         _mm512_mask_i64gather_ps(__m256{}, 0xFF, reinterpret<__m512i>(second), from, 4);
     return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
 #else
-    Floats result;
+    Floats result{};
     for (int i = 0; i < lanes; ++i) result[i] = from[first[i]];
     for (int i = 0; i < lanes; ++i) result[lanes + i] = from[second[i]];
     return result;
@@ -406,6 +487,24 @@ template <int count>
 }
 [[gnu::always_inline]] inline Ints gather(const std::int64_t* from, Ints indices) {
     return reinterpret<Ints>(gather(reinterpret_cast<const double*>(from), indices));
+}
+
+// Values of 8 bytes whose addresses are `distance` bytes apart.
+template <class V>
+[[gnu::always_inline]] inline V load_apart(const void* from, std::int64_t distance) {
+    static_assert(sizeof(V{}[0]) == 8);
+    V result{};
+#if defined(RDDL_SIMD_AVX512)
+    const Ints numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+    result = (V)_mm512_mask_i64gather_pd(Reals{}, 0xFF, (__m512i)(numbers * distance), from, 1);
+#else
+    for (int i = 0; i < lanes; ++i) {
+        std::remove_cvref_t<decltype(result[0])> value;
+        __builtin_memcpy(&value, static_cast<const char*>(from) + i * distance, sizeof value);
+        result[i] = value;
+    }
+#endif
+    return result;
 }
 
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

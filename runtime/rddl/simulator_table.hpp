@@ -34,8 +34,8 @@ rddl_simulator table_of(const SimulatorParts<L>& parts);
 // in
 //
 //     extern "C" const rddl_simulator* rddl_simulator_entry() {
-//         static const rddl::SimulatorTable<rddl::Compiled<Simulator>> table(problem, sites, {});
-//         return table.get();
+//         static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>> table(problem,
+//         sites, {}); return table.get();
 //     }
 //
 // Packed is an engine of the same simulator for packs, where there is one: for larger batches.

@@ -1,6 +1,8 @@
 // A team of threads that works on one job after the other.
 #pragma once
 
+#include <rddl/range.hpp>
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -10,12 +12,6 @@
 #include <vector>
 
 namespace rddl {
-
-// A half-open range of blocks of environments.
-struct Range {
-    std::int64_t begin;
-    std::int64_t end;
-};
 
 // The worker's share of [0, count). The cuts are at multiples of `unit` where there are enough, so
 // that workers write to different cache lines of arrays of bytes.

@@ -164,7 +164,8 @@ TEST_F(Replay, RepetitionsKnowTheHorizon) {
 TEST_F(Replay, EnforcesPreconditionsOnRequest) {
     rddl_problem unlimited = tiny::problem;
     unlimited.max_nondef_actions = -1;
-    const rddl::SimulatorTable table(unlimited, tiny::sites, rddl::Compiled<tiny::Simulator>());
+    const rddl::SimulatorTable table(unlimited, tiny::sites,
+                                     rddl::Compiled<tiny::Simulator, tiny::problem>());
     const std::string line = R"({"action": {"repair___mill": true, "repair___press": true}})";
     ReplaySession free(*table.get(), {});
     EXPECT_FALSE(json::parse(free.answer(line)).contains("error"));

@@ -94,7 +94,7 @@ class Engine {
     }
 
     bool terminal() { return interpreter_.terminal(state_.data(), context_); }
-    int violated_invariant() { return interpreter_.violated_invariant(state_.data(), context_); }
+    bool violates_invariant() { return interpreter_.violates_invariant(state_.data(), context_); }
     int violated_precondition() {
         return interpreter_.violated_precondition(state_.data(), action_.data(), context_);
     }
@@ -184,7 +184,7 @@ std::optional<std::string> compare(ir::Program plain, ir::Program optimised, std
             return "the fault" + when + ": '" + first.fault() + "', '" + second.fault() + "'";
         if (first.faulty()) return std::nullopt;
         if (first.seen() != second.seen()) return "the outcome" + when;
-        if (first.violated_invariant() != second.violated_invariant())
+        if (first.violates_invariant() != second.violates_invariant())
             return "the invariants" + when;
         const bool terminal = first.terminal();
         if (terminal != second.terminal()) return "the terminations" + when;

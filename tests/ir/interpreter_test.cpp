@@ -108,13 +108,13 @@ TEST_F(InterpreterTest, ChecksConditions) {
     State state{{true, true, true}, 2.0, 8};
     std::array<bool, 3> action{};
     EXPECT_FALSE(interpreter.terminal(bytes(state), context));
-    EXPECT_EQ(interpreter.violated_invariant(bytes(state), context), -1);
+    EXPECT_FALSE(interpreter.violates_invariant(bytes(state), context));
     EXPECT_EQ(interpreter.violated_precondition(bytes(state), bytes(action), context), 0);
     state.level = 4.5;
     state.count = 9;
     action[1] = true;
     EXPECT_TRUE(interpreter.terminal(bytes(state), context));
-    EXPECT_EQ(interpreter.violated_invariant(bytes(state), context), 0);
+    EXPECT_TRUE(interpreter.violates_invariant(bytes(state), context));
     EXPECT_EQ(interpreter.violated_precondition(bytes(state), bytes(action), context), -1);
 }
 

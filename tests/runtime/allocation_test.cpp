@@ -103,9 +103,9 @@ TEST(Allocations, DoNotHappenInStepsWithMatrices) {
 }
 
 TEST(Allocations, DoNotHappenWithFloats) {
-    using Engine = rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<float>>;
-    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, 16, float>> table(problem,
-                                                                                        sites, {});
+    using Engine = rddl::Compiled<Simulator, problem, rddl::ScalarOf<float>>;
+    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, 16, float>> table(
+        problem, sites, {});
     for (const int lanes : {1, 16}) {
         TinyBatch batch({environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, lanes}, table.get());
         const std::int64_t before = allocations;

@@ -88,8 +88,8 @@ TEST(Trajectories, DoNotDependOnTheThreads) {
 
 template <int lanes, class Real = double>
 const rddl_simulator* simulator_with_lanes() {
-    using Engine = rddl::Compiled<Simulator, rddl::NoPolicy, rddl::ScalarOf<Real>>;
-    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, lanes, Real>> table(
+    using Engine = rddl::Compiled<Simulator, problem, rddl::ScalarOf<Real>>;
+    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, lanes, Real>> table(
         problem, sites, {});
     return table.get();
 }

@@ -47,8 +47,8 @@ struct CounterEngine {
         if (read(state) == faulty_terminal) fault<bool>(context, {0, 0});
         return read(state) >= terminal_from;
     }
-    int violated_invariant(const std::byte* state, Context<Scalar>&) const {
-        return read(state) >= forbidden_from ? 0 : -1;
+    bool violates_invariant(const std::byte* state, Context<Scalar>&) const {
+        return read(state) >= forbidden_from;
     }
     // The action is not negative and not above 10.
     int violated_precondition(const std::byte*, const std::byte* action, Context<Scalar>&) const {

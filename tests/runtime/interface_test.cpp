@@ -293,7 +293,7 @@ struct Strict : Simulator {
 
 TEST(Choices, AreMaskedByThePreconditionsOfEachState) {
     EXPECT_EQ(masks_of(functions)[0], (Mask{1, 1, 1, 1, 1}));
-    const rddl::SimulatorTable strict(problem, sites, rddl::Compiled<Strict>());
+    const rddl::SimulatorTable strict(problem, sites, rddl::Compiled<Strict, problem>());
     const auto masks = masks_of(*strict.get());
     EXPECT_EQ(masks[0], (Mask{1, 0, 0, 0, 1}));
     EXPECT_EQ(masks[1], (Mask{0, 0, 1, 0, 0})) << "here even the default action is illegal";
@@ -302,7 +302,7 @@ TEST(Choices, AreMaskedByThePreconditionsOfEachState) {
 TEST(Choices, AreMaskedByTheLimitOfActions) {
     rddl_problem limited = problem;
     limited.max_nondef_actions = 0;
-    const rddl::SimulatorTable table(limited, sites, rddl::Compiled<Simulator>());
+    const rddl::SimulatorTable table(limited, sites, rddl::Compiled<Simulator, problem>());
     EXPECT_EQ(masks_of(*table.get())[0], (Mask{1, 0, 0, 0, 0}));
 }
 

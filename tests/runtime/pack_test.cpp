@@ -215,19 +215,31 @@ TEST(Packs, TakeBranchesInEachLane) {
     EXPECT_EQ(of_all.bits, third().bits);
 }
 
-TEST(Packs, ReadTablesInEachLane) {
-    std::array<double, 37> table;
-    std::array<std::int64_t, 37> numbers;
-    for (std::size_t i = 0; i < table.size(); ++i) {
+template <std::size_t size>
+void expect_elements_of_scalars() {
+    std::array<double, size> table;
+    std::array<std::int64_t, size> numbers;
+    for (std::size_t i = 0; i < size; ++i) {
         table[i] = 0.1 * static_cast<double>(i);
         numbers[i] = -static_cast<std::int64_t>(i * i);
     }
     std::vector<std::int64_t> indices = ints(11);
-    for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{37});
+    for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{size});
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(table, i); }, indices);
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(numbers, i); }, indices);
+}
+
+// Tables of up to 16 reals are kept in registers.
+TEST(Packs, ReadTablesInEachLane) {
+    expect_elements_of_scalars<1>();
+    expect_elements_of_scalars<3>();
+    expect_elements_of_scalars<8>();
+    expect_elements_of_scalars<9>();
+    expect_elements_of_scalars<16>();
+    expect_elements_of_scalars<17>();
+    expect_elements_of_scalars<37>();
 }
 
 }  // namespace

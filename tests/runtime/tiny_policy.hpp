@@ -47,8 +47,9 @@ inline constexpr rddl_problem unlimited = [] {
 }();
 
 inline const rddl_simulator* simulator_with_policy() {
-    static const rddl::SimulatorTable table(unlimited, sites_with_policy,
-                                            rddl::Compiled<Simulator, Policy>(), &policy);
+    static const rddl::SimulatorTable table(
+        unlimited, sites_with_policy, rddl::Compiled<Simulator, problem, rddl::Scalar, Policy>(),
+        &policy);
     return table.get();
 }
 

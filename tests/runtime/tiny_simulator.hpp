@@ -259,8 +259,9 @@ inline constexpr rddl_problem problem{.domain = "tiny",
                                       .termination_count = 1};
 
 inline const rddl_simulator* simulator() {
-    static const rddl::SimulatorTable<rddl::Compiled<Simulator>, rddl::Packed<Simulator, 16>> table(
-        problem, sites, {});
+    static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>,
+                                      rddl::Packed<Simulator, problem, 16>>
+        table(problem, sites, {});
     return table.get();
 }
 
