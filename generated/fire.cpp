@@ -150,23 +150,21 @@ struct Simulator {
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
         bare(state, action, next, context);
         ignites(state, action, scratch, context);
-        burning(state, action, scratch, next);
+        burning(state, action, scratch, next, context);
     }
 
     // bare'(?c, ?r)  (domain.rddl:65)
     template <class L>
     static void bare(const State<L>& state, const Action<L>& action, State<L>& next,
                      rddl::Context<L>& context) {
-        for (rddl::Index c = 0; c < xpos_count; ++c) {
-            for (rddl::Index r = 0; r < ypos_count; ++r) {
-                next.bare[c][r] = rddl::branch(
-                    context, state.burning[c][r],
-                    [&] {
-                        return rddl::sample::bernoulli(context, {0, c * 5 + r}, 0.15);
-                    },
-                    [&] { return state.bare[c][r] || action.clear[c][r]; });
-            }
-        }
+        rddl::for_each_object(context, xpos_count * ypos_count, [&](auto& several, auto c_r) {
+            rddl::elements(next.bare, c_r) = rddl::branch(
+                several, rddl::at(state.burning, c_r),
+                [&] {
+                    return rddl::sample::bernoulli(several, {0, c_r}, 0.15);
+                },
+                [&] { return rddl::at(state.bare, c_r) || rddl::at(action.clear, c_r); });
+        });
     }
 
     // ignites(?c, ?r)  (domain.rddl:58)
@@ -198,14 +196,12 @@ struct Simulator {
     // burning'(?c, ?r)  (domain.rddl:63)
     template <class L>
     static void burning(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
-                        State<L>& next) {
-        for (rddl::Index c = 0; c < xpos_count; ++c) {
-            for (rddl::Index r = 0; r < ypos_count; ++r) {
-                next.burning[c][r] =
-                    scratch.ignites[c][r] ||
-                    (state.burning[c][r] && !action.douse[c][r] && !next.bare[c][r]);
-            }
-        }
+                        State<L>& next, rddl::Context<L>& context) {
+        rddl::for_each_object(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
+            const auto condition = rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
+                                   !rddl::at(next.bare, c_r);
+            rddl::elements(next.burning, c_r) = rddl::at(scratch.ignites, c_r) || condition;
+        });
     }
 
     // Of the step just made.

@@ -2,6 +2,7 @@
 
 #include "emit/literals.hpp"
 #include "emit/operators.hpp"
+#include "emit/tables.hpp"
 #include "ir/call.hpp"
 #include "support/match.hpp"
 
@@ -40,12 +41,20 @@ std::string Expressions::enter(ir::VariableId variable) {
     return variables_[variable] = scope_.claim(unit_.program[variable].name);
 }
 
+const Expressions::SeveralObjects& Expressions::enter(ir::Nest nest) {
+    std::string wish;
+    for (const ir::VariableId variable : nest.variables)
+        wish += (wish.empty() ? "" : "_") + unit_.program[variable].name;
+    return several_.emplace(std::move(nest), scope_.claim("several"), scope_.claim(wish));
+}
+
 void Expressions::return_to(Mark mark) {
     scope_.release(mark.scope);
     named_ = std::move(mark.named);
 }
 
 std::string Expressions::type(ir::Scalar scalar) {
+    if (several_) return table_type(scalar, unit_.program.real);
     switch (scalar) {
         case ir::Scalar::Bool:
             uses_.bool_type = true;
@@ -174,7 +183,8 @@ std::string Expressions::call(const std::string& function, const std::vector<ir:
 std::string Expressions::place(const ir::Place& place) {
     uses_.context = true;
     const auto& series = unit_.program[place.site].series;
-    return "context, {" + std::to_string(place.site.index) + ", " + index(place.index).text +
+    const std::string objects = several_ ? several_->objects : index(place.index).text;
+    return context() + ", {" + std::to_string(place.site.index) + ", " + objects +
            (series ? ", " + std::to_string(series->index) : "") + "}";
 }
 
@@ -253,7 +263,9 @@ std::string Expressions::record(ir::BufferId id) {
 
 std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) {
     std::string text = record(buffer);
-    for (ir::NodeId id : indices) text += "[" + index(id).text + "]";
+    if (several_) text = "rddl::elements(" + text + ", " + several_->objects + ")";
+    for (ir::NodeId id : indices)
+        if (!several_) text += "[" + index(id).text + "]";
     const ir::Storage storage = unit_.program[buffer].storage;
     uses_.stores_state |= storage == ir::Storage::State;
     uses_.stores_scratch |= storage == ir::Storage::Scratch;
@@ -305,6 +317,12 @@ std::string Expressions::external_call_text(const ir::Call& call) {
 Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
     std::string text = record(load.buffer);
     auto next = load.indices.begin();
+    if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest)) {
+        next += static_cast<std::ptrdiff_t>(several_->nest.variables.size());
+        const std::string rest =
+            next == load.indices.end() ? "" : ", " + arguments({next, load.indices.end()});
+        return {"rddl::at(" + text + ", " + several_->objects + rest + ")", Level::Primary};
+    }
     for (; next != load.indices.end() && unit_.facts_of(*next).uniform; ++next) {
         text += "[" + index(*next).text + "]";
     }

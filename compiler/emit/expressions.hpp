@@ -4,6 +4,7 @@
 #include "emit/identifiers.hpp"
 #include "emit/unit.hpp"
 #include "ir/ir.hpp"
+#include "ir/nest.hpp"
 
 #include <cstdint>
 #include <map>
@@ -70,6 +71,17 @@ class Expressions {
     bool is_named(ir::NodeId id) const { return named_.contains(id); }
     std::size_t named_count() const { return named_.size(); }
     std::string enter(ir::VariableId variable);
+    // From here on loops run over several objects at once; the names of their context and of the
+    // objects. Ended by `leave_nest`.
+    struct SeveralObjects {
+        ir::Nest nest;
+        std::string context, objects;
+    };
+    const SeveralObjects& enter(ir::Nest nest);
+    bool is_over_several() const { return several_.has_value(); }
+    void leave_nest() { several_.reset(); }
+    // What draws and branches take.
+    std::string context() const { return several_ ? several_->context : "context"; }
     std::string claim(std::string_view wish) { return scope_.claim(wish); }
 
     // What was named since a mark is forgotten by returning to it.
@@ -120,6 +132,7 @@ class Expressions {
     std::map<ir::NodeId, std::string> named_;
     std::map<ir::VariableId, std::string> variables_;
     std::map<ir::LocalId, std::string> locals_;
+    std::optional<SeveralObjects> several_;
     Uses uses_;
 };
 

@@ -5,6 +5,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rddlc::cpp {
 namespace {
@@ -136,6 +137,7 @@ void FunctionBody::statement(const ir::Store& store) {
 }
 
 void FunctionBody::statement(const ir::Loop& loop) {
+    if (loop.several_at_once) return over_several_objects(loop);
     const auto before = expressions_.mark();
     const std::string name = expressions_.enter(loop.variable);
     const std::string size = expressions_.unit().size_of(program()[loop.variable]);
@@ -144,6 +146,42 @@ void FunctionBody::statement(const ir::Loop& loop) {
     block(loop.body);
     --level_;
     line("}");
+    expressions_.return_to(before);
+}
+
+// rddl::for_each_object(context, computer_count, [&](auto& several, auto x) { ... });
+void FunctionBody::over_several_objects(const ir::Loop& loop) {
+    const auto before = expressions_.mark();
+    const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
+    std::string count;
+    for (const ir::VariableId variable : nest.variables)
+        count += (count.empty() ? "" : " * ") + expressions_.unit().size_of(program()[variable]);
+
+    const std::string function = "rddl::for_each_object(";
+    const std::string arguments = "context, " + count + ", [&](auto&";
+    const std::string parameters = ", auto " + objects + ") {";
+    const bool on_one_line =
+        fits(function.size() + arguments.size() + 1 + context.size() + parameters.size());
+    const int deeper = on_one_line ? 1 : 2;
+
+    // Whether the context has a name is known when the body is.
+    std::vector<std::string> lines = std::exchange(lines_, {});
+    expressions_.uses().context = false;
+    level_ += deeper;
+    block(*nest.body);
+    level_ -= deeper;
+    std::swap(lines, lines_);
+    const std::string head =
+        arguments + (expressions_.uses().context ? " " + context : "") + parameters;
+    line(on_one_line ? function + head : function);
+    level_ += deeper - 1;
+    if (!on_one_line) line(head);
+    lines_.insert(lines_.end(), lines.begin(), lines.end());
+    line("});");
+    level_ -= deeper - 1;
+
+    expressions_.uses().context = true;
+    expressions_.leave_nest();
     expressions_.return_to(before);
 }
 
@@ -257,6 +295,7 @@ void FunctionBody::prepare_declaration(ir::NodeId id) {
 }
 
 std::string FunctionBody::type_in_declaration(ir::NodeId id) {
+    if (expressions_.is_over_several()) return "const auto ";
     const bool is_index = is_index_arithmetic(program(), id);
     return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type)) + " ";
 }
@@ -357,8 +396,8 @@ void FunctionBody::write_branch(const std::string& lead, const ir::Select& selec
 
     line(lead + "rddl::branch(");
     ++level_;
-    std::string current =
-        (needs_context ? "context, " : "") + expressions_.text(select.condition) + ",";
+    std::string current = (needs_context ? expressions_.context() + ", " : "") +
+                          expressions_.text(select.condition) + ",";
     for (std::size_t k = 0; k < lambdas.size(); ++k) {
         const bool is_last = k + 1 == lambdas.size();
         add_lambda(current, lambdas[k], is_last ? ");" : ",");

@@ -260,7 +260,8 @@ class Printer {
         writer_.line(element(store.target, store.indices) + " = " + expression(store.value));
     }
     void print(const Loop& loop) {
-        writer_.line(fmt::format("for {}", binding(loop.variable))).indent();
+        const char* const how = loop.several_at_once ? ", several at once" : "";
+        writer_.line(fmt::format("for {}{}", binding(loop.variable), how)).indent();
         block(loop.body);
         writer_.dedent();
     }

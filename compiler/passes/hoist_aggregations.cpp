@@ -176,7 +176,7 @@ class Hoisting {
     static ir::Block looped(ir::Block body, const Variables& variables) {
         for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
             ir::Block outer;
-            outer.push_back({ir::Loop{*variable, std::move(body)}});
+            outer.push_back({ir::Loop{.variable = *variable, .body = std::move(body)}});
             body = std::move(outer);
         }
         return body;

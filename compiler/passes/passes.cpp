@@ -5,6 +5,7 @@
 #include "passes/compare_counts.hpp"
 #include "passes/count_bits.hpp"
 #include "passes/count_bools.hpp"
+#include "passes/evaluate_together.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
 #include "passes/find_finite_fluents.hpp"
@@ -88,6 +89,8 @@ constexpr Pass in_order[] = {
     // Again, as what has a name is cheap now.
     {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
      passes::reduce_strength},
+    {"evaluate_together", "loops that draw, or give bools, run over several objects at once",
+     passes::evaluate_together},
 };
 
 PassRun measured(const Pass& pass, ir::Program& program) {

@@ -127,9 +127,10 @@ requires SomePack<A, B> RDDL_INLINE auto select(bool condition, const A& a, cons
 }
 
 // Evaluates each branch that some lane takes; the others cannot fault meanwhile.
-template <int n, class R, class Condition, class Then, class Else>
-constexpr auto branch(Context<Pack<n, R>>& context, Condition condition, Then&& then_value,
-                      Else&& else_value) {
+template <class L, class Condition, class Then, class Else>
+requires(L::width > 1) constexpr auto branch(Context<L>& context, Condition condition,
+                                             Then&& then_value, Else&& else_value) {
+    constexpr int n = L::width;
     using Result = LanesOf<decltype(then_value()), n>;
     static_assert(std::is_same_v<Result, LanesOf<decltype(else_value()), n>>);
     if constexpr (std::is_same_v<Condition, bool>)  // the same in all lanes
@@ -242,6 +243,17 @@ RDDL_INLINE Lanes<std::uint64_t, n> words_of(const Lanes<std::int64_t, n>& a) {
 template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> ints_of(const Lanes<std::uint64_t, n>& a) {
     return detail::same_bits<std::int64_t>(a);
+}
+
+// The lanes of a and b in turns.
+template <class T, int n>
+RDDL_INLINE Lanes<T, 2 * n> interleaved(const Lanes<T, n>& a, const Lanes<T, n>& b) {
+    Lanes<T, 2 * n> result;
+    for (int p = 0; p < a.part_count; ++p) {
+        result.part[2 * p] = simd::interleave_half(a.part[p], b.part[p], 0);
+        result.part[2 * p + 1] = simd::interleave_half(a.part[p], b.part[p], 1);
+    }
+    return result;
 }
 
 template <int n>

@@ -360,6 +360,23 @@ template <int mode, class Function>
 #endif
 }
 
+// Of the first halves of a and b, or of the second ones, the lanes in turns.
+[[gnu::always_inline]] inline Words interleave_half(Words a, Words b, int half) {
+#if defined(RDDL_SIMD_AVX512)
+    const Words first = {0, 8, 1, 9, 2, 10, 3, 11};
+    const auto lanes_to_take = (__m512i)(half == 0 ? first : first + 4);
+    return (Words)_mm512_maskz_permutex2var_epi64(0xFF, (__m512i)a, lanes_to_take, (__m512i)b);
+#elif defined(__AVX2__)
+    const __m256i even = _mm256_unpacklo_epi64((__m256i)a, (__m256i)b);
+    const __m256i odd = _mm256_unpackhi_epi64((__m256i)a, (__m256i)b);
+    return (Words)(half == 0 ? _mm256_permute2x128_si256(even, odd, 0x20)
+                             : _mm256_permute2x128_si256(even, odd, 0x31));
+#else
+    static_assert(lanes == 2);
+    return half == 0 ? Words{a[0], b[0]} : Words{a[1], b[1]};
+#endif
+}
+
 // ------------------------------------------------------------------------------------- bits
 
 // How many bits of each lane are 1: a table for 4 bits where registers can look up bytes (W. Mula,
@@ -440,6 +457,37 @@ template <int n>
         const std::uint64_t chunk = bytes_of_bits(bits >> i & 0xFF);
         __builtin_memcpy(static_cast<char*>(bytes) + i, &chunk, count - i < 8 ? count - i : 8);
     }
+#endif
+}
+
+// The first `count` lanes of a register, of which there may be none or more than it has; zeros in
+// the others. No more is read or written.
+template <class T>
+[[gnu::always_inline]] inline Vector<T> load_some(const T* from, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some =
+        _bzhi_u32(all_lanes_of<T>, static_cast<unsigned>(count < 0 ? 0 : count));
+    if constexpr (sizeof(T) == 8)
+        return reinterpret<Vector<T>>(_mm512_maskz_loadu_pd(static_cast<__mmask8>(some), from));
+    else
+        return reinterpret<Vector<T>>(_mm512_maskz_loadu_ps(static_cast<__mmask16>(some), from));
+#else
+    Vector<T> result{};
+    for (int i = 0; i < lanes_of<T> && i < count; ++i) result[i] = from[i];
+    return result;
+#endif
+}
+template <class T>
+[[gnu::always_inline]] inline void store_some(T* to, Vector<T> values, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some =
+        _bzhi_u32(all_lanes_of<T>, static_cast<unsigned>(count < 0 ? 0 : count));
+    if constexpr (sizeof(T) == 8)
+        _mm512_mask_storeu_pd(to, static_cast<__mmask8>(some), reinterpret<Reals>(values));
+    else
+        _mm512_mask_storeu_ps(to, static_cast<__mmask16>(some), reinterpret<Floats>(values));
+#else
+    for (int i = 0; i < lanes_of<T> && i < count; ++i) to[i] = values[i];
 #endif
 }
 

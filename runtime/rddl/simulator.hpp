@@ -7,6 +7,7 @@
 #include <rddl/distributions.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/linear_algebra.hpp>
+#include <rddl/objects.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/reductions.hpp>
 #include <rddl/search.hpp>

@@ -1,0 +1,55 @@
+#include "ir/nest.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace rddlc::ir {
+namespace {
+
+bool is_index_of(const Program& program, VariableId variable, NodeId id) {
+    const auto* index = std::get_if<Index>(&program[id].form);
+    return index && index->variable == variable;
+}
+
+const Apply* applied(const Program& program, Operator op, NodeId id) {
+    const auto* apply = std::get_if<Apply>(&program[id].form);
+    return apply && apply->op == op ? apply : nullptr;
+}
+
+// (x * size of y) + y
+bool is_place(const Program& program, std::span<const VariableId> variables, NodeId id) {
+    if (variables.size() == 1) return is_index_of(program, variables.front(), id);
+    const auto* sum = applied(program, Operator::Add, id);
+    if (!sum || !is_index_of(program, variables.back(), sum->operands[1])) return false;
+    const auto* rows = applied(program, Operator::Multiply, sum->operands[0]);
+    if (!rows) return false;
+    const auto* size = std::get_if<Constant>(&program[rows->operands[1]].form);
+    return size && size->value == Value(program[variables.back()].size) &&
+           is_place(program, variables.first(variables.size() - 1), rows->operands[0]);
+}
+
+}  // namespace
+
+Nest nest_of(const Loop& outermost) {
+    Nest nest{{outermost.variable}, &outermost.body};
+    while (nest.body->size() == 1) {
+        const auto* inner = std::get_if<Loop>(&nest.body->front().form);
+        if (!inner) break;
+        nest.variables.push_back(inner->variable);
+        nest.body = &inner->body;
+    }
+    return nest;
+}
+
+bool is_place_in(const Program& program, const Nest& nest, NodeId id) {
+    return is_place(program, nest.variables, id);
+}
+
+bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest) {
+    return indices.size() >= nest.variables.size() &&
+           std::ranges::equal(
+               nest.variables, std::span(indices).first(nest.variables.size()),
+               [&](VariableId variable, NodeId id) { return is_index_of(program, variable, id); });
+}
+
+}  // namespace rddlc::ir

@@ -1,0 +1,21 @@
+// Loops right inside each other, over all combinations of their variables.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <vector>
+
+namespace rddlc::ir {
+
+struct Nest {
+    std::vector<VariableId> variables;  // outermost first
+    const Block* body;                  // of the innermost loop
+};
+Nest nest_of(const Loop& outermost);
+
+// The row-major place among all combinations.
+bool is_place_in(const Program& program, const Nest& nest, NodeId id);
+// The first indices are the variables of the nest.
+bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
+
+}  // namespace rddlc::ir
