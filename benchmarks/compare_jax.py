@@ -51,7 +51,7 @@ class Comparison:
     jax_version: str
     jax: float  # steps per second of the best batch
     doubles: float  # ours
-    floats: float
+    floats: float | None  # nothing where --real=float is not possible
     our_first_step: float  # seconds
     jax_first_step: float  # once it is imported
     jax_import: float
@@ -65,8 +65,8 @@ class Comparison:
         return self.doubles / self.jax
 
     @property
-    def floats_ratio(self) -> float:
-        return self.floats / self.jax
+    def floats_ratio(self) -> float | None:
+        return self.floats and self.floats / self.jax
 
 
 @dataclass
@@ -92,7 +92,6 @@ def compare(case: Case, options: argparse.Namespace) -> Comparison | NotRun:
         doubles = bench(options.rddl, *common, *peer_options, limit=options.limit)
     except RuntimeError as error:
         return NotRun(case.label, options.threads, reason_of(str(error)))
-    floats = bench(options.rddl, *common, "--real=float")
     (peer,) = doubles["peers"]
     return Comparison(
         case.label,
@@ -100,11 +99,21 @@ def compare(case: Case, options: argparse.Namespace) -> Comparison | NotRun:
         peer["version"],
         best_rate(peer["measurements"], options.threads),
         best_rate(doubles["measurements"], options.threads),
-        best_rate(floats["measurements"], options.threads),
+        rate_in_floats(common, options),
         doubles["first_step_seconds"],
         peer["first_step_seconds"],
         peer["import_seconds"],
     )
+
+
+def rate_in_floats(arguments: list, options: argparse.Namespace) -> float | None:
+    try:
+        figures = bench(options.rddl, *arguments, "--real=float")
+    except RuntimeError as error:
+        if "--real=float is not possible" in str(error):
+            return None
+        raise
+    return best_rate(figures["measurements"], options.threads)
 
 
 def reason_of(message: str) -> str:
@@ -154,8 +163,8 @@ TIME_TITLES = ("jax's import", "its first step", "rddlc's")
 def row_of(c: Comparison) -> tuple[str, ...]:
     speeds = (f"{c.jax:,.0f}", f"{c.doubles:,.0f}", f"{c.doubles_ratio:.1f}")
     seconds = (c.jax_import, c.jax_first_step, c.our_first_step)
-    row = (c.label, *speeds, f"{c.floats:,.0f}", f"{c.floats_ratio:.1f}")
-    return (*row, *(f"{value:.2f} s" for value in seconds))
+    floats = (f"{c.floats:,.0f}", f"{c.floats_ratio:.1f}") if c.floats else ("-", "-")
+    return (c.label, *speeds, *floats, *(f"{value:.2f} s" for value in seconds))
 
 
 def geometric_mean(values: list[float]) -> float:
@@ -165,7 +174,8 @@ def geometric_mean(values: list[float]) -> float:
 def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
     rows = [("ratio", "geometric mean", "at least 10", "least", "of")]
     for name, ratio in (("floats", "floats_ratio"), ("doubles", "doubles_ratio")):
-        ordered = sorted(comparisons, key=lambda comparison: getattr(comparison, ratio))
+        measured = [comparison for comparison in comparisons if getattr(comparison, ratio)]
+        ordered = sorted(measured, key=lambda comparison: getattr(comparison, ratio))
         ratios = [getattr(comparison, ratio) for comparison in ordered]
         enough = sum(value >= LEAST_RATIO for value in ratios)
         counts = f"{enough} of {len(ratios)}"
@@ -179,7 +189,7 @@ def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
     """What is below its limit, a line each."""
-    mean = geometric_mean([c.floats_ratio for c in comparisons])
+    mean = geometric_mean([c.floats_ratio for c in comparisons if c.floats_ratio])
     lines = [f"floats: the geometric mean {mean:.1f} is below {LEAST_RATIO:g}"] if mean < LEAST_RATIO else []
     return lines + [f"{c.label}: the first step is not sooner" for c in comparisons if not c.is_sooner]
 

@@ -80,7 +80,7 @@ class Compare(unittest.TestCase):
 
 
 class CompareJax(unittest.TestCase):
-    def comparison(self, floats: float, first_step: float) -> compare_jax.Comparison:
+    def comparison(self, floats: float | None, first_step: float) -> compare_jax.Comparison:
         return compare_jax.Comparison("p 1", 1, "3.1", 10.0, 50.0, floats, first_step, 1.0, 0.5)
 
     def test_limits(self):
@@ -101,6 +101,12 @@ class CompareJax(unittest.TestCase):
                 ("first step", "0.9", "1 of 2 are sooner", "0.5", "p 1"),
             ],
         )
+
+    def test_summary_without_floats(self):
+        without = self.comparison(None, 1.0)
+        self.assertEqual(compare_jax.row_of(without)[:6], ("p 1", "10", "50", "5.0", "-", "-"))
+        rows = compare_jax.summary_rows([without, self.comparison(400, 1.0)])
+        self.assertEqual(rows[1], ("floats", "40.0", "1 of 1", "40.0", "p 1"))
 
     def test_takes_the_best_batch_with_these_threads(self):
         measurements = [
