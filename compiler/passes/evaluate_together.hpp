@@ -6,7 +6,7 @@
 //
 // Loops right inside each other become one over all combinations. What they read and write are the
 // elements of their objects, or what is the same for all; they compute bools or draw, without
-// aggregations. Fewer than eight iterations do not fill the registers.
+// aggregations. Fewer than 8 iterations do not fill the registers.
 #pragma once
 
 #include "ir/ir.hpp"
