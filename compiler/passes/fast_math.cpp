@@ -43,10 +43,20 @@ class Relaxing {
 
     std::optional<ir::NodeId> quotient(ir::NodeId a, ir::NodeId b) {
         const auto divisor = constant(b);
-        if (!divisor || !std::isnormal(*divisor) || !std::isnormal(1 / *divisor))
-            return std::nullopt;
+        if (!divisor) return product_with_inverse(a, b);
+        if (!std::isnormal(*divisor) || !std::isnormal(1 / *divisor)) return std::nullopt;
         if (const auto simpler = scaled(a, 1 / *divisor)) return simpler;
         return multiply(a, builder_.constant(1 / *divisor));
+    }
+
+    // Where only loop variables change the divisor, tabulate_constants makes its inverses a table.
+    std::optional<ir::NodeId> product_with_inverse(ir::NodeId a, ir::NodeId b) {
+        const ir::Facts& divisor = builder_.facts(b);
+        const bool is_table = divisor.uniform && !divisor.free_variables.empty();
+        if (!is_table || !ir::is_droppable(divisor) || builder_.facts(a).uniform)
+            return std::nullopt;
+        const ir::NodeId one = builder_.constant(1.0);
+        return multiply(a, builder_.apply(Operator::Divide, {one, b}));
     }
 
     // x * factor, where that is simpler than a product.

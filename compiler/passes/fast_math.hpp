@@ -2,6 +2,7 @@
 // --fast-math. docs/fast-math.md tells what may change.
 //
 //     x / 3.0                                x * 0.3333333333333333
+//     x / E[o]                               x * (1.0 / E[o])
 //     x * 2.5 * 4.0, x * 3.0 / 2.0           x * 10.0, x * 1.5
 //     power(x, 3.0), power(x, 0.5)           x * x * x (for cheap x), sqrt(x)
 //     0.0 * x                                0.0, unless x draws or may fault
