@@ -354,39 +354,44 @@ class Batch {
     }
 
     // Steps as many blocks from range.begin on as can be stepped together; the first one left.
-    RDDL_ALWAYS_INLINE std::int64_t step_some(Workspace& workspace, Range range,
-                                              const std::byte* rows, const rddl_transition& out) {
+    [[gnu::noinline]] std::int64_t step_some(Workspace& workspace, Range range,
+                                             const std::byte* rows, const rddl_transition& out) {
         const std::int64_t b = range.begin;
         const bool whole = std::is_same_v<L, Scalar> ? are_blocks(rows) : lanes_of(b) == width;
         if (!whole) {
             const std::byte* const block = block_of_actions(workspace, rows, b);
             return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);
         }
-        const std::int64_t whole_blocks = options_.environment_count / width;
-        const bool together = out.observations == nullptr;  // those of a block are written while
-        range.end = together ? std::min(range.end, whole_blocks) : b + 1;  // it is in the cache
+        // A block whose observations are written is in the cache only if no other one follows.
+        const bool alone = width == 1 || out.observations != nullptr;
+        range.end = alone ? b + 1 : std::min(range.end, options_.environment_count / width);
         return step_blocks(workspace, range, {rows, nullptr}, out);
     }
     RDDL_ALWAYS_INLINE std::int64_t step_blocks(Workspace& workspace, Range range, Actions actions,
                                                 const rddl_transition& out) {
         const Stop<L> stop =
             advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
-        if (stop.block < range.end) {
-            if (any(stop.over))
-                start_after_step(workspace, stop.block, stop.over, out);
-            else
-                start_instead(workspace, stop.block, actions, out);
-        }
+        if (stop.block == range.end && out.observations == nullptr) return range.end;
+        return go_on(workspace, range, stop, actions, out);
+    }
+
+    // What is left of a step of blocks that stopped; the first block that has made none. Apart, as
+    // what follows, so that other steps save no registers for it.
+    [[gnu::noinline]] std::int64_t go_on(Workspace& workspace, Range range, Stop<L> stop,
+                                         Actions actions, const rddl_transition& out) {
+        if (any(stop.over))
+            start_after_step(workspace, stop.block, stop.over, out);
+        else if (stop.block < range.end)
+            start_instead(workspace, stop.block, actions, out);
         const std::int64_t end = std::min(stop.block + 1, range.end);
         for (std::int64_t b = range.begin; out.observations != nullptr && b < end; ++b)
             write_observations(out.observations, b);
         return end;
     }
 
-    // A step of a block where some episodes are over: the next ones start instead. Apart, as what
-    // follows, so that other steps save no registers for it.
-    [[gnu::noinline]] void start_instead(Workspace& workspace, std::int64_t b, Actions actions,
-                                         const rddl_transition& out) {
+    // A step of a block where some episodes are over: the next ones start instead.
+    void start_instead(Workspace& workspace, std::int64_t b, Actions actions,
+                       const rddl_transition& out) {
         const Bool were_over = episodes_[index(b)].over();
         Blocks<L> without_resets = blocks_;
         without_resets.autoreset = RDDL_AUTORESET_DISABLED;
@@ -396,8 +401,8 @@ class Batch {
     }
 
     // The next episodes of lanes whose episodes the step ended.
-    [[gnu::noinline]] void start_after_step(Workspace& workspace, std::int64_t b, Bool lanes,
-                                            const rddl_transition& out) {
+    void start_after_step(Workspace& workspace, std::int64_t b, Bool lanes,
+                          const rddl_transition& out) {
         write_final_observations(out.final_observations, b, lanes);
         start_keeping_faults(workspace, b, lanes);
     }

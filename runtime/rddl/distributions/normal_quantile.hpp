@@ -98,6 +98,20 @@ R normal_quantile(R p) {
     return result.dividend / result.divisor;
 }
 
+// 8 lanes at a time, since all of more lanes are seldom near the median.
+template <int n>
+requires(n > 8) Lanes<double, n> normal_quantile(const Lanes<double, n>& p) {
+    Lanes<double, n> result;
+    constexpr int parts = Lanes<double, 8>::part_count;
+    for (int first = 0; first < p.part_count; first += parts) {
+        Lanes<double, 8> some;
+        for (int i = 0; i < parts; ++i) some.part[i] = p.part[first + i];
+        some = normal_quantile(some);
+        for (int i = 0; i < parts; ++i) result.part[first + i] = some.part[i];
+    }
+    return result;
+}
+
 // PPND7 of the same article; relative error about 1e-7.
 template <FloatLanes R>
 R normal_quantile(R p) {
