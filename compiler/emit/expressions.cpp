@@ -142,8 +142,18 @@ Spelled Expressions::spell(const ir::Node& node, const ir::Reduce& reduce) {
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Sample& sample) {
-    const std::string function = "sample::" + function_of(sample.distribution);
+    const std::string valid = needs_no_check(sample) ? "valid_" : "";
+    const std::string function = "sample::" + valid + function_of(sample.distribution);
     return {call(function, sample.parameters, sample.place), Level::Primary};
+}
+
+// The C++ compiler sees by itself that a number in the text is a probability.
+bool Expressions::needs_no_check(const ir::Sample& sample) const {
+    if (sample.distribution != Distribution::Bernoulli) return false;
+    const ir::NodeId p = sample.parameters.front();
+    if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
+    const auto range = unit_.facts_of(p).range;
+    return range && range->lower >= 0 && range->upper <= 1;
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Discrete& discrete) {

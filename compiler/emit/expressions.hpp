@@ -63,6 +63,7 @@ class Expressions {
     // What a lambda returns: an int constant must not be C++'s int.
     std::string result(ir::NodeId id);
     // One call of a draw from listed weights, given their array.
+    bool needs_no_check(const ir::Sample& sample) const;
     std::string discrete_call(const ir::Discrete& discrete, const std::string& weights);
 
     // A named node is spelled by its name from then on.

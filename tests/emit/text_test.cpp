@@ -78,6 +78,16 @@ TEST(EmittedText, WrapsLargeTables) {
     EXPECT_NE(text.find("99999.5\n};"), std::string::npos);
 }
 
+// Of 0.5, 1.5, ... divided by 10.
+TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
+    const auto with_chances = [](int count) {
+        std::string text = problem(count);
+        return emitted(text.replace(text.find("Bernoulli(0.5)"), 14, "Bernoulli(W(?o) / 10)"));
+    };
+    EXPECT_EQ(count(with_chances(10), "::valid_bernoulli("), 1u) << "0.95 is the greatest";
+    EXPECT_EQ(count(with_chances(11), "::bernoulli("), 1u) << "1.05 is the greatest";
+}
+
 TEST(EmittedText, IncludesNothingButTheRuntimeAndTheStandardLibrary) {
     std::istringstream stream(emitted(problem(3)));
     for (std::string line; std::getline(stream, line);) {

@@ -35,7 +35,8 @@ TEST(FastMath, MultipliesByReciprocals) {
     EXPECT_EQ(relaxed("2 * x * 4"), "8.0 * state.x");
     EXPECT_EQ(relaxed("x / 0"), "state.x / 0.0");
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / E(?o)]"), "sum[o in obj](state.x * (1.0 / real(E[o])))");
-    EXPECT_EQ(relaxed("x + sum_{?o : obj} [1 / E(?o)]"), "state.x + sum[o in obj](1.0 / real(E[o]))");
+    EXPECT_EQ(relaxed("x + sum_{?o : obj} [1 / E(?o)]"),
+              "state.x + sum[o in obj](1.0 / real(E[o]))");
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / v(?o)]"), "sum[o in obj](state.x / state.v[o])");
 }
 

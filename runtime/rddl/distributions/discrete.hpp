@@ -20,6 +20,11 @@ RDDL_INLINE typename L::Bool bernoulli(Context<L>& context, Place place, typenam
     const auto valid = context.require(p >= 0.0 && p <= 1.0, FaultKind::Probability, place, p);
     return valid && uniform_at(context, place) < p;
 }
+// The same for what is known to be a probability.
+template <class L>
+RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, Place place, typename L::Real p) {
+    return uniform_at(context, place) < p;
+}
 
 // Trials up to the first success: 1, 2, ...; what int cannot hold becomes the greatest int.
 template <class L>
