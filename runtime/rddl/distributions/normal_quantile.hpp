@@ -4,6 +4,7 @@
 #pragma once
 
 #include <rddl/math.hpp>
+#include <rddl/pack_ops.hpp>
 #include <rddl/real.hpp>
 
 namespace rddl {
