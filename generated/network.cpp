@@ -96,7 +96,7 @@ struct Simulator {
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
                     const Real term = 0.45 + 0.5 * (rddl::to_real(number) * 0.5);
                     const Real term_2 = rddl::select(state.running[c], term, 0.05);
-                    return rddl::sample::bernoulli(context, {0, c}, term_2);
+                    return rddl::sample::valid_bernoulli(context, {0, c}, term_2);
                 });
         }
     }

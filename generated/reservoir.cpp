@@ -112,7 +112,7 @@ struct Simulator {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            const Bool draw = rddl::sample::bernoulli(context, {0, b}, RAIN_CHANCE[b]);
+            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE[b]);
             const Real term = rddl::branch(
                 context, draw,
                 [&] {
