@@ -194,9 +194,9 @@ class Handwritten(unittest.TestCase):
         self.assertEqual(text.count(" 1,024 "), len(handwritten.PROBLEMS), text)
 
     def test_limits(self):
-        good = handwritten.Comparison("p 1", 1, 1e-12, 9.0, 10.0)
-        slow = handwritten.Comparison("p 1", 1024, 1e-12, 8.0, 10.0)
-        wrong = handwritten.Comparison("p 2", 1, float("inf"), 9.0, 1.0)
+        good = handwritten.Comparison("p 1", 1, 1e-12, 8.0, 10.0, 0.8, 0.9)
+        slow = handwritten.Comparison("p 1", 1024, 1e-12, 9.0, 10.0, 0.9, 0.8)
+        wrong = handwritten.Comparison("p 2", 1, float("inf"), 9.0, 1.0, 9.0, 9.0)
         alone = [good, slow, wrong]
         self.assertEqual(
             handwritten.shortfalls(alone), ["p 1, 1024 environments: the ratio 0.80 is below 0.9"]
