@@ -111,6 +111,16 @@ constexpr auto known_action_columns() {
     return columns;
 }
 
+// Whether the records of single environments have bytes between or after their values.
+constexpr bool has_padding(const rddl_problem& problem, rddl_role role, std::int64_t row_size) {
+    std::int64_t values = 0;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = problem.fluents[f];
+        if (fluent.role == role) values += fluent.count * (fluent.scalar == RDDL_BOOL ? 1 : 8);
+    }
+    return values != row_size;
+}
+
 // Calls visit(column) for each; known ones are constants there.
 template <class Visit>
 void for_each_column(const Columns& columns, Visit&& visit) {

@@ -38,6 +38,11 @@ struct Compiled {
                   std::is_trivially_copyable_v<Memory>);
 
     static constexpr auto action_columns = known_action_columns<L, problem>();
+    // Callers get all bytes of the records of one environment.
+    static constexpr bool shows_padding =
+        L::width == 1 && (has_padding(problem, RDDL_STATE, problem.state_size) ||
+                          (Simulator::partially_observed &&
+                           has_padding(problem, RDDL_OBSERVATION, problem.observation_size)));
 
     static constexpr std::size_t state_size() { return record_size<State>; }
     static constexpr std::size_t action_size() { return record_size<Action>; }

@@ -83,6 +83,7 @@ concept TypedEngine = Engine<E> && requires {
     typename E::Scratch;
     typename E::Observation;
     E::action_columns;
+    { E::shows_padding } -> std::convertible_to<bool>;
 };
 
 // Calls use(buffers) with these or, for small records, with variables, which the compiler may keep
@@ -99,10 +100,8 @@ RDDL_ALWAYS_INLINE decltype(auto) with_step_buffers(const StepBuffers& buffers, 
         };
         if constexpr (sizeof(Records) <= most_bytes) {
             Records records;
-            if constexpr (E::Lane::width == 1) {  // callers get all bytes of them, padding too
-                records.next = typename E::State();
-                records.observation = typename E::Observation();
-            }
+            if constexpr (E::shows_padding)
+                std::memset(static_cast<void*>(&records), 0, sizeof records);
             return use(StepBuffers{reinterpret_cast<std::byte*>(&records.action),
                                    reinterpret_cast<std::byte*>(&records.scratch),
                                    reinterpret_cast<std::byte*>(&records.next),
@@ -112,12 +111,19 @@ RDDL_ALWAYS_INLINE decltype(auto) with_step_buffers(const StepBuffers& buffers, 
     return use(buffers);
 }
 
-// Copies of whole blocks. Where their type is known they need not pass through memory.
+// Copies of whole blocks. Where their type is known they need not pass through memory, unless
+// padding has to come along.
+template <class Record, TypedEngine E>
+RDDL_ALWAYS_INLINE void copy_typed(const E&, const std::byte* from, std::byte* to) {
+    if constexpr (E::shows_padding)
+        std::memcpy(to, from, sizeof(Record));
+    else
+        *reinterpret_cast<Record*>(to) = *reinterpret_cast<const Record*>(from);
+}
 template <Engine E>
 void copy_state(const E& engine, const std::byte* from, std::byte* to) {
     if constexpr (TypedEngine<E>)
-        *reinterpret_cast<typename E::State*>(to) =
-            *reinterpret_cast<const typename E::State*>(from);
+        copy_typed<typename E::State>(engine, from, to);
     else if (engine.state_size() > 0)
         std::memcpy(to, from, engine.state_size());
 }
@@ -125,16 +131,14 @@ template <Engine E>
 void copy_action(const E& engine, const std::byte* from, std::byte* to) {
     if (from == to) return;
     if constexpr (TypedEngine<E>)
-        *reinterpret_cast<typename E::Action*>(to) =
-            *reinterpret_cast<const typename E::Action*>(from);
+        copy_typed<typename E::Action>(engine, from, to);
     else if (engine.action_size() > 0)
         std::memcpy(to, from, engine.action_size());
 }
 template <Engine E>
 void copy_observation(const E& engine, const std::byte* from, std::byte* to) {
     if constexpr (TypedEngine<E>)
-        *reinterpret_cast<typename E::Observation*>(to) =
-            *reinterpret_cast<const typename E::Observation*>(from);
+        copy_typed<typename E::Observation>(engine, from, to);
     else if (engine.observation_size() > 0)
         std::memcpy(to, from, engine.observation_size());
 }
