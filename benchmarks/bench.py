@@ -1,10 +1,14 @@
-"""What several benchmarks share: the figures of `rddl bench`, and the options of those that vary a size."""
+"""What several benchmarks share: the figures of `rddl bench`, results that outlive a run, and the options of
+those that vary a size."""
 
 import argparse
 import json
+import math
 import os
 import signal
+import statistics
 import subprocess
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -27,6 +31,29 @@ def bench(rddl: Path, *arguments: object, limit: float | None = None) -> dict:
     if process.returncode != 0:
         raise RuntimeError(messages.strip())
     return json.loads(output)
+
+
+class Results:
+    """What is measured, dataclasses by their keys, in a file; what this run measures is added at once."""
+
+    def __init__(self, path: Path, fresh: bool, read: Callable, key: Callable):
+        """`read` makes an entry of its fields, `key` is that of an entry."""
+        self.path, self.key = path, key
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if fresh:
+            path.unlink(missing_ok=True)
+        lines = path.read_text().splitlines() if path.exists() else []
+        entries = [read(**json.loads(line)) for line in lines]
+        self.entries = {key(entry): entry for entry in entries}
+
+    def add(self, entry) -> None:
+        self.entries[self.key(entry)] = entry
+        with self.path.open("a") as file:
+            file.write(json.dumps(asdict(entry)) + "\n")
+
+
+def geometric_mean(values: list[float]) -> float:
+    return math.exp(statistics.fmean(map(math.log, values)))
 
 
 def size_options(name: str, description: str, sizes: tuple[int, ...], counted: str) -> argparse.ArgumentParser:

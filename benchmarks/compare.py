@@ -21,22 +21,20 @@ and no instance below 50 in a batch.
 import argparse
 import contextlib
 import gc
-import json
 import logging
-import math
 import os
 import platform
 import statistics
 import sys
 import warnings
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 
-from bench import bench
+from bench import Results, bench, geometric_mean
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
@@ -93,27 +91,6 @@ def compare(case: Case, options: argparse.Namespace) -> Comparison:
 def smallest_and_largest(problem: str) -> list[Case]:
     picked = smallest_median_largest(repository_cases(problem))
     return picked if len(picked) == 1 else [picked[0], picked[-1]]
-
-
-class Results:
-    """The comparisons in a file; those of this run are added at once."""
-
-    def __init__(self, path: Path, fresh: bool):
-        self.path = path
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if fresh:
-            path.unlink(missing_ok=True)
-        lines = path.read_text().splitlines() if path.exists() else []
-        self.by_label = {c.label: c for c in (Comparison(**json.loads(line)) for line in lines)}
-
-    def add(self, comparison: Comparison) -> None:
-        self.by_label[comparison.label] = comparison
-        with self.path.open("a") as file:
-            file.write(json.dumps(asdict(comparison)) + "\n")
-
-
-def geometric_mean(values: list[float]) -> float:
-    return math.exp(statistics.fmean(map(math.log, values)))
 
 
 def columns(comparison: Comparison) -> tuple[str, ...]:
@@ -191,7 +168,7 @@ def measure_missing(cases: list[Case], results: Results, options: argparse.Names
     """Those that failed, a line each."""
     failures = []
     for case in cases:
-        if case.label not in results.by_label:
+        if case.label not in results.entries:
             try:
                 results.add(compare(case, options))
             except Exception as error:  # of ours or of theirs: the others are measured nevertheless
@@ -199,7 +176,7 @@ def measure_missing(cases: list[Case], results: Results, options: argparse.Names
                 print(failures[-1], flush=True)
                 continue
             gc.collect()
-        print(row_text(columns(results.by_label[case.label])), flush=True)
+        print(row_text(columns(results.entries[case.label])), flush=True)
     return failures
 
 
@@ -211,10 +188,10 @@ def main() -> int:
     about = f"{versions_text()}; {options.rounds} rounds of {options.seconds:g} s"
     print(f"{about}\n\n{row_text(TITLES)}")
     cases = [case for problem in options.problems or all_problems() for case in smallest_and_largest(problem)]
-    results = Results(options.results, options.fresh)
-    compile_ahead([case for case in cases if case.label not in results.by_label], options)
+    results = Results(options.results, options.fresh, Comparison, lambda c: c.label)
+    compile_ahead([case for case in cases if case.label not in results.entries], options)
     failures = measure_missing(cases, results, options)
-    comparisons = [results.by_label[case.label] for case in cases if case.label in results.by_label]
+    comparisons = [results.entries[case.label] for case in cases if case.label in results.entries]
     if not comparisons:
         return 1
     print("", *map(row_text, summary_rows(comparisons)), sep="\n")

@@ -23,15 +23,12 @@ Limits: geometric means of the ratios of at least 10, both in 32 bits; and a fir
 """
 
 import argparse
-import json
-import math
-import statistics
 import subprocess
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
-from bench import bench
+from bench import Results, bench, geometric_mean
 from document import ROOT, machine_text, markdown_table, write_section
 
 sys.path.insert(0, str(ROOT / "tests/conformance"))
@@ -137,23 +134,11 @@ def median_case(problem: str) -> Case:
     return cases[len(cases) // 2]
 
 
-class Results:
-    """What is measured, in a file; what this run measures is added at once."""
+def saved_results(path: Path, fresh: bool) -> Results:
+    def entry_of(**fields) -> Comparison | NotRun:
+        return NotRun(**fields) if "reason" in fields else Comparison(**fields)
 
-    def __init__(self, path: Path, fresh: bool):
-        self.path = path
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if fresh:
-            path.unlink(missing_ok=True)
-        lines = path.read_text().splitlines() if path.exists() else []
-        records = [json.loads(line) for line in lines]
-        entries = [(NotRun if "reason" in record else Comparison)(**record) for record in records]
-        self.entries = {(entry.label, entry.threads): entry for entry in entries}
-
-    def add(self, entry: Comparison | NotRun) -> None:
-        self.entries[entry.label, entry.threads] = entry
-        with self.path.open("a") as file:
-            file.write(json.dumps(asdict(entry)) + "\n")
+    return Results(path, fresh, entry_of, lambda entry: (entry.label, entry.threads))
 
 
 TITLES = ("instance", "jax", "rddlc, doubles", "ratio", "rddlc, floats", "ratio")
@@ -165,10 +150,6 @@ def row_of(c: Comparison) -> tuple[str, ...]:
     seconds = (c.jax_import, c.jax_first_step, c.our_first_step)
     floats = (f"{c.floats:,.0f}", f"{c.floats_ratio:.1f}") if c.floats else ("-", "-")
     return (c.label, *speeds, *floats, *(f"{value:.2f} s" for value in seconds))
-
-
-def geometric_mean(values: list[float]) -> float:
-    return math.exp(statistics.fmean(map(math.log, values)))
 
 
 def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
@@ -243,7 +224,7 @@ def measure_missing(cases: list[Case], results: Results, options: argparse.Names
 def main() -> int:
     options = parse_arguments()
     cases = [median_case(problem) for problem in options.problems or all_problems()]
-    results = Results(options.results, options.fresh)
+    results = saved_results(options.results, options.fresh)
     if any((case.label, options.threads) not in results.entries for case in cases):
         prepare(median_case(CORE[0]), options)
     failures = measure_missing(cases, results, options)

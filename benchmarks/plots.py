@@ -14,7 +14,8 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 
-from compare import Comparison, geometric_mean  # noqa: E402
+from bench import geometric_mean  # noqa: E402
+from compare import Comparison  # noqa: E402
 from document import ROOT  # noqa: E402
 
 STYLE = {

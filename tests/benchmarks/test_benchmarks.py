@@ -127,14 +127,14 @@ class CompareJax(unittest.TestCase):
     def test_goes_on_where_it_was(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "results.jsonl"
-            results = compare_jax.Results(file, fresh=False)
+            results = compare_jax.saved_results(file, fresh=False)
             results.add(compare_jax.NotRun(f"{PROBLEM} 0", 1, "why"))
             results.add(self.comparison(100, 1.0))
-            self.assertEqual(compare_jax.Results(file, fresh=False).entries, results.entries)
+            self.assertEqual(compare_jax.saved_results(file, fresh=False).entries, results.entries)
             # Neither program is needed for what the file has.
             status, text = run_program(compare_jax.main, PROBLEM, "--rddl", "/nowhere/rddl", "--results", file)
             self.assertEqual((status, text), (1, f"1/1  {PROBLEM} 0: why\n"))
-            self.assertEqual(compare_jax.Results(file, fresh=True).entries, {})
+            self.assertEqual(compare_jax.saved_results(file, fresh=True).entries, {})
 
     def test_says_what_is_missing(self):
         with tempfile.TemporaryDirectory() as folder:
