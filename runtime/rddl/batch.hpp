@@ -416,8 +416,8 @@ class Batch {
     }
 
     void write_observations(void* records, std::int64_t b) const {
-        const std::int64_t size = observation_columns_.row_size;
         if (records == nullptr) return;
+        const std::int64_t size = observation_columns_.row_size;
         write_records(L{}, observation_columns_, observed(b),
                       static_cast<std::byte*>(records) + b * width * size, lanes_of(b));
     }

@@ -77,12 +77,10 @@ template <int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
                               std::uint32_t block_number) {
     using Word = Lanes<std::uint64_t, n>;
-    const auto words = philox::generate<philox::draw_rounds>(
-        philox::Block<Word>{context.step, Word{std::uint64_t{series}},
-                            Word{std::uint64_t{block_number}}, Word{std::uint64_t{0}}},
-        philox::Key<Word>{context.key_low, context.key_high});
-    context.recent[series % recent_series] = {
-        series, block_number, unit_real<R>(words[0], words[1]), unit_real<R>(words[2], words[3])};
+    const auto draws =
+        first_numbers<R, Word>(context.step, series, Word{std::uint64_t{block_number}},
+                               {context.key_low, context.key_high});
+    context.recent[series % recent_series] = {series, block_number, draws.even, draws.odd};
 }
 
 template <int n, class R>
