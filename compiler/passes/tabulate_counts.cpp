@@ -106,6 +106,7 @@ class Tabulation {
         if (elements > cost * elements_for_an_operation) return std::nullopt;
         auto values = values_of(cases, variables);
         if (!values) return std::nullopt;
+        repeat_last_reached(*values, std::ssize(cases), *count, variables);
 
         ++report_["expressions of a count made tables"];
         const ir::BufferId table = new_table(*count, variables, std::ssize(cases), *values);
@@ -148,6 +149,51 @@ class Tabulation {
                 values[object * cases.size() + k] = (*of_case)[object];
         }
         return values;
+    }
+
+    // Elements that an object's count does not reach become the last one that it does, so that they
+    // do not widen the range of the table.
+    void repeat_last_reached(std::vector<ir::Value>& values, std::int64_t cases, ir::NodeId count,
+                             const std::vector<ir::VariableId>& variables) {
+        const auto greatest =
+            constant_values(evaluator_, program_, greatest_for(count, variables), variables);
+        if (!greatest) return;
+        const double least = builder_.facts(count).range->lower;
+        for (std::size_t object = 0; object < greatest->size(); ++object) {
+            const auto reached = std::get<std::int64_t>((*greatest)[object]);
+            ir::Value* const row = &values[object * static_cast<std::size_t>(cases)];
+            for (std::int64_t k = 1; k < cases; ++k)
+                if (least + static_cast<double>(k) > static_cast<double>(reached))
+                    row[k] = row[k - 1];
+        }
+    }
+
+    // An upper bound of a count, from constants and these variables.
+    ir::NodeId greatest_for(ir::NodeId count, const std::vector<ir::VariableId>& variables) {
+        const auto is_known = [&](ir::NodeId id) {
+            const ir::Facts& facts = builder_.facts(id);
+            return facts.uniform && std::ranges::includes(variables, facts.free_variables);
+        };
+        if (is_known(count)) return count;
+        const ir::Range range = *builder_.facts(count).range;
+        const auto form = program_[count].form;
+        if (const auto* apply = std::get_if<ir::Apply>(&form)) {
+            const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
+            if (apply->op == Operator::Add)
+                return builder_.apply(Operator::Add,
+                                      {greatest_for(a, variables), greatest_for(b, variables)});
+            if (apply->op == Operator::Subtract && is_known(b))
+                return builder_.apply(Operator::Subtract, {greatest_for(a, variables), b});
+        }
+        const auto* sum = std::get_if<ir::Reduce>(&form);
+        if (sum && sum->op == Reduction::Sum && sum->bounds) {
+            const auto length =
+                builder_.apply(Operator::Subtract, {sum->bounds->end, sum->bounds->begin});
+            const double term = std::max(0.0, builder_.facts(sum->body).range->upper);
+            if (is_known(length))
+                return builder_.apply(Operator::Multiply, {integer(term), length});
+        }
+        return integer(range.upper);
     }
 
     double objects_of(const std::vector<ir::VariableId>& variables) const {

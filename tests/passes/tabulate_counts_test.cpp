@@ -1,5 +1,6 @@
 #include "passes/tabulate_counts.hpp"
 
+#include "passes/make_aggregations_sparse.hpp"
 #include "texts.hpp"
 
 #include <rddl/math.hpp>
@@ -32,6 +33,22 @@ TEST(TabulateCounts, ReplacesWhatDependsOnACount) {
 TEST(TabulateCounts, HasARowForEachObject) {
     EXPECT_EQ(tabulated("sum_{?u : obj} [v(?u) * exp[W(?u) * sum_{?o : obj} p(?o)]]"),
               "sum[u in obj](state.v[u] * x-by-count[u, sum[o in obj](int(state.p[o]))])");
+}
+
+TEST(TabulateCounts, RepeatsTheLastEntryThatAnObjectReaches) {
+    Problem problem = with_tables(
+        "sum_{?u : obj} [v(?u) * exp[W(?u) * (1 + sum_{?o : obj} [NONE(?u, ?o) ^ p(?o) ^ v(?o) > "
+        "0])]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1); NONE(b3, b3);";
+    passes::Report report;
+    ir::Program program = passes::make_aggregations_sparse(grounded(problem), report);
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    const ir::Buffer& table = program.buffers.back();
+    ASSERT_EQ(table.shape, (std::vector<std::int64_t>{3, 3}));
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table.values, (std::vector{e(1), e(2), e(2), e(4), e(4), e(4), e(1), e(2), e(3)}));
 }
 
 TEST(TabulateCounts, BeginsWithTheLeastCount) {
