@@ -3,6 +3,7 @@
 
 #include <rddl/lane.hpp>
 #include <rddl/pack.hpp>
+#include <rddl/philox.hpp>
 
 #include <array>
 #include <cstdint>
@@ -128,13 +129,18 @@ struct Context<Pack<n, R>> {
     Mask<n> faulty{false};
     std::array<FaultRecord, static_cast<std::size_t>(n)> faults;  // of the faulty lanes
 
-    // Of one series, the step and two neighbouring indices.
+    // Of one series and step, and the indices from `first` on.
+    static constexpr std::uint32_t most_numbers = 4;
     struct Recent {
         std::uint32_t series = no_series;
-        std::uint32_t block;
-        Lanes<R, n> even, odd;
+        std::uint32_t first, count;
+        Lanes<R, n> numbers[most_numbers];
     };
     std::array<Recent, recent_series> recent;
+
+    // Of all draws of the step; made by the first one.
+    philox::Schedule<philox::draw_rounds, Word> schedule;
+    bool is_scheduled = false;
 
     static Context of(const Word& key_low, const Word& key_high, const Word& step, Mask<n> active) {
         Context context;

@@ -8,7 +8,9 @@
 #include <rddl/pack.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace rddl::philox {
 
@@ -29,22 +31,89 @@ constexpr std::uint64_t upper_halves(std::uint64_t a) {
     return a >> 32;
 }
 
+inline constexpr std::uint64_t first_multiplier = 0xD2511F53, second_multiplier = 0xCD9E8D57;
+
+// Word by word, since compilers keep a block that is assigned as a whole in memory.
 template <class Word>
-RDDL_INLINE Block<Word> one_round(const Block<Word>& counter, const Key<Word>& key) {
-    const Word first = multiply_low_halves(counter[0], Word{std::uint64_t{0xD2511F53}});
-    const Word second = multiply_low_halves(counter[2], Word{std::uint64_t{0xCD9E8D57}});
-    return {upper_halves(second) ^ counter[1] ^ key[0], second,
-            upper_halves(first) ^ counter[3] ^ key[1], first};
+RDDL_INLINE void do_round(Block<Word>& words, const Key<Word>& key) {
+    const Word first = multiply_low_halves(words[0], Word{first_multiplier});
+    const Word second = multiply_low_halves(words[2], Word{second_multiplier});
+    words[0] = upper_halves(second) ^ words[1] ^ key[0];
+    words[1] = second;
+    words[2] = upper_halves(first) ^ words[3] ^ key[1];
+    words[3] = first;
+}
+
+template <class Word>
+RDDL_INLINE Key<Word> next_key(const Key<Word>& key) {
+    return {key[0] + Word{std::uint64_t{0x9E3779B9}}, key[1] + Word{std::uint64_t{0xBB67AE85}}};
 }
 
 // The same key and counter always give the same four words.
 template <int rounds, class Word>
 RDDL_INLINE Block<Word> generate(Block<Word> counter, Key<Word> key) {
     for (int round = 0; round < rounds; ++round) {
-        counter = one_round(counter, key);
-        key = {key[0] + Word{std::uint64_t{0x9E3779B9}}, key[1] + Word{std::uint64_t{0xBB67AE85}}};
+        do_round(counter, key);
+        key = next_key(key);
     }
     return counter;
 }
+
+// What generate() does alike for all counters (first, second, third, 0) with the same key and first
+// word: the keys of its rounds, and what the other words do not reach within two rounds.
+template <int rounds, class Word>
+class Schedule {
+  public:
+    Schedule() = default;
+    RDDL_INLINE Schedule(const Word& first, const Key<Word>& key) : first_key_(key[0]) {
+        const Word none{std::uint64_t{0}};
+        Block<Word> words{first, none, none, none};
+        do_round(words, key);
+        Key<Word> next = next_key(key);
+        words[0] = words[1] = none;
+        do_round(words, next);
+        for (std::size_t i = 0; i < 3; ++i) after_two_rounds_[i] = words[i];
+        for (Key<Word>& later : later_keys_) later = next = next_key(next);
+    }
+
+    // The blocks of two counters, made in turns since each round waits for the one before it.
+    RDDL_INLINE void generate(std::uint64_t second, std::uint64_t third, Block<Word>& words,
+                              std::uint64_t other_third, Block<Word>& other_words) const {
+        do_two_rounds(second, third, words);
+        do_two_rounds(second, other_third, other_words);
+        for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA {
+            do_round(words, key);
+            do_round(other_words, key);
+        });
+    }
+    // The block of one.
+    RDDL_INLINE void generate(std::uint64_t second, std::uint64_t third, Block<Word>& words) const {
+        do_two_rounds(second, third, words);
+        for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA { do_round(words, key); });
+    }
+
+  private:
+    RDDL_INLINE void do_two_rounds(std::uint64_t second, std::uint64_t third,
+                                   Block<Word>& words) const {
+        const std::uint64_t product = multiply_low_halves(third, second_multiplier);
+        const Word after_one = Word{upper_halves(product) ^ second} ^ first_key_;
+        words[0] = after_two_rounds_[0] ^ Word { product };
+        words[1] = after_two_rounds_[1];
+        words[3] = multiply_low_halves(after_one, Word{first_multiplier});
+        words[2] = after_two_rounds_[2] ^ upper_halves(words[3]);
+    }
+    // As constants, so that all rounds are compiled one after the other.
+    template <class Use>
+    RDDL_INLINE void for_each_later_key(Use&& use) const {
+        [&]<std::size_t... k>(std::index_sequence<k...>) RDDL_INLINE_LAMBDA {
+            (use(later_keys_[k]), ...);
+        }
+        (std::make_index_sequence<rounds - 2>());
+    }
+
+    Word first_key_;
+    std::array<Word, 3> after_two_rounds_;
+    std::array<Key<Word>, rounds - 2> later_keys_;
+};
 
 }  // namespace rddl::philox

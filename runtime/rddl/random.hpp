@@ -71,25 +71,49 @@ RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_numbe
     return TwoDraws<std::remove_const_t<decltype(even)>>{even, odd};
 }
 
-// A loop draws for one index after the other, so some are made at once: for packs the draws of two
-// neighbours, for one environment those of as many pairs as a register has lanes.
+// A loop draws for one index after the other, so some are made at once: for packs those of as many
+// as keep the processor busy, for one environment those of as many pairs as a register has lanes.
 template <int n, class R>
-[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, std::uint32_t series,
-                              std::uint32_t block_number) {
-    using Word = Lanes<std::uint64_t, n>;
-    const auto draws =
-        first_numbers<R, Word>(context.step, series, Word{std::uint64_t{block_number}},
-                               {context.key_low, context.key_high});
-    context.recent[series % recent_series] = {series, block_number, draws.even, draws.odd};
+inline constexpr std::uint32_t numbers_at_once = n / simd::lanes_of<std::uint64_t> <= 2 ? 4 : 2;
+
+template <std::uint32_t count, int n, class R>
+[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, Place place) {
+    using Block = philox::Block<Lanes<std::uint64_t, n>>;
+    if (!context.is_scheduled) {
+        context.schedule = {context.step, {context.key_low, context.key_high}};
+        context.is_scheduled = true;
+    }
+    auto& recent = context.recent[place.series % recent_series];
+    recent.series = place.series;
+    recent.first = place.index / count * count;
+    recent.count = count;
+    const auto store = [](const Block& words, Lanes<R, n>* numbers) RDDL_INLINE_LAMBDA {
+        numbers[0] = unit_real<R>(words[0], words[1]);
+        numbers[1] = unit_real<R>(words[2], words[3]);
+    };
+    const std::uint64_t third = recent.first / 2;
+    if constexpr (count == 2) {
+        Block words;
+        context.schedule.generate(place.series, third, words);
+        store(words, recent.numbers);
+    } else {
+        Block words, other_words;
+        context.schedule.generate(place.series, third, words, third + 1, other_words);
+        store(words, recent.numbers);
+        store(other_words, recent.numbers + 2);
+    }
 }
 
 template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
-    const std::uint32_t block_number = place.index / 2;
     const auto& recent = context.recent[place.series % recent_series];
-    if (recent.series != place.series || recent.block != block_number)
-        refill(context, place.series, block_number);
-    return place.index % 2 == 0 ? recent.even : recent.odd;
+    if (recent.series != place.series || place.index - recent.first >= recent.count) {
+        if (__builtin_constant_p(place.index))
+            refill<2>(context, place);  // most likely there is no other one
+        else
+            refill<numbers_at_once<n, R>>(context, place);
+    }
+    return recent.numbers[place.index - recent.first];
 }
 
 namespace detail {

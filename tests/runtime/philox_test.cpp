@@ -76,5 +76,36 @@ TEST(Philox, IsTheSameInEveryLane) {
     }
 }
 
+TEST(Philox, MakesBlocksOfOneKeyAndFirstWordTogether) {
+    using Word = Lanes<std::uint64_t, 16>;
+    const Word none{std::uint64_t{0}};
+    Word first, key_low, key_high;
+    for (int lane = 0; lane < 16; ++lane) {
+        first.set(lane, 0xFFFFFFF0u + lane);  // of which the lower half counts
+        key_low.set(lane, 0x9E3779B9u * lane);
+        key_high.set(lane, 0xFFFFFFFFu - lane);
+    }
+    const Schedule<draw_rounds, Word> schedule(first, {key_low, key_high});
+    for (const std::uint64_t third : {0u, 1u, 77u, 0xFFFFFFFEu}) {
+        const std::uint64_t second = 0xFFFFFFFF - third / 2;
+        const auto expected = [&](std::uint64_t its_third) {
+            return generate<draw_rounds>(Block<Word>{first, Word{second}, Word{its_third}, none},
+                                         {key_low, key_high});
+        };
+        Block<Word> alone, even, odd;
+        schedule.generate(second, third, alone);
+        schedule.generate(second, third, even, third + 1, odd);
+        for (int lane = 0; lane < 16; ++lane)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto lower_half = [&](const Block<Word>& words) {
+                    return static_cast<std::uint32_t>(words[k][lane]);
+                };
+                EXPECT_EQ(lower_half(alone), lower_half(expected(third)));
+                EXPECT_EQ(lower_half(even), lower_half(expected(third)));
+                EXPECT_EQ(lower_half(odd), lower_half(expected(third + 1)));
+            }
+    }
+}
+
 }  // namespace
 }  // namespace rddl::philox

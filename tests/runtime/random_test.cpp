@@ -90,5 +90,29 @@ TEST(Draws, AreTheSameHoweverOftenAndInWhateverOrderTheyAreMade) {
     EXPECT_EQ(uniform_at(context, {0, 0}), first);
 }
 
+TEST(Draws, OfPacksAreThoseOfTheirLanes) {
+    using Sixteen = Pack<16>;
+    Sixteen::Word low, high, step;
+    for (int lane = 0; lane < 16; ++lane) {
+        const StreamKey key = stream_key(1, static_cast<std::uint64_t>(lane), 3);
+        low.set(lane, key.low);
+        high.set(lane, key.high);
+        step.set(lane, static_cast<std::uint64_t>(lane) + 1);
+    }
+    auto context = Context<Sixteen>::of(low, high, step, true);
+    const auto expect_same = [&](const Lanes<double, 16>& numbers, Place place) {
+        for (int lane = 0; lane < 16; ++lane) {
+            Draws draws(context.key(lane), static_cast<std::uint32_t>(lane) + 1, place);
+            EXPECT_EQ(numbers[lane], draws.uniform()) << place.index << " in lane " << lane;
+        }
+    };
+    for (const Index index : {0, 1, 2, 3, 4, 7, 6, 5, 1000001, 1000003, 0})
+        expect_same(uniform_at(context, {5, index, 2}), {5, index, 2});
+    for (const Index index : {0, 1, 2}) expect_same(uniform_at(context, {6, index}), {6, index});
+    expect_same(uniform_at(context, {6, 3}), {6, 3});  // of an index that the compiler knows
+    expect_same(uniform_at(context, {6, 0}), {6, 0});
+    expect_same(uniform_at(context, {6, 1}), {6, 1});
+}
+
 }  // namespace
 }  // namespace rddl
