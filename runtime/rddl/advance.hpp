@@ -48,8 +48,10 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
                                                     std::byte* room) {
     const auto& columns = action_columns<E>(blocks);
     const std::int64_t first = b * L::width * columns.row_size;
-    if constexpr (std::is_same_v<L, Scalar>)
-        return actions.block ? actions.block : actions.rows + first;
+    if constexpr (std::is_same_v<L, Scalar>) {
+        if (actions.block) return actions.block;
+        if (has_plain_bools(columns, actions.rows + first)) return actions.rows + first;
+    }
     if (actions.block)
         copy_action(engine, actions.block, room);
     else

@@ -119,7 +119,7 @@ class Batch {
     // states.
     bool accepts_actions(const std::byte* records) const {
         if (records == nullptr) return action_columns_.row_size == 0;
-        return action_columns_.any_value_is_valid ||
+        return !action_columns_.has_objects ||
                records_are_valid(action_columns_, records, options_.environment_count);
     }
     bool accepts_states(const std::byte* records, std::int64_t count) const {

@@ -35,12 +35,12 @@ struct Column {
 template <class List>
 struct ColumnTable {
     List list{};
-    std::int64_t row_size = 0;       // bytes of a record of the C interface
-    std::int64_t value_count = 0;    // of a row
-    std::int64_t block_size = 0;     // bytes
-    std::int64_t alignment = 1;      // of a block, in bytes
-    bool any_value_is_valid = true;  // they are ints and reals
-    bool has_only_bools = true;
+    std::int64_t row_size = 0;     // bytes of a record of the C interface
+    std::int64_t value_count = 0;  // of a row
+    std::int64_t block_size = 0;   // bytes
+    std::int64_t alignment = 1;    // of a block, in bytes
+    bool has_bools = false;
+    bool has_objects = false;
 };
 // Of any problem, and of one that is known when its simulator is compiled.
 using Columns = ColumnTable<std::vector<Column>>;
@@ -87,8 +87,8 @@ constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, 
             columns.alignment = std::max(columns.alignment, static_cast<std::int64_t>(alignof(T)));
         });
         columns.value_count += fluent.count;
-        columns.any_value_is_valid &= fluent.scalar != RDDL_BOOL && !is_object;
-        columns.has_only_bools &= fluent.scalar == RDDL_BOOL;
+        columns.has_bools |= fluent.scalar == RDDL_BOOL;
+        columns.has_objects |= is_object;
     }
     columns.block_size = round_up(columns.block_size, columns.alignment);
 }
@@ -139,6 +139,23 @@ namespace detail {
 // What a record of the C interface holds for a value of one lane: all reals are double there.
 template <class T>
 using InRecord = std::conditional_t<std::is_same_v<T, float>, double, T>;
+
+// Callers write true as any byte but 0.
+constexpr std::byte bool_of(std::byte byte) {
+    return std::byte{byte != std::byte{0}};
+}
+// The bits that any of these bytes has, in one of the bytes of the result.
+RDDL_INLINE std::uint64_t all_bytes(const std::byte* bytes, std::int64_t count) {
+    std::uint64_t all = 0;
+    std::int64_t k = 0;
+    for (; k + 8 <= count; k += 8) {
+        std::uint64_t chunk;
+        __builtin_memcpy(&chunk, bytes + k, sizeof chunk);
+        all |= chunk;
+    }
+    for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
+    return all;
+}
 
 // One number of each of the first `present` rows.
 template <class T>
@@ -205,11 +222,30 @@ inline void write_flags(bool value, std::uint8_t* flags, int) {
 
 // ---------------------------------------------------------------------------------- records
 
+// Whether every bool of a record is 0 or 1, as compilers want it.
+template <class List>
+RDDL_INLINE bool has_plain_bools(const ColumnTable<List>& columns, const std::byte* row) {
+    if (!columns.has_bools) return true;
+    std::uint64_t bytes = 0;
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        if (column.scalar == RDDL_BOOL) bytes |= detail::all_bytes(row + column.row, column.count);
+    });
+    return (bytes & 0xFEFEFEFEFEFEFEFE) == 0;
+}
+
 // Of the first `present` lanes; the others become zero.
 template <class List>
 void read_records(Scalar, const ColumnTable<List>& columns, const std::byte* rows, int,
                   std::byte* block) {
-    if (columns.row_size > 0) std::memcpy(block, rows, static_cast<std::size_t>(columns.row_size));
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        const std::byte* const from = rows + column.row;
+        std::byte* const to = block + column.block;
+        if (column.scalar != RDDL_BOOL) {
+            std::memcpy(to, from, static_cast<std::size_t>(8 * column.count));
+        } else {
+            for (std::int64_t k = 0; k < column.count; ++k) to[k] = detail::bool_of(from[k]);
+        }
+    });
 }
 template <int n, class R, class List>
 RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, const std::byte* rows,
@@ -274,8 +310,12 @@ void read_record(L, const ColumnTable<List>& columns, const std::byte* row, std:
             for (std::int64_t k = 0; k < column.count; ++k) {
                 using Number = decltype(get_lane(values[k], lane));
                 detail::InRecord<Number> value;
-                std::memcpy(&value, row + column.row + k * static_cast<std::int64_t>(sizeof value),
-                            sizeof value);
+                const std::byte* const from =
+                    row + column.row + k * static_cast<std::int64_t>(sizeof value);
+                if constexpr (std::is_same_v<Number, bool>)
+                    value = *from != std::byte{0};
+                else
+                    std::memcpy(&value, from, sizeof value);
                 set_lane(values[k], lane, static_cast<Number>(value));
             }
         });

@@ -12,19 +12,6 @@ namespace rddl {
 
 namespace detail {
 
-// Whether all bytes are 0 or 1; 8 at a time, since every step of a batch asks.
-inline bool are_bools(const std::byte* bytes, std::int64_t count) {
-    std::uint64_t all = 0;
-    std::int64_t k = 0;
-    for (; k + 8 <= count; k += 8) {
-        std::uint64_t chunk;
-        std::memcpy(&chunk, bytes + k, sizeof chunk);
-        all |= chunk;
-    }
-    for (; k < count; ++k) all |= std::to_integer<std::uint64_t>(bytes[k]);
-    return (all & 0xFEFEFEFEFEFEFEFE) == 0;
-}
-
 inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_t object_count) {
     bool all = true;
     for (std::int64_t k = 0; k < count; ++k) {
@@ -37,21 +24,15 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
 
 }  // namespace detail
 
-// Every bool must be 0 or 1 and every object value the index of an object; numbers are free.
+// Every object value must be the index of an object; bools and numbers are free.
 inline bool records_are_valid(const Columns& columns, const std::byte* records,
                               std::int64_t record_count) {
-    if (columns.has_only_bools) return detail::are_bools(records, record_count * columns.row_size);
-    for (const Column& column : columns.list) {
-        const std::byte* values = records + column.row;
-        const std::byte* const end = values + record_count * columns.row_size;
-        if (column.scalar == RDDL_BOOL) {
-            for (; values != end; values += columns.row_size)
-                if (!detail::are_bools(values, column.count)) return false;
-        } else if (column.limit > 0) {
-            for (; values != end; values += columns.row_size)
-                if (!detail::are_objects(values, column.count, column.limit)) return false;
-        }
-    }
+    if (!columns.has_objects) return true;
+    const std::byte* const end = records + record_count * columns.row_size;
+    for (const Column& column : columns.list)
+        for (const std::byte* row = records; column.limit > 0 && row != end;
+             row += columns.row_size)
+            if (!detail::are_objects(row + column.row, column.count, column.limit)) return false;
     return true;
 }
 

@@ -426,18 +426,20 @@ constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
     return (selected + 0x7F7F7F7F7F7F7F7F) >> 7 & 0x0101010101010101;
 }
 
-// Of 0 < `count` <= 64 bytes.
+// Which of 0 < `count` <= 64 bytes are not 0.
 [[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
     const __m512i values = _mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - count), bytes);
     return _mm512_test_epi8_mask(values, values);
 #else
+    constexpr std::uint64_t low_bits = 0x7F7F7F7F7F7F7F7F, ones = 0x0101010101010101;
     std::uint64_t bits = 0;
     for (int i = 0; i < count; i += 8) {
         std::uint64_t chunk = 0;
         __builtin_memcpy(&chunk, static_cast<const char*>(bytes) + i,
                          i + 8 < count ? 8 : count - i);
-        bits |= bits_of_bytes(chunk) << i;
+        const std::uint64_t not_zero = ((chunk & low_bits) + low_bits) | chunk;
+        bits |= bits_of_bytes(not_zero >> 7 & ones) << i;
     }
     return bits;
 #endif

@@ -8,8 +8,8 @@
  * a plain C struct of the fluents in declaration order, every fluent a row-major array over its
  * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
  * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
- * States and actions with a bool other than 0 and 1, or with an object that does not exist, are
- * refused with RDDL_BAD_ARGUMENT, and nothing has changed then.
+ * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
+ * does not exist are refused with RDDL_BAD_ARGUMENT, and nothing has changed then.
  */
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H

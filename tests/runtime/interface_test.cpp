@@ -139,28 +139,28 @@ TEST(Interface, RefusesStatesAndActionsThatNameNoObject) {
     EXPECT_EQ(steps[0], 0) << "a refused step changes nothing";
 }
 
-TEST(Interface, RefusesBoolsThatAreNone) {
-    TinyBatch batch(four);
-    const unsigned char two = 2;
-    std::memcpy(&batch.actions[1].repair[2], &two, 1);
-    const rddl_transition nothing{};
-    EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
-    StateRecord state{};
-    std::memcpy(&state.running[0], &two, 1);
-    EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state), RDDL_BAD_ARGUMENT);
-}
-
-TEST(Interface, FindsBoolsThatAreNoneWhereverTheyStand) {
-    std::array<std::byte, 21> bytes;
-    bytes.fill(std::byte{1});
-    for (std::byte& byte : bytes) {
-        for (const int wrong : {2, 0x80, 0xFF}) {
-            byte = static_cast<std::byte>(wrong);
-            EXPECT_FALSE(rddl::detail::are_bools(bytes.data(), 21)) << &byte - bytes.data();
+TEST(Interface, ReadsAnyByteButZeroAsTrue) {
+    for (const std::int64_t count : {1, 40})  // alone, and in packs
+        for (const int value : {2, 0x80, 0xFF}) {
+            const auto byte = static_cast<std::uint8_t>(value);
+            const rddl_batch_options options{count, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+            TinyBatch usual(options), unusual(options);
+            const auto last = static_cast<std::size_t>(count) - 1;
+            usual.actions[last].repair[2] = true;
+            std::memcpy(&unusual.actions[last].repair[2], &byte, 1);
+            StateRecord state{};
+            state.running[1] = true;
+            EXPECT_EQ(functions.set_state(usual.get(), 0, 1, &state), RDDL_OK);
+            std::memcpy(&state.running[1], &byte, 1);
+            EXPECT_EQ(functions.set_state(unusual.get(), 0, 1, &state), RDDL_OK);
+            usual.step();
+            unusual.step();
+            EXPECT_EQ(usual.rewards, unusual.rewards);
+            const auto expected = usual.states(), states = unusual.states();
+            EXPECT_EQ(std::memcmp(states.data(), expected.data(), sizeof(StateRecord) * (last + 1)),
+                      0);
+            EXPECT_EQ(states[last].repairs, 1);
         }
-        byte = std::byte{0};
-        EXPECT_TRUE(rddl::detail::are_bools(bytes.data(), 21));
-    }
 }
 
 TEST(Interface, RefusesOptionsOutOfRange) {
