@@ -28,6 +28,8 @@ class Relaxing {
                 return quotient(a, b);
             case Operator::Power:
                 return power(a, b);
+            case Operator::FloorModuloReal:
+                return remainder(a, b);
             default:
                 return std::nullopt;
         }
@@ -42,11 +44,25 @@ class Relaxing {
     }
 
     std::optional<ir::NodeId> quotient(ir::NodeId a, ir::NodeId b) {
-        const auto divisor = constant(b);
-        if (!divisor) return product_with_inverse(a, b);
-        if (!std::isnormal(*divisor) || !std::isnormal(1 / *divisor)) return std::nullopt;
-        if (const auto simpler = scaled(a, 1 / *divisor)) return simpler;
-        return multiply(a, builder_.constant(1 / *divisor));
+        if (!constant(b)) return product_with_inverse(a, b);
+        const auto inverse = constant_inverse(b);
+        if (!inverse) return std::nullopt;
+        if (const auto simpler = scaled(a, *inverse)) return simpler;
+        return multiply(a, builder_.constant(*inverse));
+    }
+    std::optional<double> constant_inverse(ir::NodeId id) const {
+        const auto value = constant(id);
+        if (!value || !std::isnormal(*value) || !std::isnormal(1 / *value)) return std::nullopt;
+        return 1 / *value;
+    }
+
+    std::optional<ir::NodeId> remainder(ir::NodeId a, ir::NodeId b) {
+        const auto inverse = constant_inverse(b);
+        if (!inverse) return std::nullopt;
+        const ir::NodeId quotient = multiply(a, builder_.constant(*inverse));
+        const ir::NodeId whole =
+            builder_.convert(builder_.apply(Operator::Floor, {quotient}), ir::Scalar::Real);
+        return builder_.apply(Operator::Subtract, {a, multiply(b, whole)});
     }
 
     // Where only loop variables change the divisor, tabulate_constants makes its inverses a table.

@@ -40,6 +40,12 @@ TEST(FastMath, MultipliesByReciprocals) {
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / v(?o)]"), "sum[o in obj](state.x / state.v[o])");
 }
 
+TEST(FastMath, SubtractsMultiplesForRemainders) {
+    EXPECT_EQ(relaxed("fmod[x, 4]"), "state.x - 4.0 * real(floor(state.x * 0.25))");
+    EXPECT_EQ(relaxed("fmod[x, 0]"), "floor_mod_real(state.x, 0.0)");
+    EXPECT_EQ(relaxed("fmod[4, x]"), "floor_mod_real(4.0, state.x)");
+}
+
 TEST(FastMath, DropsZeroTimesAnything) {
     EXPECT_EQ(relaxed("x + sum_{?o : obj} [0.0 * v(?o)]"), "state.x + 0.0");
     EXPECT_EQ(relaxed("0.0 * sum_{?o : obj} Normal(0, 1)"),
