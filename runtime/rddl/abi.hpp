@@ -53,7 +53,8 @@ class Functions {
   private:
     using Parts = SimulatorParts<L>;
     static constexpr bool has_packs = L::width > 1;
-    using OneByOne = Batch<AnyEngine<ScalarOf<typename L::Element>>>;
+    using One = ScalarOf<typename L::Element>;
+    using OneByOne = Batch<AnyEngine<One>>;
     using AnyBatch = std::conditional_t<has_packs, std::variant<OneByOne, Batch<AnyEngine<L>>>,
                                         std::variant<OneByOne>>;
 
@@ -63,9 +64,15 @@ class Functions {
         Handle(const Parts& of_maker, std::in_place_type_t<Kind> kind, const OneEngine& engine,
                const BatchOptions& options)
             : maker(&of_maker), batch(kind, engine, *of_maker.problem, options) {}
+        Handle(const Handle& other) : maker(other.maker), batch(other.batch) {}
+        Handle& operator=(const Handle&) = delete;
 
         const Parts* maker;
         AnyBatch batch;
+        const BatchView<One>* only_one = [this] {
+            const auto* const one_by_one = std::get_if<OneByOne>(&batch);
+            return one_by_one ? one_by_one->only_one() : nullptr;
+        }();
 
         const rddl_problem& problem() const { return *maker->problem; }
         template <class Use>
@@ -159,16 +166,15 @@ class Functions {
     static rddl_error step(rddl_batch* batch, const void* actions, const rddl_transition* out) {
         if (batch == nullptr || out == nullptr) return RDDL_BAD_ARGUMENT;
         const auto* const records = static_cast<const std::byte*>(actions);
-        auto* const one_by_one = std::get_if<OneByOne>(&handle(batch).batch);
-        if (one_by_one == nullptr || one_by_one->environment_count() > 1)
-            return step_several(handle(batch), records, *out);
-        if (!one_by_one->accepts_actions(records)) return RDDL_BAD_ARGUMENT;
-        one_by_one->step_only_one(records, *out);
-        return RDDL_OK;
+        const Handle& all = handle(batch);
+        if (all.only_one && all.only_one->blocks.are_blocks(records))
+            return all.maker->engine.advance_one(*all.only_one, 0, {records, nullptr}, *out);
+        return step_any(handle(batch), records, *out);
     }
-    [[gnu::noinline]] static rddl_error step_several(Handle& several, const std::byte* records,
-                                                     const rddl_transition& out) {
-        return several.use([&](auto& environments) {
+    // Apart, so that a step of one environment saves no registers for it.
+    [[gnu::noinline]] static rddl_error step_any(Handle& any, const std::byte* records,
+                                                 const rddl_transition& out) {
+        return any.use([&](auto& environments) {
             if (!environments.accepts_actions(records)) return RDDL_BAD_ARGUMENT;
             environments.step(records, out);
             return RDDL_OK;

@@ -177,4 +177,36 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
     return {range.end, false};
 }
 
+// ----------------------------------------------------------------- blocks of one environment
+
+// What is left to do of a step.
+enum class Rest : std::uint8_t {
+    NextEpisode,   // its episode is over, and the next one starts
+    Start,         // its episode was over, so that the next one starts instead of a step
+    Observations,  // they are wanted
+};
+
+// What a thread's steps need of a batch: its blocks, room to work in, and who does the rest.
+template <class L>
+struct BatchView {
+    Blocks<L> blocks;
+    StepBuffers buffers;
+    int thread;
+    void* batch;
+    rddl_error (*do_rest)(const BatchView& view, std::int64_t b, Rest rest, Actions actions,
+                          const rddl_transition& out);
+};
+
+// A step of block `b`: always RDDL_OK, so that the calls down to here end with each other and have
+// no registers to save.
+template <Engine E, class L = typename E::Lane>
+RDDL_ALWAYS_INLINE rddl_error advance_one(const E& engine, const BatchView<L>& view, std::int64_t b,
+                                          Actions actions, const rddl_transition& out) {
+    const Stop<L> stop = advance(engine, view.blocks, {b, b + 1}, actions, view.buffers, out);
+    if (stop.over) return view.do_rest(view, b, Rest::NextEpisode, actions, out);
+    if (stop.block == b) return view.do_rest(view, b, Rest::Start, actions, out);
+    if (out.observations) return view.do_rest(view, b, Rest::Observations, actions, out);
+    return RDDL_OK;
+}
+
 }  // namespace rddl

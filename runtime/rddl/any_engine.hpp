@@ -33,10 +33,18 @@ class AnyEngine {
         reset_ = [](const void* self, std::byte* state, Context<L>& context) {
             of<E>(self).reset(state, context);
         };
-        advance_ = [](const void* self, const Blocks<L>& blocks, Range range, Actions actions,
-                      const StepBuffers& memory, const rddl_transition& out) RDDL_INLINE_LAMBDA {
-            return rddl::advance(of<E>(self), blocks, range, actions, memory, out);
-        };
+        // Only one of them, since compilers stop inlining in simulators that have both.
+        if constexpr (L::width == 1)
+            advance_one_ = [](const void* self, const BatchView<L>& view, std::int64_t b,
+                              Actions actions, const rddl_transition& out) RDDL_INLINE_LAMBDA {
+                return rddl::advance_one(of<E>(self), view, b, actions, out);
+            };
+        else
+            advance_ = [](const void* self, const Blocks<L>& blocks, Range range, Actions actions,
+                          const StepBuffers& memory,
+                          const rddl_transition& out) RDDL_INLINE_LAMBDA {
+                return rddl::advance(of<E>(self), blocks, range, actions, memory, out);
+            };
         terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
             return of<E>(self).terminal(state, context);
         };
@@ -70,10 +78,16 @@ class AnyEngine {
         return violated_precondition_(engine_, state, action, context);
     }
 
-    // As rddl::advance.
+    // As rddl::advance, for packs.
     Stop<L> advance(const Blocks<L>& blocks, Range range, Actions actions,
                     const StepBuffers& memory, const rddl_transition& out) const {
         return advance_(engine_, blocks, range, actions, memory, out);
+    }
+
+    // As rddl::advance_one, for blocks of one environment.
+    rddl_error advance_one(const BatchView<L>& view, std::int64_t b, Actions actions,
+                           const rddl_transition& out) const {
+        return advance_one_(engine_, view, b, actions, out);
     }
 
     bool has_policy() const { return has_policy_; }
@@ -100,7 +114,9 @@ class AnyEngine {
 
     void (*reset_)(const void*, std::byte*, Context<L>&);
     Stop<L> (*advance_)(const void*, const Blocks<L>&, Range, Actions, const StepBuffers&,
-                        const rddl_transition&);
+                        const rddl_transition&) = nullptr;
+    rddl_error (*advance_one_)(const void*, const BatchView<L>&, std::int64_t, Actions,
+                               const rddl_transition&) = nullptr;
     Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
     Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
     void (*reset_policy_)(const void*, std::byte*) = nullptr;
@@ -113,6 +129,11 @@ template <class L>
 Stop<L> advance(const AnyEngine<L>& engine, const Blocks<L>& blocks, Range range, Actions actions,
                 const StepBuffers& memory, const rddl_transition& out) {
     return engine.advance(blocks, range, actions, memory, out);
+}
+template <class L>
+rddl_error advance_one(const AnyEngine<L>& engine, const BatchView<L>& view, std::int64_t b,
+                       Actions actions, const rddl_transition& out) {
+    return engine.advance_one(view, b, actions, out);
 }
 
 }  // namespace rddl

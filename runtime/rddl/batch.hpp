@@ -91,7 +91,8 @@ class Batch {
           episodes_(block_count()),
           workspaces_(make_workspaces()),
           team_(options.thread_count),
-          blocks_(blocks()) {
+          blocks_(blocks()),
+          views_(make_views()) {
         for (int lane = lanes_of(episodes_.size() - 1); lane < width; ++lane)
             set_lane(episodes_.back().present, lane, false);
         reset(nullptr, nullptr);
@@ -109,7 +110,8 @@ class Batch {
           episodes_(other.episodes_),
           workspaces_(make_workspaces()),
           team_(other.options_.thread_count),
-          blocks_(blocks()) {}
+          blocks_(blocks()),
+          views_(make_views()) {}
     Batch& operator=(const Batch&) = delete;
 
     std::int64_t environment_count() const { return options_.environment_count; }
@@ -174,12 +176,10 @@ class Batch {
             while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
     }
-    // The same, faster, where there is one environment.
-    RDDL_ALWAYS_INLINE void step_only_one(const std::byte* actions, const rddl_transition& out) {
-        if (std::is_same_v<L, Scalar> && are_blocks(actions))
-            step_blocks(workspaces_[0], {0, 1}, {actions, nullptr}, out);
-        else
-            step_some(workspaces_[0], {0, 1}, actions, out);
+    // For one environment that accepts all actions; else null.
+    const BatchView<L>* only_one() const {
+        const bool is_one = std::is_same_v<L, Scalar> && options_.environment_count == 1;
+        return is_one && !action_columns_.has_objects ? views_.data() : nullptr;
     }
 
     // The same with matrices of numbers; `observations` may be null.
@@ -323,10 +323,23 @@ class Batch {
                      workspace.action[0]);
         return workspace.action[0];
     }
-    // Whether rows of single environments are blocks as they stand.
-    bool are_blocks(const std::byte* rows) const {
-        return rows != nullptr && (reinterpret_cast<std::uintptr_t>(rows) &
-                                   static_cast<std::uintptr_t>(action_columns_.alignment - 1)) == 0;
+    BatchView<L> view_of(const Workspace& workspace, const Blocks<L>& blocks) {
+        const auto do_rest = [](const BatchView<L>& view, std::int64_t b, Rest rest,
+                                Actions actions, const rddl_transition& out) {
+            Batch& self = *static_cast<Batch*>(view.batch);
+            const std::int64_t made = rest == Rest::Observations;
+            const Stop<L> stop{b + made, rest == Rest::NextEpisode};
+            self.go_on(self.workspaces_[index(view.thread)], {b, b + 1}, stop, actions, out);
+            return RDDL_OK;
+        };
+        const auto thread = static_cast<int>(&workspace - workspaces_.data());
+        return {blocks, workspace.step_buffers, thread, this, do_rest};
+    }
+
+    std::vector<BatchView<L>> make_views() {
+        std::vector<BatchView<L>> views;
+        for (const Workspace& workspace : workspaces_) views.push_back(view_of(workspace, blocks_));
+        return views;
     }
 
     Streams streams() const {
@@ -354,10 +367,11 @@ class Batch {
     }
 
     // Steps as many blocks from range.begin on as can be stepped together; the first one left.
-    [[gnu::noinline]] std::int64_t step_some(Workspace& workspace, Range range,
-                                             const std::byte* rows, const rddl_transition& out) {
+    std::int64_t step_some(Workspace& workspace, Range range, const std::byte* rows,
+                           const rddl_transition& out) {
         const std::int64_t b = range.begin;
-        const bool whole = std::is_same_v<L, Scalar> ? are_blocks(rows) : lanes_of(b) == width;
+        const bool whole =
+            std::is_same_v<L, Scalar> ? blocks_.are_blocks(rows) : lanes_of(b) == width;
         if (!whole) {
             const std::byte* const block = block_of_actions(workspace, rows, b);
             return step_blocks(workspace, {b, b + 1}, {nullptr, block}, out);
@@ -367,18 +381,23 @@ class Batch {
         range.end = alone ? b + 1 : std::min(range.end, options_.environment_count / width);
         return step_blocks(workspace, range, {rows, nullptr}, out);
     }
-    RDDL_ALWAYS_INLINE std::int64_t step_blocks(Workspace& workspace, Range range, Actions actions,
-                                                const rddl_transition& out) {
-        const Stop<L> stop =
-            advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
-        if (stop.block == range.end && out.observations == nullptr) return range.end;
-        return go_on(workspace, range, stop, actions, out);
+    std::int64_t step_blocks(Workspace& workspace, Range range, Actions actions,
+                             const rddl_transition& out) {
+        if constexpr (width == 1) {
+            const BatchView<L>& view = views_[index(&workspace - workspaces_.data())];
+            advance_one(*engine_, view, range.begin, actions, out);
+            return range.begin + 1;
+        } else {
+            const Stop<L> stop =
+                advance(*engine_, blocks_, range, actions, workspace.step_buffers, out);
+            if (stop.block == range.end && out.observations == nullptr) return range.end;
+            return go_on(workspace, range, stop, actions, out);
+        }
     }
 
-    // What is left of a step of blocks that stopped; the first block that has made none. Apart, as
-    // what follows, so that other steps save no registers for it.
-    [[gnu::noinline]] std::int64_t go_on(Workspace& workspace, Range range, Stop<L> stop,
-                                         Actions actions, const rddl_transition& out) {
+    // What is left of a step of blocks that stopped; the first block that has made none.
+    std::int64_t go_on(Workspace& workspace, Range range, Stop<L> stop, Actions actions,
+                       const rddl_transition& out) {
         if (any(stop.over))
             start_after_step(workspace, stop.block, stop.over, out);
         else if (stop.block < range.end)
@@ -395,7 +414,14 @@ class Batch {
         const Bool were_over = episodes_[index(b)].over();
         Blocks<L> without_resets = blocks_;
         without_resets.autoreset = RDDL_AUTORESET_DISABLED;
-        advance(*engine_, without_resets, {b, b + 1}, actions, workspace.step_buffers, out);
+        rddl_transition without_observations = out;
+        without_observations.observations = nullptr;
+        if constexpr (width == 1)
+            advance_one(*engine_, view_of(workspace, without_resets), b, actions,
+                        without_observations);
+        else
+            advance(*engine_, without_resets, {b, b + 1}, actions, workspace.step_buffers,
+                    without_observations);
         start(workspace, b, were_over);
         write_ends(blocks_, b, episodes_[index(b)].ends, out);
     }
@@ -449,7 +475,8 @@ class Batch {
     std::vector<Episodes<L>> episodes_;
     std::vector<Workspace> workspaces_;
     Team team_;
-    Blocks<L> blocks_;  // of the members above
+    Blocks<L> blocks_;                 // of the members above
+    std::vector<BatchView<L>> views_;  // of each thread, so that the batch cannot be moved
 };
 
 }  // namespace rddl

@@ -99,6 +99,13 @@ struct Blocks {
     const Columns* action_columns;
     const Columns* observation_columns;
 
+    // Whether action records of single environments are blocks as they stand.
+    bool are_blocks(const std::byte* rows) const {
+        const auto address = reinterpret_cast<std::uintptr_t>(rows);
+        return rows != nullptr &&
+               (address & static_cast<std::uintptr_t>(action_columns->alignment - 1)) == 0;
+    }
+
     int lanes_of(std::int64_t b) const {
         if constexpr (L::width == 1) return 1;
         return static_cast<int>(std::min<std::int64_t>(L::width, environment_count - b * L::width));
