@@ -174,6 +174,25 @@ RDDL_INLINE T read_numbers(const std::byte* rows, std::int64_t row_size, int pre
     else
         return read_some_numbers<T>(rows, row_size, present);
 }
+// As many columns as a register has lanes, of whole blocks.
+template <class T>
+RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, T* values) {
+    using Value =
+        std::conditional_t<std::is_same_v<typename T::Element, float>, double, typename T::Element>;
+    Lanes<Value, T::width> columns[simd::lanes];
+    for (int p = 0; p < columns[0].part_count; ++p) {
+        simd::Vector<Value> square[simd::lanes];
+        for (int i = 0; i < simd::lanes; ++i)
+            __builtin_memcpy(&square[i], rows + (p * simd::lanes + i) * row_size, sizeof square[i]);
+        simd::transpose(square);
+        for (int i = 0; i < simd::lanes; ++i) columns[i].part[p] = square[i];
+    }
+    for (int i = 0; i < simd::lanes; ++i)
+        if constexpr (std::is_same_v<typename T::Element, float>)
+            values[i] = to_float(columns[i]);
+        else
+            values[i] = columns[i];
+}
 template <class T>
 RDDL_INLINE void write_numbers(const T& values, std::byte* rows, std::int64_t row_size,
                                int present) {
@@ -251,9 +270,12 @@ template <int n, class R, class List>
 RDDL_INLINE void read_records(Pack<n, R>, const ColumnTable<List>& columns, const std::byte* rows,
                               int present, std::byte* block) {
     const auto read = [&]<class T>(const Column& column, T* values) RDDL_INLINE_LAMBDA {
-        for (std::int64_t k = 0; k < column.count; ++k)
-            values[k] =
-                detail::read_numbers<T>(rows + column.row + 8 * k, columns.row_size, present);
+        const std::byte* const first = rows + column.row;
+        std::int64_t k = 0;
+        for (; present == n && k + simd::lanes <= column.count; k += simd::lanes)
+            detail::read_columns(first + 8 * k, columns.row_size, values + k);
+        for (; k < column.count; ++k)
+            values[k] = detail::read_numbers<T>(first + 8 * k, columns.row_size, present);
     };
     for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
         with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {

@@ -557,4 +557,36 @@ template <class V>
     return result;
 }
 
+// -------------------------------------------------------------------------------- matrices
+
+namespace detail {
+
+// Exchanges what bit `distance` of the row and of the column tell apart: rows[i] gets the lanes of
+// rows[i + distance] that it shall have, and gives its own for them.
+template <int distance, class V, std::size_t... lane>
+[[gnu::always_inline]] inline void exchange(V& row, V& later, std::index_sequence<lane...>) {
+    constexpr std::size_t d = distance, all = sizeof...(lane);
+    const V first =
+        __builtin_shufflevector(row, later, ((lane & d) == 0 ? lane : all + lane - d)...);
+    later = __builtin_shufflevector(row, later, ((lane & d) == 0 ? lane + d : all + lane)...);
+    row = first;
+}
+template <int distance, class V>
+[[gnu::always_inline]] inline void exchange_all(V* rows) {
+    for (int i = 0; i < lanes; ++i)
+        if ((i & distance) == 0)
+            exchange<distance>(rows[i], rows[i + distance], std::make_index_sequence<lanes>());
+}
+
+}  // namespace detail
+
+// Of as many registers of 64-bit values as each has lanes.
+template <class V>
+[[gnu::always_inline]] inline void transpose(V* rows) {
+    static_assert(sizeof(V{}[0]) == 8);
+    if constexpr (lanes > 4) detail::exchange_all<4>(rows);
+    if constexpr (lanes > 2) detail::exchange_all<2>(rows);
+    detail::exchange_all<1>(rows);
+}
+
 }  // namespace rddl::simd::inline RDDL_SIMD_LEVEL
