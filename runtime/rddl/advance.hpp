@@ -59,12 +59,25 @@ RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Block
     return room;
 }
 
+// The state of a block, and where the next one is made if it stays there.
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE std::byte* state_of(const E& engine, const Blocks<L>& blocks, std::int64_t b) {
+    if constexpr (makes_states_in_place<E>()) return blocks.state_of(b, engine.state_size());
+    return blocks.states + static_cast<std::size_t>(2 * b) * engine.state_size();
+}
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE std::byte* next_state_of(const E& engine, const Blocks<L>& blocks,
+                                            std::int64_t b, std::byte* elsewhere) {
+    if constexpr (makes_states_in_place<E>()) return blocks.next_state_of(b, engine.state_size());
+    return elsewhere;
+}
+
 // What a step made, where the mask holds: those lanes go on, the others stay as they are.
 template <Engine E, class L>
 [[gnu::noinline]] void take_over_some(const E& engine, const Blocks<L>& blocks, std::int64_t b,
                                       typename L::Bool mask, const StepBuffers& made) {
     const auto place = static_cast<std::size_t>(b);
-    merge(L{}, *blocks.state_columns, mask, made.next, blocks.states + place * engine.state_size());
+    merge(L{}, *blocks.state_columns, mask, made.next, state_of(engine, blocks, b));
     if (blocks.observations != nullptr)
         merge(L{}, *blocks.observation_columns, mask, made.observation,
               blocks.observations + place * engine.observation_size());
@@ -79,15 +92,22 @@ RDDL_ALWAYS_INLINE void take_over(const E& engine, const Blocks<L>& blocks, std:
     const auto place = static_cast<std::size_t>(b);
     const bool observed = blocks.observations != nullptr;
     if (all(mask)) {
-        copy_state(engine, made.next, blocks.states + place * engine.state_size());
+        if constexpr (makes_states_in_place<E>())
+            blocks.episodes[b].state ^= 1;
+        else
+            copy_state(engine, made.next, state_of(engine, blocks, b));
         if (observed)
             copy_observation(engine, made.observation,
                              blocks.observations + place * engine.observation_size());
     } else if (any(mask)) {
-        if (made.next != memory.next) copy_state(engine, made.next, memory.next);
-        if (observed && made.next != memory.next)
+        StepBuffers in_memory = memory;
+        if constexpr (makes_states_in_place<E>())
+            in_memory.next = made.next;
+        else if (made.next != memory.next)
+            copy_state(engine, made.next, memory.next);
+        if (observed && made.observation != memory.observation)
             copy_observation(engine, made.observation, memory.observation);
-        take_over_some(engine, blocks, b, mask, memory);
+        take_over_some(engine, blocks, b, mask, in_memory);
     }
 }
 
@@ -98,12 +118,12 @@ template <Engine E, class L>
 RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& blocks,
                                               std::int64_t b, typename L::Bool running,
                                               Ends<L>& ends, const Actions& actions,
-                                              const StepBuffers& made, const StepBuffers& memory) {
+                                              StepBuffers made, const StepBuffers& memory) {
     using Bool = typename L::Bool;
     using Int = typename L::Int;
     Episodes<L>& episodes = blocks.episodes[b];
-    const std::byte* const states =
-        blocks.states + static_cast<std::size_t>(b) * engine.state_size();
+    const std::byte* const states = state_of(engine, blocks, b);
+    made.next = next_state_of(engine, blocks, b, made.next);
     const std::byte* const action = action_of_block(engine, blocks, b, actions, made.action);
     Context<L> context = episodes.context_of_step(running);
     const typename L::Real reward =

@@ -85,7 +85,7 @@ class Batch {
           observation_columns_(options.partially_observed ? columns_of<L>(problem, RDDL_OBSERVATION,
                                                                           problem.observation_size)
                                                           : state_columns_),
-          states_(block_count(), engine.state_size()),
+          states_(2 * block_count(), engine.state_size()),
           observations_(options.partially_observed ? block_count() : 0, engine.observation_size()),
           memories_(has_policy(engine) ? block_count() : 0, memory_size(engine)),
           episodes_(block_count()),
@@ -144,7 +144,7 @@ class Batch {
     }
 
     void get_state(std::int64_t i, std::byte* record) const {
-        write_record(L{}, state_columns_, states_[i / width], lane_of(i), record);
+        write_record(L{}, state_columns_, state(i / width), lane_of(i), record);
     }
     // In a fully observed problem the state is what is observed.
     void get_observation(std::int64_t i, std::byte* record) const {
@@ -152,10 +152,10 @@ class Batch {
     }
     // The episode goes on from this state, unless it is terminal.
     void set_state(std::int64_t i, const std::byte* record) {
-        read_record(L{}, state_columns_, record, states_[i / width], lane_of(i));
+        read_record(L{}, state_columns_, record, state(i / width), lane_of(i));
         Bool lane{false};
         set_lane(lane, lane_of(i), true);
-        end_if_terminal(*engine_, at(i), lane, states_[i / width]);
+        end_if_terminal(*engine_, at(i), lane, state(i / width));
     }
 
     // -------------------------------------------------------------- all environments
@@ -292,13 +292,17 @@ class Batch {
     // Environments in the block.
     int lanes_of(std::size_t b) const { return lanes_of(static_cast<std::int64_t>(b)); }
     int lanes_of(std::int64_t b) const { return blocks_.lanes_of(b); }
+    std::byte* state(std::int64_t b) { return states_[2 * b + episodes_[index(b)].state]; }
+    const std::byte* state(std::int64_t b) const {
+        return states_[2 * b + episodes_[index(b)].state];
+    }
     Episodes<L>& at(std::int64_t i) { return episodes_[index(i / width)]; }
     const Episodes<L>& at(std::int64_t i) const { return episodes_[index(i / width)]; }
     std::byte* observed(std::int64_t b) {
-        return options_.partially_observed ? observations_[b] : states_[b];
+        return options_.partially_observed ? observations_[b] : state(b);
     }
     const std::byte* observed(std::int64_t b) const {
-        return options_.partially_observed ? observations_[b] : states_[b];
+        return options_.partially_observed ? observations_[b] : state(b);
     }
 
     template <class Body>
@@ -350,7 +354,7 @@ class Batch {
         const std::uint64_t identity = static_cast<std::uint64_t>(options_.first_environment) +
                                        static_cast<std::uint64_t>(b * width);
         start_next(*engine_, state_columns_, episodes_[index(b)], lanes, streams(), identity,
-                   workspace.next[0], states_[b]);
+                   workspace.next[0], state(b));
         if (options_.partially_observed) clear_observations(workspace, b, lanes);
         if constexpr (PolicyEngine<E>)
             if (engine_->has_policy() && any(lanes)) engine_->reset_policy(memories_[b]);
@@ -363,7 +367,7 @@ class Batch {
     typename L::Int violated_precondition(std::int64_t b, const std::byte* actions) const {
         const Episodes<L>& episodes = episodes_[index(b)];
         Context<L> context = episodes.context_of_step(episodes.present);
-        return engine_->violated_precondition(states_[b], actions, context);
+        return engine_->violated_precondition(state(b), actions, context);
     }
 
     // Steps as many blocks from range.begin on as can be stepped together; the first one left.
@@ -469,7 +473,7 @@ class Batch {
     const rddl_problem* problem_;
     BatchOptions options_;
     Columns state_columns_, action_columns_, observation_columns_;
-    Records states_;        // blocks
+    Records states_;        // two for each block
     Records observations_;  // blocks; none when fully observed
     Records memories_;      // of the policy; none without one
     std::vector<Episodes<L>> episodes_;

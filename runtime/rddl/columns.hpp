@@ -121,6 +121,15 @@ constexpr bool has_padding(const rddl_problem& problem, rddl_role role, std::int
     return values != row_size;
 }
 
+// Whether some fluent of the role has so many values that compilers keep it in memory.
+constexpr bool has_tables(const rddl_problem& problem, rddl_role role) {
+    constexpr std::int64_t most_in_registers = 4;
+    bool has = false;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f)
+        has |= problem.fluents[f].role == role && problem.fluents[f].count > most_in_registers;
+    return has;
+}
+
 // Calls visit(column) for each; known ones are constants there.
 template <class Visit>
 void for_each_column(const Columns& columns, Visit&& visit) {

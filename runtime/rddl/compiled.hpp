@@ -37,6 +37,7 @@ struct Compiled {
                   std::is_trivially_copyable_v<Observation> &&
                   std::is_trivially_copyable_v<Memory>);
 
+    static constexpr bool has_state_tables = has_tables(problem, RDDL_STATE);
     static constexpr auto action_columns = known_action_columns<L, problem>();
     // Callers get all bytes of the records of one environment.
     static constexpr bool shows_padding =

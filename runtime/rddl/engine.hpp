@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace rddl {
 
@@ -83,8 +84,17 @@ concept TypedEngine = Engine<E> && requires {
     typename E::Scratch;
     typename E::Observation;
     E::action_columns;
+    { E::has_state_tables } -> std::convertible_to<bool>;
     { E::shows_padding } -> std::convertible_to<bool>;
 };
+
+// Whether a step makes the next state where it is going to stay, instead of in registers, from
+// where it is copied.
+template <Engine E>
+constexpr bool makes_states_in_place() {
+    if constexpr (TypedEngine<E>) return E::has_state_tables;
+    return true;
+}
 
 // Calls use(buffers) with these or, for small records, with variables, which the compiler may keep
 // in registers.
@@ -92,10 +102,11 @@ template <class E, class Use>
 RDDL_ALWAYS_INLINE decltype(auto) with_step_buffers(const StepBuffers& buffers, Use&& use) {
     constexpr std::size_t most_bytes = 4096;  // of the stack
     if constexpr (TypedEngine<E>) {
+        struct Nothing {};
         struct Records {
             typename E::Action action;
             typename E::Scratch scratch;
-            typename E::State next;
+            std::conditional_t<makes_states_in_place<E>(), Nothing, typename E::State> next;
             typename E::Observation observation;
         };
         if constexpr (sizeof(Records) <= most_bytes) {

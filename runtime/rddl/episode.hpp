@@ -47,6 +47,7 @@ struct alignas(64) Episodes {
     Int number{std::int64_t{-1}};  // episodes ended before this one
     Int steps{std::int64_t{0}};    // made in this episode
     Word key_low{std::uint64_t{0}}, key_high{std::uint64_t{0}};
+    std::int64_t state = 0;  // which of the two records of the block it is: 0 or 1
     Ends<L> ends;
 
     // The fault of this episode, or of the last one until this one makes a step.
@@ -93,7 +94,7 @@ struct Blocks {
     std::int64_t horizon;  // the greatest int: none
     rddl_autoreset autoreset;
     Episodes<L>* episodes;
-    std::byte* states;
+    std::byte* states;        // two records for each block: its state, and room for the next one
     std::byte* observations;  // null when fully observed
     const Columns* state_columns;
     const Columns* action_columns;
@@ -104,6 +105,14 @@ struct Blocks {
         const auto address = reinterpret_cast<std::uintptr_t>(rows);
         return rows != nullptr &&
                (address & static_cast<std::uintptr_t>(action_columns->alignment - 1)) == 0;
+    }
+
+    // `state_size` is that of a block.
+    std::byte* state_of(std::int64_t b, std::size_t state_size) const {
+        return states + static_cast<std::size_t>(2 * b + episodes[b].state) * state_size;
+    }
+    std::byte* next_state_of(std::int64_t b, std::size_t state_size) const {
+        return states + static_cast<std::size_t>(2 * b + 1 - episodes[b].state) * state_size;
     }
 
     int lanes_of(std::int64_t b) const {
