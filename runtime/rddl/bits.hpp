@@ -32,7 +32,7 @@ inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) *
 
 template <int count>
 std::int64_t bits_of(const bool* bools) {
-    return static_cast<std::int64_t>(simd::bits_of_bytes(bools, count));
+    return static_cast<std::int64_t>(simd::bits_of_stored_bytes(bools, count));
 }
 template <int count, int n>
 Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {

@@ -56,8 +56,7 @@ struct Elements {
 
 template <int n, class R>
 struct Context<Objects<n, R>> {
-    StreamKey key;
-    std::uint32_t step;
+    const philox::Schedule<philox::draw_rounds, std::uint64_t>& schedule;
     Mask<n> active;  // the lanes whose values are looked at: they alone can fault
     int faulty_lane = n;
     FaultRecord fault{};  // of the first of the lanes that have one
@@ -86,11 +85,9 @@ template <int n, class R>
 RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place) {
     using Word = Lanes<std::uint64_t, n / 2>;
     const Word first{std::uint64_t{place.index / 2}};
-    const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
-        philox::Block<Word>{Word{std::uint64_t{context.step}}, Word{std::uint64_t{place.series}},
-                            first + Word::load(detail::lane_numbers<n / 2>.data()),
-                            Word{std::uint64_t{0}}},
-        {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
+    philox::Block<Word> words;
+    context.schedule.generate(place.series, first + Word::load(detail::lane_numbers<n / 2>.data()),
+                              words);
     return unit_real<R>(interleaved(words[0], words[2]), interleaved(words[1], words[3]));
 }
 
@@ -115,7 +112,7 @@ constexpr auto& first_part(T& table) {
 
 template <int n>
 RDDL_INLINE Mask<n> load_some(const bool* from, const SomeObjects<n>& objects) {
-    return Mask<n>::of_bits(simd::bits_of_bytes(from, objects.count));
+    return Mask<n>::of_bits(simd::bits_of_stored_bytes(from, objects.count));
 }
 template <int n, class T>
 RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) {
@@ -196,12 +193,18 @@ inline constexpr int objects_at_once = 16;
 template <class R, class Body>
 RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
     constexpr int n = objects_at_once;
-    for (Index first = 0; first < count; first += n) {
-        const SomeObjects<n> objects{first, static_cast<int>(std::min<Index>(n, count - first))};
-        Context<Objects<n, R>> some{context.key, context.step, objects.mask()};
+    const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
+        context.step, {context.key.low, context.key.high});
+    const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
+        const SomeObjects<n> objects{first, some_count};
+        Context<Objects<n, R>> some{schedule, objects.mask()};
         body(some, objects);
         if (some.fault && !context.fault) context.fault = some.fault;
-    }
+    };
+    // In two calls, so that compilers know how many objects there are in each.
+    const Index full = count / n * n;
+    for (Index first = 0; first < full; first += n) some_at(first, n);
+    if (full < count) some_at(full, static_cast<int>(count - full));
 }
 
 }  // namespace rddl

@@ -76,31 +76,42 @@ class Schedule {
         for (Key<Word>& later : later_keys_) later = next = next_key(next);
     }
 
-    // The blocks of two counters, made in turns since each round waits for the one before it.
-    RDDL_INLINE void generate(std::uint64_t second, std::uint64_t third, Block<Word>& words,
-                              std::uint64_t other_third, Block<Word>& other_words) const {
+    // The block of a counter. Third, if not Word, is a number of which Word has several, or the
+    // reverse; Result is the one of them that has more.
+    template <class Third, class Result>
+    RDDL_INLINE void generate(std::uint64_t second, const Third& third,
+                              Block<Result>& words) const {
+        do_two_rounds(second, third, words);
+        for_each_later_key([&](const Key<Word>& key)
+                               RDDL_INLINE_LAMBDA { do_round(words, to<Result>(key)); });
+    }
+    // The blocks of two, made in turns since each round waits for the one before it.
+    template <class Third, class Result>
+    RDDL_INLINE void generate(std::uint64_t second, const Third& third, Block<Result>& words,
+                              const Third& other_third, Block<Result>& other_words) const {
         do_two_rounds(second, third, words);
         do_two_rounds(second, other_third, other_words);
         for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA {
-            do_round(words, key);
-            do_round(other_words, key);
+            do_round(words, to<Result>(key));
+            do_round(other_words, to<Result>(key));
         });
-    }
-    // The block of one.
-    RDDL_INLINE void generate(std::uint64_t second, std::uint64_t third, Block<Word>& words) const {
-        do_two_rounds(second, third, words);
-        for_each_later_key([&](const Key<Word>& key) RDDL_INLINE_LAMBDA { do_round(words, key); });
     }
 
   private:
-    RDDL_INLINE void do_two_rounds(std::uint64_t second, std::uint64_t third,
-                                   Block<Word>& words) const {
-        const std::uint64_t product = multiply_low_halves(third, second_multiplier);
-        const Word after_one = Word{upper_halves(product) ^ second} ^ first_key_;
-        words[0] = after_two_rounds_[0] ^ Word { product };
-        words[1] = after_two_rounds_[1];
-        words[3] = multiply_low_halves(after_one, Word{first_multiplier});
-        words[2] = after_two_rounds_[2] ^ upper_halves(words[3]);
+    template <class Result>
+    static RDDL_INLINE Key<Result> to(const Key<Word>& key) {
+        return {Result{key[0]}, Result{key[1]}};
+    }
+    template <class Third, class Result>
+    RDDL_INLINE void do_two_rounds(std::uint64_t second, const Third& third,
+                                   Block<Result>& words) const {
+        const Third product = multiply_low_halves(third, Third{second_multiplier});
+        const Result after_one =
+            Result{upper_halves(product)} ^ Result { Word{second} ^ first_key_ };
+        words[0] = Result{after_two_rounds_[0]} ^ Result { product };
+        words[1] = Result{after_two_rounds_[1]};
+        words[3] = multiply_low_halves(after_one, Result{first_multiplier});
+        words[2] = Result{after_two_rounds_[2]} ^ upper_halves(words[3]);
     }
     // As constants, so that all rounds are compiled one after the other.
     template <class Use>

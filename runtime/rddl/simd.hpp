@@ -426,6 +426,42 @@ constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
     return (selected + 0x7F7F7F7F7F7F7F7F) >> 7 & 0x0101010101010101;
 }
 
+#ifdef RDDL_SIMD_AVX512
+typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
+
+// 0 < `count` <= 16 bytes, in the largest parts of 16, 8, 4, 2 and 1; zeros behind them.
+[[gnu::always_inline]] inline __m128i load_parts(const void* bytes, int count) {
+    if (count == 16) return _mm_loadu_si128(static_cast<const __m128i_u*>(bytes));
+    TwoWords words{};
+    int i = 0;
+    const auto load = [&](auto part) __attribute__((always_inline)) {
+        if ((count & static_cast<int>(sizeof part)) == 0) return;
+        __builtin_memcpy(&part, static_cast<const char*>(bytes) + i, sizeof part);
+        words[i / 8] |= std::uint64_t{part} << i % 8 * 8;
+        i += static_cast<int>(sizeof part);
+    };
+    load(std::uint64_t{});
+    load(std::uint32_t{});
+    load(std::uint16_t{});
+    load(std::uint8_t{});
+    return (__m128i)words;
+}
+[[gnu::always_inline]] inline void store_parts(void* bytes, __m128i values, int count) {
+    if (count == 16) return _mm_storeu_si128(static_cast<__m128i_u*>(bytes), values);
+    int i = 0;
+    const auto store = [&](auto part) __attribute__((always_inline)) {
+        if ((count & static_cast<int>(sizeof part)) == 0) return;
+        part = static_cast<decltype(part)>(((TwoWords)values)[i / 8] >> i % 8 * 8);
+        __builtin_memcpy(static_cast<char*>(bytes) + i, &part, sizeof part);
+        i += static_cast<int>(sizeof part);
+    };
+    store(std::uint64_t{});
+    store(std::uint32_t{});
+    store(std::uint16_t{});
+    store(std::uint8_t{});
+}
+#endif
+
 // Which of 0 < `count` <= 64 bytes are not 0.
 [[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
@@ -444,10 +480,29 @@ constexpr std::uint64_t bytes_of_bits(std::uint64_t bits) {
     return bits;
 #endif
 }
+// The same of bytes that store_as_bytes may have stored just now: processors are slow to load what
+// was stored in other parts, so these are the same.
+[[gnu::always_inline]] inline std::uint64_t bits_of_stored_bytes(const void* bytes, int count) {
+#ifdef RDDL_SIMD_AVX512
+    if (__builtin_constant_p(count)) {
+        std::uint64_t bits = 0;
+#pragma GCC unroll 4
+        for (int i = 0; i < count; i += 16) {
+            const __m128i values =
+                load_parts(static_cast<const char*>(bytes) + i, count - i < 16 ? count - i : 16);
+            bits |= std::uint64_t{_mm_test_epi8_mask(values, values)} << i;
+        }
+        return bits;
+    }
+#endif
+    return bits_of_bytes(bytes, count);
+}
 // The first `count` > 0 of the n bits.
 template <int n>
 [[gnu::always_inline]] inline void store_as_bytes(std::uint64_t bits, void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
+    if (n == 16 && __builtin_constant_p(count))
+        return store_parts(bytes, _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1), count);
     const std::uint64_t stored = ~std::uint64_t{0} >> (64 - count);
     if constexpr (n <= 16)
         _mm_mask_storeu_epi8(bytes, static_cast<__mmask16>(stored),
