@@ -345,21 +345,29 @@ RDDL_INLINE Lanes<std::int64_t, n> sign(const Lanes<T, n>& a) {
     return select(is_nan(a), std::numeric_limits<std::int64_t>::min(), signs);
 }
 
+// nan wins, and of equal numbers the first. Register by register, since masks over all lanes cost
+// more than the comparisons; with a constant, as often, that takes one instruction.
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
-    if constexpr (std::is_floating_point_v<A>)  // most often a constant
-        if (!is_zero_or_nan(a)) return select(x < y, x, y);
-    return select(y < x || is_nan(b), y, x);
+    if constexpr (std::is_floating_point_v<A>)
+        if (!is_zero_or_nan(a))
+            return Result::each([](auto p, auto q) { return p < q ? p : q; }, x, y);
+    if constexpr (std::is_floating_point_v<B>)
+        if (!is_nan(b)) return Result::each([](auto p, auto q) { return q < p ? q : p; }, x, y);
+    return Result::each([](auto p, auto q) { return (q < p) | (q != q) ? q : p; }, x, y);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
     using Result = LanesOf<A, detail::common_width<A, B>>;
     const Result x(a), y(b);
     if constexpr (std::is_floating_point_v<A>)
-        if (!is_zero_or_nan(a)) return select(x > y, x, y);
-    return select(y > x || is_nan(b), y, x);
+        if (!is_zero_or_nan(a))
+            return Result::each([](auto p, auto q) { return p > q ? p : q; }, x, y);
+    if constexpr (std::is_floating_point_v<B>)
+        if (!is_nan(b)) return Result::each([](auto p, auto q) { return q > p ? q : p; }, x, y);
+    return Result::each([](auto p, auto q) { return (q > p) | (q != q) ? q : p; }, x, y);
 }
 
 // ----------------------------------------------------------------------------- real functions
