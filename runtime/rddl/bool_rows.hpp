@@ -124,7 +124,7 @@ RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
                 all, _mm512_maskz_srli_epi16(all, bits, static_cast<unsigned>(lane)));
         };
         return simd::reinterpret<BitColumns>(
-            _mm512_inserti64x4(_mm512_castsi256_si512(half(0)), half(32), 1));
+            _mm512_maskz_inserti64x4(0xFF, _mm512_castsi256_si512(half(0)), half(32), 1));
     }
 #endif
     BitColumns columns{};
@@ -146,16 +146,17 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
     if constexpr (n == 16) {
         const auto store_half = [&](int first, __m256i low, __m256i high) RDDL_INLINE_LAMBDA {
             constexpr std::uint32_t all = ~std::uint32_t{0};
-            const __m512i bits = _mm512_or_si512(
-                _mm512_maskz_cvtepu8_epi16(all, low),
-                _mm512_maskz_slli_epi16(all, _mm512_maskz_cvtepu8_epi16(all, high), 8));
+            const __m512i bits =
+                _mm512_maskz_cvtepu8_epi16(all, low) |
+                _mm512_maskz_slli_epi16(all, _mm512_maskz_cvtepu8_epi16(all, high), 8);
             _mm512_mask_storeu_epi16(masks + first, static_cast<std::uint32_t>(there >> first),
                                      bits);
         };
         const auto low = simd::reinterpret<__m512i>(columns[0]),
                    high = simd::reinterpret<__m512i>(columns[1]);
         store_half(0, _mm512_castsi512_si256(low), _mm512_castsi512_si256(high));
-        store_half(32, _mm512_extracti64x4_epi64(low, 1), _mm512_extracti64x4_epi64(high, 1));
+        store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
+                   _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
         return;
     }
 #endif
