@@ -30,6 +30,9 @@ class Relaxing {
                 return power(a, b);
             case Operator::FloorModuloReal:
                 return remainder(a, b);
+            case Operator::Minimum:
+            case Operator::Maximum:
+                return constant_last(apply->op, a, b);
             default:
                 return std::nullopt;
         }
@@ -71,8 +74,14 @@ class Relaxing {
         const bool is_table = divisor.uniform && !divisor.free_variables.empty();
         if (!is_table || !ir::is_droppable(divisor) || builder_.facts(a).uniform)
             return std::nullopt;
-        const ir::NodeId one = builder_.constant(1.0);
-        return multiply(a, builder_.apply(Operator::Divide, {one, b}));
+        const auto [factor, rest] = without_constant_factor(a);
+        return multiply(rest, builder_.apply(Operator::Divide, {builder_.constant(factor), b}));
+    }
+
+    // One instruction does not tell which zero, or which nan, it takes.
+    std::optional<ir::NodeId> constant_last(Operator op, ir::NodeId a, ir::NodeId b) {
+        if (constant(a) != 0.0 || constant(b)) return std::nullopt;
+        return builder_.apply(op, {b, a});
     }
 
     // x * factor, where that is simpler than a product.
@@ -84,6 +93,20 @@ class Relaxing {
         if (const auto inner = constant(b)) return multiply(a, builder_.constant(*inner * factor));
         if (const auto inner = constant(a)) return multiply(builder_.constant(*inner * factor), b);
         return std::nullopt;
+    }
+
+    // factor * rest; the factor may be 1.
+    struct Scaled {
+        double factor;
+        ir::NodeId rest;
+    };
+    Scaled without_constant_factor(ir::NodeId x) const {
+        const auto* apply = std::get_if<ir::Apply>(&builder_.program()[x].form);
+        if (!apply || apply->op != Operator::Multiply) return {1.0, x};
+        const ir::NodeId a = apply->operands[0], b = apply->operands[1];
+        if (const auto factor = constant(a)) return {*factor, b};
+        if (const auto factor = constant(b)) return {*factor, a};
+        return {1.0, x};
     }
 
     // The test for zero of a product that RDDL makes 0 even if the other factor is inf or nan.

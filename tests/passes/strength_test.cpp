@@ -37,6 +37,8 @@ TEST(FastMath, MultipliesByReciprocals) {
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / E(?o)]"), "sum[o in obj](state.x * (1.0 / real(E[o])))");
     EXPECT_EQ(relaxed("x + sum_{?o : obj} [1 / E(?o)]"),
               "state.x + sum[o in obj](1.0 / real(E[o]))");
+    EXPECT_EQ(relaxed("sum_{?o : obj} [0.5 * x / E(?o)]"),
+              "sum[o in obj](state.x * (0.5 / real(E[o])))");
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / v(?o)]"), "sum[o in obj](state.x / state.v[o])");
 }
 
@@ -58,6 +60,12 @@ TEST(FastMath, TestsNoFactorForZero) {
     EXPECT_EQ(x.after, "state.x * exp(state.x)");
     EXPECT_EQ(relaxed("x * lngamma[x]"),
               "select(state.x == 0.0, state.x, state.x * ln_gamma@0[0](state.x))");
+}
+
+TEST(FastMath, ComparesWithZeroLast) {
+    EXPECT_EQ(relaxed("max[0.0, x] + min[0.0, x]"),
+              "maximum(state.x, 0.0) + minimum(state.x, 0.0)");
+    EXPECT_EQ(relaxed("max[2.0, x]"), "maximum(2.0, state.x)");
 }
 
 TEST(FastMath, KnowsSmallPowers) {
