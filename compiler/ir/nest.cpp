@@ -41,6 +41,21 @@ Nest nest_of(const Loop& outermost) {
     return nest;
 }
 
+Block& innermost_body(Loop& outermost) {
+    auto* const inner =
+        outermost.body.size() == 1 ? std::get_if<Loop>(&outermost.body.front().form) : nullptr;
+    return inner ? innermost_body(*inner) : outermost.body;
+}
+
+Block looped(Block body, const std::vector<VariableId>& variables) {
+    for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
+        Block outer;
+        outer.push_back({Loop{.variable = *variable, .body = std::move(body)}});
+        body = std::move(outer);
+    }
+    return body;
+}
+
 bool is_place_in(const Program& program, const Nest& nest, NodeId id) {
     return is_place(program, nest.variables, id);
 }

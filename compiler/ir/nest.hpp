@@ -12,6 +12,9 @@ struct Nest {
     const Block* body;                  // of the innermost loop
 };
 Nest nest_of(const Loop& outermost);
+Block& innermost_body(Loop& outermost);
+// The reverse of nest_of: loops over these variables, outermost first, around a body; without any, the body.
+Block looped(Block body, const std::vector<VariableId>& variables);
 
 // The row-major place among all combinations.
 bool is_place_in(const Program& program, const Nest& nest, NodeId id);

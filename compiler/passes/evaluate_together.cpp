@@ -2,6 +2,7 @@
 
 #include "ir/analysis.hpp"
 #include "ir/nest.hpp"
+#include "passes/several_objects.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -9,117 +10,70 @@
 namespace rddlc::passes {
 namespace {
 
-constexpr std::int64_t fewest_iterations = 8;
+// In operations (Facts::cost): C++ compilers put cheaper loops over reals into registers
+// themselves.
+constexpr double least_cost_of_reals = 4;
 
-// Drawn from one number, by functions that registers have.
-bool is_by_inversion(Distribution distribution) {
-    switch (distribution) {
-        case Distribution::Bernoulli:
-        case Distribution::Uniform:
-        case Distribution::Normal:
-        case Distribution::Exponential:
-        case Distribution::Weibull:
-        case Distribution::Geometric:
-        case Distribution::Pareto:
-        case Distribution::Gumbel:
-        case Distribution::Laplace:
-        case Distribution::Cauchy:
-        case Distribution::Gompertz:
-        case Distribution::Kumaraswamy:
-            return true;
-        default:
-            return false;
-    }
-}
-
-class Question {
+class Marking {
   public:
-    Question(const ir::Program& program, const std::vector<ir::Facts>& facts,
-             const ir::Loop& outermost)
-        : program_(program), facts_(facts), nest_(ir::nest_of(outermost)) {}
+    explicit Marking(const ir::Program& program)
+        : program_(program), facts_(ir::all_facts(program)) {}
 
-    bool is_worth_it() const {
-        std::int64_t iterations = 1;
-        for (const ir::VariableId variable : nest_.variables) iterations *= program_[variable].size;
-        return iterations >= fewest_iterations &&
-               std::ranges::all_of(*nest_.body, [&](const ir::Statement& statement) {
-                   const auto* store = std::get_if<ir::Store>(&statement.form);
-                   return !store || program_[store->target].scalar == ir::Scalar::Bool ||
-                          facts_[store->value.index].random;
-               });
-    }
-
-    bool is_possible() const {
-        return std::ranges::all_of(*nest_.body, [&](const ir::Statement& statement) {
-            return match(
-                statement.form, [&](const ir::Let& let) { return is_possible(let.value); },
-                [&](const ir::Store& store) {
-                    return is_of_these_objects(store.indices) && is_possible(store.value);
-                },
-                [](const auto&) { return false; });
-        });
+    std::int64_t mark(ir::Block& block) const {
+        std::int64_t marked = 0;
+        for (ir::Statement& statement : block) {
+            auto* const loop = std::get_if<ir::Loop>(&statement.form);
+            if (!loop) continue;
+            loop->several_at_once = is_worth_it(*loop) && is_possible(*loop);
+            marked += loop->several_at_once;
+        }
+        return marked;
     }
 
   private:
-    bool is_possible(ir::NodeId id) const {
-        return match(
-            program_[id].form, [](const ir::Constant&) { return true; },
-            [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
-            [&](const ir::Load& load) { return is_possible(load); },
-            [&](const ir::Convert& convert) { return is_possible(convert.operand); },
-            [&](const ir::Apply& apply) { return !apply.place && all_possible(apply.operands); },
-            [&](const ir::Select& select) {
-                return all_possible({select.condition, select.then_value, select.else_value});
-            },
-            [&](const ir::Sample& sample) {
-                return is_by_inversion(sample.distribution) &&
-                       ir::is_place_in(program_, nest_, sample.place.index) &&
-                       all_possible(sample.parameters);
-            },
-            [](const auto&) { return false; });
-    }
-    bool all_possible(const std::vector<ir::NodeId>& ids) const {
-        return std::ranges::all_of(ids, [&](ir::NodeId id) { return is_possible(id); });
-    }
-
-    // An element of these objects, or one that is the same for all of them.
-    bool is_possible(const ir::Load& load) const {
-        if (ir::begins_with(program_, load.indices, nest_)) {
-            const auto rest =
-                load.indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
-            return all_possible({rest, load.indices.end()});
+    bool is_worth_it(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        double cost = 0;
+        bool draws_or_is_bool = true;
+        for (const ir::Statement& statement : *nest.body) {
+            if (const auto* let = std::get_if<ir::Let>(&statement.form))
+                cost += cost_of(let->value);
+            const auto* store = std::get_if<ir::Store>(&statement.form);
+            if (!store) continue;
+            const ir::Scalar scalar = program_[store->target].scalar;
+            if (scalar == ir::Scalar::Int && !facts_[store->value.index].random) return false;
+            cost += cost_of(store->value);
+            draws_or_is_bool &= scalar == ir::Scalar::Bool || facts_[store->value.index].random;
         }
-        return std::ranges::all_of(load.indices, [&](ir::NodeId index) {
-            const ir::Facts& facts = facts_[index.index];
-            return facts.uniform && std::ranges::none_of(nest_.variables, [&](ir::VariableId v) {
-                       return std::ranges::binary_search(facts.free_variables, v);
-                   });
-        });
+        return draws_or_is_bool || cost >= least_cost_of_reals;
     }
+    double cost_of(ir::NodeId id) const { return facts_[id.index].cost; }
 
-    bool is_of_these_objects(const std::vector<ir::NodeId>& indices) const {
-        return indices.size() == nest_.variables.size() &&
-               ir::begins_with(program_, indices, nest_);
+    bool is_possible(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        const SeveralObjects several(
+            program_, [&](ir::NodeId id) -> const ir::Facts& { return facts_[id.index]; }, nest);
+        return several.are_enough() &&
+               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+                   return match(
+                       statement.form,
+                       [&](const ir::Let& let) { return several.can_evaluate(let.value); },
+                       [&](const ir::Store& store) { return several.can_store(store); },
+                       [](const auto&) { return false; });
+               });
     }
 
     const ir::Program& program_;
-    const std::vector<ir::Facts>& facts_;
-    ir::Nest nest_;
+    std::vector<ir::Facts> facts_;
 };
 
 }  // namespace
 
 ir::Program evaluate_together(ir::Program program, Report& report) {
-    const std::vector<ir::Facts> facts = ir::all_facts(program);
-    for (ir::Definition& definition : program.step) {
-        for (ir::Statement& statement : definition.body) {
-            auto* const loop = std::get_if<ir::Loop>(&statement.form);
-            if (!loop) continue;
-            const Question question(program, facts, *loop);
-            loop->several_at_once = question.is_worth_it() && question.is_possible();
-            report["loops over several objects at once"] += loop->several_at_once ? 1 : 0;
-        }
-    }
+    const Marking marking(program);
+    std::int64_t& marked = report["loops over several objects at once"];
+    for (ir::Definition& definition : program.step) marked += marking.mark(definition.body);
+    marked += marking.mark(program.reward.body);
     return program;
 }
 

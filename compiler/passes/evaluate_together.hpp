@@ -5,8 +5,8 @@
 //         next.up[x] = sample bernoulli@0[x](P[x])  =>    next.up[x] = sample bernoulli@0[x](P[x])
 //
 // Loops right inside each other become one over all combinations. What they read and write are the
-// elements of their objects, or what is the same for all; they compute bools or draw, without
-// aggregations. Fewer than 8 iterations do not fill the registers.
+// elements of their objects, or what is the same for all, without aggregations; they draw, or
+// compute bools, or reals that are not cheap. Fewer than 8 iterations do not fill the registers.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -1,6 +1,7 @@
 #include "passes/hoist_aggregations.hpp"
 
 #include "ir/call.hpp"
+#include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/new_tables.hpp"
 #include "support/match.hpp"
@@ -167,19 +168,10 @@ class Hoisting {
         for (ir::VariableId variable : dimensions) indices.push_back(builder_.index(variable));
         ir::Block fill;
         fill.push_back({ir::Store{table, indices, replaced(id)}});
-        std::ranges::move(looped(std::move(fill), dimensions), std::back_inserter(before));
+        std::ranges::move(ir::looped(std::move(fill), dimensions), std::back_inserter(before));
         elements_[id] = builder_.load(table, indices);
         replaced_.clear();
         ++report_["tables filled before loops"];
-    }
-
-    static ir::Block looped(ir::Block body, const Variables& variables) {
-        for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
-            ir::Block outer;
-            outer.push_back({ir::Loop{.variable = *variable, .body = std::move(body)}});
-            body = std::move(outer);
-        }
-        return body;
     }
 
     ir::BufferId new_table(ir::NodeId id, const Variables& dimensions) {

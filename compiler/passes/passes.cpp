@@ -19,6 +19,7 @@
 #include "passes/reduce_strength.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/search_intervals.hpp"
+#include "passes/separate_aggregations.hpp"
 #include "passes/share_across_definitions.hpp"
 #include "passes/share_subexpressions.hpp"
 #include "passes/skip_zero_terms.hpp"
@@ -82,6 +83,9 @@ constexpr Pass in_order[] = {
      passes::count_bits},
     {"share_across_definitions", "what several CPFs compute is computed once",
      passes::share_across_definitions},
+    {"separate_aggregations",
+     "loops and sums leave aggregations and terms to tables, to run over several objects at once",
+     passes::separate_aggregations},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",
      passes::remove_unused_buffers},
     {"share_subexpressions", "what is used twice, or does not change in a loop, gets a name",
@@ -89,7 +93,7 @@ constexpr Pass in_order[] = {
     // Again, as what has a name is cheap now.
     {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
      passes::reduce_strength},
-    {"evaluate_together", "loops that draw, or give bools, run over several objects at once",
+    {"evaluate_together", "loops over several objects at once fill vector registers",
      passes::evaluate_together},
 };
 

@@ -38,6 +38,20 @@ TEST(EvaluateTogether, TakesLoopsThatDrawOrGiveBools) {
         EXPECT_EQ(loop_for(cpf), "for x in obj, several at once") << cpf;
 }
 
+TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {
+    const auto marked = [](const std::string& cpf_of_v) {
+        Problem problem = with_pairs("a");
+        problem.cpfs = "on'(?x, ?y) = a;\nv'(?x, ?y) = " + cpf_of_v + ";\nw'(?x) = ~w(?x);";
+        passes::Report report;
+        passes::evaluate_together(grounded(problem), report);
+        return report["loops over several objects at once"] - 1;  // that of `on` is one
+    };
+    EXPECT_EQ(marked("exp[v(?x, ?y)]"), 1);
+    EXPECT_EQ(marked("max[0.0, min[v(?x, ?y), P(?x, ?y)]] + 2 * v(?x, ?y)"), 1);
+    EXPECT_EQ(marked("v(?x, ?y) + 1.0"), 0);
+    EXPECT_EQ(marked("exp[v(?y, ?x)]"), 0);
+}
+
 TEST(EvaluateTogether, LeavesLoopsThatReadOtherElements) {
     for (const char* cpf :
          {"on(?y, ?x) ^ a", "Bernoulli(W(?x))", "w(?y)", "exists_{?z : obj} [on(?x, ?z)]",
@@ -45,7 +59,7 @@ TEST(EvaluateTogether, LeavesLoopsThatReadOtherElements) {
         EXPECT_EQ(loop_for(cpf), "for x in obj") << cpf;
 }
 
-TEST(EvaluateTogether, LeavesSumsOfRealsAndShortLoops) {
+TEST(EvaluateTogether, LeavesCheapSumsAndShortLoops) {
     passes::Report report;
     const std::string text =
         ir::print(passes::evaluate_together(grounded(with_pairs("on(?x, ?y)")), report));
