@@ -8,11 +8,13 @@ A network of computers, a fire on a grid and a recommender (benchmarks/growth/) 
 and 10,000 objects: each object has a few entries in the tables, so the number of entries that are not
 zero is proportional to that of objects. `rddl bench` with one thread, a single environment.
 
-Limit: ten times the objects may cost twenty times the time at most; a cost by the square would be a
-hundred times.
+Limit: over all sizes the time may grow with the power 1.25 of the entries at most (the slope of a straight
+line through the logarithms of both); a cost by the square would be the power 2.
 """
 
 import argparse
+import math
+import statistics
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -27,7 +29,7 @@ sys.path.insert(0, str(FOLDER))
 from instances import GENERATORS  # noqa: E402
 
 SIZES = (10, 100, 1000, 10000)
-MOST_GROWTH = 2.0  # of the time, as a multiple of the growth of the number of objects
+GREATEST_POWER = 1.25  # of the number of entries, that the time grows with
 
 
 @dataclass
@@ -66,15 +68,19 @@ def columns(p: Point) -> tuple[str, ...]:
     )
 
 
+def power_of_growth(points: list[Point]) -> float:
+    """The power of the number of entries that the time of a step grows with."""
+    entries, times = ([math.log(value) for value in values] for values in zip(*((p.entries, p.seconds) for p in points)))
+    return statistics.linear_regression(entries, times).slope
+
+
 def excesses(points: list[Point]) -> list[str]:
     """Where the time grows faster than it may, a line each."""
     lines = []
-    for less, more in zip(points, points[1:]):
-        if less.domain != more.domain:
-            continue
-        growth, objects = more.seconds / less.seconds, more.objects / less.objects
-        if growth > MOST_GROWTH * objects:
-            lines.append(f"{more.domain}: {objects:g} times the objects cost {growth:.1f} times the time")
+    for domain in dict.fromkeys(p.domain for p in points):
+        of_domain = [p for p in points if p.domain == domain]
+        if len(of_domain) > 1 and (power := power_of_growth(of_domain)) > GREATEST_POWER:
+            lines.append(f"{domain}: the time grows with the power {power:.2f} of the entries")
     return lines
 
 

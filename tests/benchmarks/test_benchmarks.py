@@ -211,11 +211,12 @@ class Growth(unittest.TestCase):
         return growth.Point("fire", objects, 8 * objects, seconds, 0.0, 0)
 
     def test_limit(self):
-        self.assertEqual(growth.excesses([self.point(10, 1.0), self.point(100, 19.0)]), [])
-        self.assertEqual(
-            growth.excesses([self.point(10, 1.0), self.point(100, 21.0)]),
-            ["fire: 10 times the objects cost 21.0 times the time"],
-        )
+        linear = [self.point(objects, 0.5 * objects) for objects in (10, 100, 1000)]
+        self.assertAlmostEqual(growth.power_of_growth(linear), 1.0)
+        self.assertEqual(growth.excesses(linear), [])
+        square = [self.point(objects, 0.5 * objects**2) for objects in (10, 100, 1000)]
+        self.assertEqual(growth.excesses(square), ["fire: the time grows with the power 2.00 of the entries"])
+        self.assertEqual(growth.excesses(square[:1]), [])
 
     def test_measures_and_draws(self):
         with tempfile.TemporaryDirectory() as folder:
