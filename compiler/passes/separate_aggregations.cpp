@@ -57,7 +57,7 @@ class Separation {
         if (!store) return;
         std::vector<ir::NodeId> aggregations;
         const bool all_found = find_aggregations(store->value, aggregations);
-        if (!all_found || aggregations.empty()) return;
+        if (!all_found || aggregations.empty() || reads(store->value, store->target)) return;
         const auto is_one = [&](ir::NodeId id) {
             return std::ranges::find(aggregations, id) != aggregations.end();
         };
@@ -88,6 +88,11 @@ class Separation {
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
             return find_aggregations(operand, found);
         });
+    }
+    bool reads(ir::NodeId id, ir::BufferId buffer) const {
+        return ir::buffer_read_by(program_[id]) == buffer ||
+               std::ranges::any_of(ir::operands_of(program_[id]),
+                                   [&](ir::NodeId operand) { return reads(operand, buffer); });
     }
     bool has_none(ir::NodeId id) const {
         std::vector<ir::NodeId> found;

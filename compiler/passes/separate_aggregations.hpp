@@ -2,18 +2,18 @@
 //
 // What a loop aggregates for each of its objects is computed before it:
 //
-//     for r in reservoir                              for r in reservoir
-//         next.level[r] = sample normal@0[r](0, 1)        level-part[r] = sum[e in row](flow[e])
-//                         + sum[e in row](flow[e])  =>  for r in reservoir
-//                                                         next.level[r] = sample normal@0[r](0, 1)
-//                                                                         + level-part[r]
+//     for t in tank                                   for t in tank
+//         next.level[t] = sample normal@0[t](0, 1)        level-part[t] = sum[e in row](flow[e])
+//                         + sum[e in row](flow[e])  =>  for t in tank
+//                                                         next.level[t] = sample normal@0[t](0, 1)
+//                                                                         + level-part[t]
 //
 // The terms of a sum of reals are computed before they are added:
 //
-//     sum[r in reservoir](select(next.level[r] > 9, cost[r], 0))
-//                                                 =>  for r in reservoir
-//                                                         reward-terms[r] = select(...)
-//                                                     sum[r in reservoir](reward-terms[r])
+//     sum[t in tank](select(next.level[t] > 9, cost[t], 0))
+//                                                 =>  for t in tank
+//                                                         reward-terms[t] = select(...)
+//                                                     sum[t in tank](reward-terms[t])
 //
 // Nothing is computed more often than before, so aggregations in branches stay there, as do those
 // that may fault.

@@ -154,7 +154,8 @@ RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int c
         };
         const auto low = simd::reinterpret<__m512i>(columns[0]),
                    high = simd::reinterpret<__m512i>(columns[1]);
-        store_half(0, _mm512_castsi512_si256(low), _mm512_castsi512_si256(high));
+        store_half(0, _mm512_maskz_extracti64x4_epi64(0xF, low, 0),
+                   _mm512_maskz_extracti64x4_epi64(0xF, high, 0));
         store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
                    _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
         return;

@@ -100,18 +100,17 @@ class Schedule {
   private:
     template <class Result>
     static RDDL_INLINE Key<Result> to(const Key<Word>& key) {
-        return {Result{key[0]}, Result{key[1]}};
+        return {Result(key[0]), Result(key[1])};
     }
     template <class Third, class Result>
     RDDL_INLINE void do_two_rounds(std::uint64_t second, const Third& third,
                                    Block<Result>& words) const {
         const Third product = multiply_low_halves(third, Third{second_multiplier});
-        const Result after_one =
-            Result{upper_halves(product)} ^ Result { Word{second} ^ first_key_ };
-        words[0] = Result{after_two_rounds_[0]} ^ Result { product };
-        words[1] = Result{after_two_rounds_[1]};
+        const Result after_one = Result(upper_halves(product)) ^ Result(Word{second} ^ first_key_);
+        words[0] = Result(product) ^ Result(after_two_rounds_[0]);
+        words[1] = Result(after_two_rounds_[1]);
         words[3] = multiply_low_halves(after_one, Result{first_multiplier});
-        words[2] = Result{after_two_rounds_[2]} ^ upper_halves(words[3]);
+        words[2] = upper_halves(words[3]) ^ Result(after_two_rounds_[2]);
     }
     // As constants, so that all rounds are compiled one after the other.
     template <class Use>
