@@ -73,6 +73,9 @@ constexpr float to_float(std::int64_t a) {
 
 // Truncates; nan and what int cannot hold give the least int, as the conversion of x86 does.
 constexpr std::int64_t truncate_to_int(double a) {
+#if defined(__SSE2__) && defined(__x86_64__)
+    if (!std::is_constant_evaluated()) return _mm_cvttsd_si64(_mm_set_sd(a));
+#endif
     constexpr double limit = 0x1p63;
     return a >= -limit && a < limit ? static_cast<std::int64_t>(a)
                                     : std::numeric_limits<std::int64_t>::min();
