@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace rddl {
 
@@ -50,14 +51,30 @@ typename L::Real uniform(Context<L>& context, Place place, typename L::Real lowe
     return select(valid, rounded_into_range, Real{0});
 }
 
-// Variance, not standard deviation; variance 0 gives the mean.
-template <class L>
-RDDL_INLINE typename L::Real normal(Context<L>& context, Place place, typename L::Real mean,
-                                    typename L::Real variance) {
+namespace detail {
+
+// A parameter that is one number stays one, so that compilers know what is made of constants.
+template <class L, class Parameter>
+RDDL_INLINE auto parameter(const Parameter& value) {
+    if constexpr (std::is_arithmetic_v<Parameter>)
+        return static_cast<typename L::Element>(value);
+    else
+        return typename L::Real(value);
+}
+
+}  // namespace detail
+
+// Variance, not standard deviation; variance 0 gives the mean. Each is a real of L, or one number.
+template <class L, class Mean, class Variance>
+RDDL_INLINE typename L::Real normal(Context<L>& context, Place place, const Mean& mean,
+                                    const Variance& variance) {
     using Real = typename L::Real;
-    const auto valid = context.require(variance >= 0.0, FaultKind::Variance, place, variance);
+    const auto squared_scale = detail::parameter<L>(variance);
+    const typename L::Bool not_negative(squared_scale >= typename L::Element{0});
+    const auto valid = context.require(not_negative, FaultKind::Variance, place, squared_scale);
     const Real standard = standard_at<StandardNormal>(context, place);
-    return select(valid, mean + sqrt(variance) * standard, Real{0});
+    const Real draw = detail::parameter<L>(mean) + sqrt(squared_scale) * standard;
+    return select(valid, draw, Real{0});
 }
 
 // -mean ln U.
