@@ -56,7 +56,9 @@ class Comparison:
 
 
 # GCC would put halves of one environment's polynomials into registers together, and lose half of its speed.
-FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", "-fno-tree-slp-vectorize"]
+# And GCC 12 makes wrong copies of constants (rddl/tables.hpp).
+NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns"]
+FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES]
 
 
 def run(command: list) -> str:

@@ -11,7 +11,7 @@
 namespace handwritten {
 
 struct Wildfire {
-    static constexpr int width = 8;
+    static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 40;
     static constexpr bool stochastic = true;
     static constexpr std::size_t cells = std::size(wildfire::neighbours);

@@ -71,9 +71,11 @@ std::vector<std::string> compiler_command(Processors processors) {
     std::vector<std::string> command = words(compiler ? compiler : "");
     if (command.empty()) command = {"c++"};
     // Lanes are vectors already. GCC would put numbers of one environment together as well, which
-    // costs more than it gains where they then wait for each other, as in a polynomial.
+    // costs more than it gains where they then wait for each other, as in a polynomial. Nor may it
+    // make one copy of a loop over a constant table: GCC 12 is wrong there (rddl/tables.hpp).
     command.insert(command.end(),
-                   {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize"});
+                   {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize",
+                    "-fno-tree-loop-distribute-patterns"});
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace rddl {
 
@@ -15,6 +16,16 @@ template <class T, std::size_t n, class Source, std::size_t m>
 constexpr void assign(std::array<T, n>& target, const std::array<Source, m>& source) {
     static_assert(n == m);
     for (std::size_t i = 0; i < n; ++i) assign(target[i], source[i]);
+}
+// Of the same elements. GCC 12 makes wrong copies of some constants for AVX-512 (of {1, 1, 0, 0}
+// for one, four times 1), so it must not know what it copies.
+template <class T, std::size_t n>
+constexpr void assign(std::array<T, n>& target, const std::array<T, n>& source) {
+    const std::array<T, n>* hidden = &source;
+#ifdef __GNUC__
+    if (!std::is_constant_evaluated()) asm("" : "+r"(hidden));
+#endif
+    target = *hidden;
 }
 template <class T, std::size_t n, class Source>
 constexpr void assign(std::array<T, n>& target, const Source& source) {
