@@ -13,7 +13,8 @@ struct Nest {
 };
 Nest nest_of(const Loop& outermost);
 Block& innermost_body(Loop& outermost);
-// The reverse of nest_of: loops over these variables, outermost first, around a body; without any, the body.
+// The reverse of nest_of: loops over these variables, outermost first, around a body; without any,
+// the body.
 Block looped(Block body, const std::vector<VariableId>& variables);
 
 // The row-major place among all combinations.

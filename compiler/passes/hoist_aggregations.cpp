@@ -175,24 +175,13 @@ class Hoisting {
     }
 
     ir::BufferId new_table(ir::NodeId id, const Variables& dimensions) {
-        ir::Buffer buffer{.name = name_ + "-by",
-                          .storage = ir::Storage::Scratch,
-                          .scalar = program_[id].type,
-                          .shape = {},
-                          .types = {},
-                          .fluent = {},
-                          .values = {},
-                          .span = span_,
-                          .finite = builder_.facts(id).finite};
+        std::string name = name_ + "-by";
         for (ir::VariableId variable : dimensions) {
             const ir::Variable& dimension = program_[variable];
-            buffer.name +=
-                "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
+            name += "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
-        set_dimensions(program_, buffer, dimensions);
-        buffer.name = unused_name(program_, buffer.name);
-        program_.buffers.push_back(std::move(buffer));
-        return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
+        return scratch_table(program_, name, program_[id].type, builder_.facts(id).finite,
+                             dimensions, span_);
     }
 
     // The node with elements of tables in it.

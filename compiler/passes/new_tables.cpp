@@ -35,6 +35,22 @@ void set_dimensions(const ir::Program& program, ir::Buffer& table,
     if (table.types.size() != table.shape.size()) table.types.clear();
 }
 
+ir::BufferId scratch_table(ir::Program& program, const std::string& wish, ir::Scalar scalar,
+                           bool finite, const std::vector<ir::VariableId>& variables, Span span) {
+    ir::Buffer table{.name = unused_name(program, wish),
+                     .storage = ir::Storage::Scratch,
+                     .scalar = scalar,
+                     .shape = {},
+                     .types = {},
+                     .fluent = {},
+                     .values = {},
+                     .span = span,
+                     .finite = finite};
+    set_dimensions(program, table, variables);
+    program.buffers.push_back(std::move(table));
+    return {static_cast<std::uint32_t>(program.buffers.size() - 1)};
+}
+
 ir::BufferId constant_table(ir::Program& program, ir::Buffer table) {
     for (std::uint32_t index = 0; index < program.buffers.size(); ++index) {
         if (are_alike(program.buffers[index], table)) return {index};

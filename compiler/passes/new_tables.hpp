@@ -1,4 +1,4 @@
-// Constant tables that passes add.
+// Tables that passes add.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -15,8 +15,13 @@ std::string unused_name(const ir::Program& program, const std::string& wish);
 void set_dimensions(const ir::Program& program, ir::Buffer& table,
                     const std::vector<ir::VariableId>& variables);
 
-// A table like this one, if there is one already; else a new one, named as it wishes if nobody else
-// is.
+// A table that the step fills with the values of an expression, with a dimension for each of these
+// loop indices, named as it wishes if nobody else is.
+ir::BufferId scratch_table(ir::Program& program, const std::string& wish, ir::Scalar scalar,
+                           bool finite, const std::vector<ir::VariableId>& variables, Span span);
+
+// A constant table like this one, if there is one already; else a new one, named as it wishes if
+// nobody else is.
 ir::BufferId constant_table(ir::Program& program, ir::Buffer table);
 
 }  // namespace rddlc::passes

@@ -151,20 +151,8 @@ class Separation {
     // An element of a new table with the values of a node, which `before` fills.
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
-        ir::Buffer buffer{.name = name_ + "-" + what,
-                          .storage = ir::Storage::Scratch,
-                          .scalar = program_[id].type,
-                          .shape = {},
-                          .types = {},
-                          .fluent = {},
-                          .values = {},
-                          .span = span_,
-                          .finite = builder_.facts(id).finite};
-        set_dimensions(program_, buffer, variables);
-        buffer.name = unused_name(program_, buffer.name);
-        program_.buffers.push_back(std::move(buffer));
-        const ir::BufferId table{static_cast<std::uint32_t>(program_.buffers.size() - 1)};
-
+        const ir::BufferId table = scratch_table(program_, name_ + "-" + what, program_[id].type,
+                                                 builder_.facts(id).finite, variables, span_);
         std::vector<ir::NodeId> indices;
         for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
         ir::Block fill;

@@ -1,6 +1,7 @@
 #include "passes/share_across_definitions.hpp"
 
 #include "ir/call.hpp"
+#include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/new_tables.hpp"
 #include "support/match.hpp"
@@ -176,29 +177,17 @@ class Sharing {
         change(program_.reward.value);
         elements_[element] = element;
 
-        ir::Statement fill{ir::Store{table, indices, id}};
-        for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
-            ir::Loop loop{*variable, {}};
-            loop.body.push_back(std::move(fill));
-            fill = {std::move(loop)};
-        }
-        body.insert(body.begin(), std::move(fill));
+        ir::Block fill;
+        fill.push_back({ir::Store{table, indices, id}});
+        fill = ir::looped(std::move(fill), variables);
+        body.insert(body.begin(), std::move(fill.front()));
         ++report_["expressions computed once for several CPFs"];
     }
 
     ir::BufferId new_table(ir::NodeId id, Span span) {
-        ir::Buffer buffer{.name = unused_name(program_, name_for(id)),
-                          .storage = ir::Storage::Scratch,
-                          .scalar = program_[id].type,
-                          .shape = {},
-                          .types = {},
-                          .fluent = {},
-                          .values = {},
-                          .span = span,
-                          .finite = builder_.facts(id).finite};
-        set_dimensions(program_, buffer, builder_.facts(id).free_variables);
-        program_.buffers.push_back(std::move(buffer));
-        return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
+        const ir::Facts facts = builder_.facts(id);
+        return scratch_table(program_, name_for(id), program_[id].type, facts.finite,
+                             facts.free_variables, span);
     }
 
     // cos(state.angle): "cos-angle".
