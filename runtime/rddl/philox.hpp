@@ -65,15 +65,22 @@ template <int rounds, class Word>
 class Schedule {
   public:
     Schedule() = default;
-    RDDL_INLINE Schedule(const Word& first, const Key<Word>& key) : first_key_(key[0]) {
-        const Word none{std::uint64_t{0}};
-        Block<Word> words{first, none, none, none};
-        do_round(words, key);
+    RDDL_INLINE Schedule(const Word& first, const Key<Word>& key) { begin(first, key); }
+    // As a new schedule, but made where it stays, word by word.
+    RDDL_INLINE void begin(const Word& first, const Key<Word>& key) {
+        const Word product = multiply_low_halves(first, Word{first_multiplier});
+        const Word other_product =
+            multiply_low_halves(upper_halves(product) ^ key[1], Word{second_multiplier});
         Key<Word> next = next_key(key);
-        words[0] = words[1] = none;
-        do_round(words, next);
-        for (std::size_t i = 0; i < 3; ++i) after_two_rounds_[i] = words[i];
-        for (Key<Word>& later : later_keys_) later = next = next_key(next);
+        first_key_ = key[0];
+        after_two_rounds_[0] = upper_halves(other_product) ^ next[0];
+        after_two_rounds_[1] = other_product;
+        after_two_rounds_[2] = product ^ next[1];
+        for (Key<Word>& later : later_keys_) {
+            next = next_key(next);
+            later[0] = next[0];
+            later[1] = next[1];
+        }
     }
 
     // The block of a counter. Third, if not Word, is a number of which Word has several, or the

@@ -80,7 +80,7 @@ template <std::uint32_t count, int n, class R>
 [[gnu::noinline]] void refill(Context<Pack<n, R>>& context, Place place) {
     using Block = philox::Block<Lanes<std::uint64_t, n>>;
     if (!context.is_scheduled) {
-        context.schedule = {context.step, {context.key_low, context.key_high}};
+        context.schedule.begin(context.step, {context.key_low, context.key_high});
         context.is_scheduled = true;
     }
     auto& recent = context.recent[place.series % recent_series];
