@@ -11,6 +11,7 @@
 #include <rddl/pack_ops.hpp>
 #include <rddl/random.hpp>
 #include <rddl/simd.hpp>
+#include <rddl/simd_moves.hpp>
 
 #include <algorithm>
 #include <array>

@@ -8,6 +8,7 @@
 #include <rddl/lane.hpp>
 #include <rddl/real.hpp>
 #include <rddl/simd.hpp>
+#include <rddl/simd_moves.hpp>
 
 #include <array>
 #include <concepts>

@@ -6,6 +6,7 @@
 #include <rddl/ops.hpp>
 #include <rddl/pack.hpp>
 #include <rddl/real.hpp>
+#include <rddl/simd_moves.hpp>
 
 #include <algorithm>
 #include <array>
@@ -413,6 +414,19 @@ RDDL_INLINE Lanes<std::int64_t, n> ceil(const Lanes<double, n>& a) {
 }
 
 template <int n>
+RDDL_INLINE Lanes<double, n> round_as_real(const Lanes<double, n>& a) {
+    return to_real(round(a));
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> floor_as_real(const Lanes<double, n>& a) {
+    return to_real(floor(a));
+}
+template <int n>
+RDDL_INLINE Lanes<double, n> ceil_as_real(const Lanes<double, n>& a) {
+    return to_real(ceil(a));
+}
+
+template <int n>
 RDDL_INLINE Lanes<std::int64_t, n> round(const Lanes<float, n>& a) {
     return round(to_double(a));
 }
@@ -526,6 +540,23 @@ requires SomePack<Indices...> RDDL_INLINE auto at(const Array& array, const Indi
     using Nested = detail::Nested<Array>;
     return detail::gather<Nested::count>(reinterpret_cast<const typename Nested::Element*>(&array),
                                          place);
+}
+
+// ------------------------------------------------------------------------ some of the lanes
+
+// The lanes where the mask holds, 8 at most, one after the other; `others` in the rest of the 8.
+template <int n>
+RDDL_INLINE Lanes<double, 8> compress(Mask<n> mask, const Lanes<double, n>& a, double others) {
+    double selected[8];
+    simd::compress(mask.bits, a.part, others, selected);
+    return Lanes<double, 8>::load(selected);
+}
+// And back to where the mask holds; the other lanes of `target` stay.
+template <int n>
+RDDL_INLINE void expand(Mask<n> mask, const Lanes<double, 8>& a, Lanes<double, n>& target) {
+    double selected[8];
+    a.store(selected);
+    simd::expand(mask.bits, selected, target.part);
 }
 
 }  // namespace rddl

@@ -105,6 +105,15 @@ TEST(Rounding, OfWhatDoesNotFitIsTheLeastInt) {
     EXPECT_EQ(round(0x1p63 - 1024), greatest - 1023);
 }
 
+TEST(Rounding, AsRealIsTheRealOfTheInt) {
+    for (const double a : {0.0, -0.0, -0.3, 0.3, 2.5, -2.5, 0x1p62, 0x1p63, -0x1p63, -0x1.1p63,
+                           0x1p80, infinity, -infinity, nan}) {
+        EXPECT_EQ(bits_of(round_as_real(a)), bits_of(to_real(round(a)))) << a;
+        EXPECT_EQ(bits_of(floor_as_real(a)), bits_of(to_real(floor(a)))) << a;
+        EXPECT_EQ(bits_of(ceil_as_real(a)), bits_of(to_real(ceil(a)))) << a;
+    }
+}
+
 TEST(Sign, IsAnIntAndTheLeastOfNan) {
     EXPECT_EQ(sign(-2.5), -1);
     EXPECT_EQ(sign(-0.0), 0);

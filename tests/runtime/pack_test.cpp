@@ -97,6 +97,9 @@ TEST(Packs, ComputeWithRealsAsScalarsDo) {
     EXPECT_BITS_OF_SCALARS(rddl::round(x...), a);
     EXPECT_BITS_OF_SCALARS(rddl::floor(x...), a);
     EXPECT_BITS_OF_SCALARS(rddl::ceil(x...), a);
+    EXPECT_BITS_OF_SCALARS(round_as_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(floor_as_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(ceil_as_real(x...), a);
 }
 
 TEST(Packs, ComputeElementaryFunctionsAsScalarsDo) {
@@ -112,6 +115,24 @@ TEST(Packs, ComputeElementaryFunctionsAsScalarsDo) {
     EXPECT_BITS_OF_SCALARS(rddl::power(x...), a, b);
     EXPECT_BITS_OF_SCALARS(rddl::hypot(x...), a, b);
     EXPECT_BITS_OF_SCALARS(rddl::atan2(x...), a, b);
+}
+
+// Lanes far from the median are brought together where a pack has few of them.
+TEST(Packs, FindNormalQuantilesAsScalarsDo) {
+    const std::vector<double> central = {0.5, 0.075, 0.925, 0.0750000001, 0.3, 0.7, 0.9, 0.1};
+    const std::vector<double> outside = {0x1p-53, 1 - 0x1p-53, 1e-12, 1 - 1e-12,
+                                         1e-9,    0.0749999,   0.95,  0.01};
+    std::mt19937_64 random(12);
+    std::vector<double> probabilities;
+    for (int count = 0; count <= width; ++count)
+        for (int repetition = 0; repetition < 20; ++repetition) {
+            std::array<double, width> pack;
+            for (int i = 0; i < width; ++i)
+                pack[static_cast<std::size_t>(i)] = (i < count ? outside : central)[random() % 8];
+            std::shuffle(pack.begin(), pack.end(), random);
+            probabilities.insert(probabilities.end(), pack.begin(), pack.end());
+        }
+    EXPECT_BITS_OF_SCALARS(normal_quantile(x...), probabilities);
 }
 
 TEST(Packs, ComputeWithIntsAsScalarsDo) {
@@ -194,6 +215,21 @@ TEST(Packs, CountLanesOfMasks) {
         EXPECT_EQ(all(mask), pattern == 0xFFFF);
         for (int lane = 0; lane < width; ++lane)
             EXPECT_EQ(numbers[lane], static_cast<std::int64_t>(pattern >> lane & 1));
+    }
+}
+
+TEST(Packs, BringSomeLanesTogetherAndBack) {
+    for (const std::uint64_t pattern : {0x0000u, 0x8001u, 0x0100u, 0xA5A5u, 0xFF00u, 0x00FFu}) {
+        const Bools mask = Bools::of_bits(pattern);
+        Reals values, target{-1.0};
+        for (int lane = 0; lane < width; ++lane) values.set(lane, 100 + lane);
+        const Lanes<double, 8> some = compress(mask, values, 7.0);
+        expand(mask, some, target);
+        int next = 0;
+        for_each_lane(mask, [&](int lane) { EXPECT_EQ(some[next++], 100 + lane); });
+        while (next < 8) EXPECT_EQ(some[next++], 7.0);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(target[lane], mask[lane] ? 100 + lane : -1.0);
     }
 }
 
