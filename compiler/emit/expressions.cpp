@@ -33,6 +33,13 @@ bool is_int_constant(const ir::Node& node) {
     return node.type == ir::Scalar::Int && std::holds_alternative<ir::Constant>(node.form);
 }
 
+// A real to an int.
+bool rounds(const ir::Node& node) {
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    return apply && (apply->op == Operator::Round || apply->op == Operator::Floor ||
+                     apply->op == Operator::Ceil);
+}
+
 }  // namespace
 
 // -------------------------------------------------------------------------------- names
@@ -101,7 +108,9 @@ Spelled Expressions::spell(const ir::Node& node, const ir::Search& search) {
 
 Spelled Expressions::spell(const ir::Node&, const ir::Bits& bits) {
     const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
-    return {"rddl::bits" + first + "(" + record(bits.buffer) + ")", Level::Primary};
+    const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;
+    const std::string function = of_action ? "rddl::action_bits" : "rddl::bits";
+    return {function + first + "(" + record(bits.buffer) + ")", Level::Primary};
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
@@ -109,9 +118,13 @@ Spelled Expressions::spell(const ir::Node&, const ir::Local& local) {
 }
 
 Spelled Expressions::spell(const ir::Node& node, const ir::Convert& convert) {
-    const std::string to_real = unit_.program.real == RealType::Float ? "to_float" : "to_real";
-    return {call(node.type == ir::Scalar::Int ? "to_int" : to_real, {convert.operand}),
-            Level::Primary};
+    if (node.type == ir::Scalar::Int) return {call("to_int", {convert.operand}), Level::Primary};
+    if (unit_.program.real == RealType::Float)
+        return {call("to_float", {convert.operand}), Level::Primary};
+    const ir::Node& operand = unit_.program[convert.operand];
+    if (!rounds(operand)) return {call("to_real", {convert.operand}), Level::Primary};
+    const auto& apply = std::get<ir::Apply>(operand.form);
+    return {call(spelling_of(apply.op, false).word + "_as_real", apply.operands), Level::Primary};
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Apply& apply) {

@@ -30,11 +30,13 @@ inline constexpr Index element_count = 1;
 template <class T, std::size_t n>
 inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) * element_count<T>;
 
-template <int count>
+// Whether the bools may have been stored just now matters to one environment's (simd.hpp).
+template <int count, bool just_stored>
 std::int64_t bits_of(const bool* bools) {
-    return static_cast<std::int64_t>(simd::bits_of_stored_bytes(bools, count));
+    return static_cast<std::int64_t>(just_stored ? simd::bits_of_stored_bytes(bools, count)
+                                                 : simd::bits_of_bytes(bools, count));
 }
-template <int count, int n>
+template <int count, bool, int n>
 Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
     return bits_in_lanes<count>(bools);
 }
@@ -43,10 +45,16 @@ Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
 
 // The elements [first, first + 64) of a table of bools, in row-major order, as bits of an int, the
 // first one lowest; bits beyond its end are 0.
-template <Index first = 0, class Table>
+template <Index first = 0, bool just_stored = true, class Table>
 auto bits(const Table& table) {
     constexpr Index count = std::min<Index>(detail::element_count<Table> - first, 64);
-    return detail::bits_of<static_cast<int>(count)>(detail::first_element(table) + first);
+    return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
+                                                                 first);
+}
+// Of what the caller gives.
+template <Index first = 0, class Table>
+auto action_bits(const Table& table) {
+    return bits<first, false>(table);
 }
 
 // ------------------------------------------------------------------------------- bit by bit

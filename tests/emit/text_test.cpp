@@ -88,6 +88,13 @@ TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
     EXPECT_EQ(count(with_chances(11), "::bernoulli("), 1u) << "1.05 is the greatest";
 }
 
+TEST(EmittedText, RoundsRealsWithoutInts) {
+    std::string text = problem(2);
+    const std::string reward = "sum_{?o : o} [W(?o) * on(?o)]";
+    text.replace(text.find(reward), reward.size(), "floor[(sum_{?o : o} [W(?o) * on(?o)])] * 0.5");
+    EXPECT_EQ(count(emitted(text), "rddl::floor_as_real("), 1u);
+}
+
 TEST(EmittedText, IncludesNothingButTheRuntimeAndTheStandardLibrary) {
     std::istringstream stream(emitted(problem(3)));
     for (std::string line; std::getline(stream, line);) {
@@ -100,7 +107,7 @@ TEST(EmittedText, IncludesNothingButTheRuntimeAndTheStandardLibrary) {
 
 TEST(EmittedText, ExportsOneFunctionFromASource) {
     const std::string text = emitted(problem(3));
-    EXPECT_EQ(count(text, "extern \"C\" const rddl_simulator* RDDL_ENTRY(void)"), 1u);
+    EXPECT_EQ(count(text, "extern \"C\" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void)"), 1u);
     EXPECT_EQ(count(text, "#define RDDL_ENTRY rddl_simulator_d_i"), 1u);
     EXPECT_EQ(count(text, "#pragma once"), 0u);
 }
