@@ -347,6 +347,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_cart_pole_cart_pole_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return cart_pole_cart_pole_1::simulator();
 }

@@ -423,6 +423,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_delivery_delivery_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return delivery_delivery_1::simulator();
 }

@@ -271,9 +271,8 @@ struct Simulator {
     template <class L>
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
         using Int = typename L::Int;
-        const Int bits =
-            rddl::bit_and(rddl::bits(action.douse), rddl::bit_xor(rddl::bits(state.burning), -1));
-        return bits == 0;
+        const Int bits = rddl::action_bits(action.douse);
+        return rddl::bit_and(bits, rddl::bit_xor(rddl::bits(state.burning), -1)) == 0;
     }
 
     // forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bar...  (domain.rddl:78)
@@ -282,7 +281,7 @@ struct Simulator {
         using Int = typename L::Int;
         const Int bits =
             rddl::bit_or(rddl::bit_or(rddl::bits(state.burning), rddl::bits(state.bare)), 24576);
-        return rddl::bit_and(rddl::bits(action.clear), bits) == 0;
+        return rddl::bit_and(rddl::action_bits(action.clear), bits) == 0;
     }
 };
 
@@ -419,6 +418,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_fire_fire_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return fire_fire_1::simulator();
 }

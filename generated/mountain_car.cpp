@@ -311,6 +311,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_mountain_car_mountain_car_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return mountain_car_mountain_car_1::simulator();
 }

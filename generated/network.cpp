@@ -107,7 +107,7 @@ struct Simulator {
                                    const Scratch<L>& /*scratch*/, const State<L>& /*next*/,
                                    rddl::Context<L>& /*context*/) {
         return rddl::to_real(rddl::count_ones(rddl::bits(state.running))) -
-               0.75 * rddl::to_real(rddl::count_ones(rddl::bits(action.reboot)));
+               0.75 * rddl::to_real(rddl::count_ones(rddl::action_bits(action.reboot)));
     }
 
     // An episode ends where one of these holds.
@@ -232,6 +232,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_network_network_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return network_network_1::simulator();
 }

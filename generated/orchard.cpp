@@ -304,6 +304,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_orchard_orchard_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return orchard_orchard_1::simulator();
 }

@@ -355,6 +355,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_reservoir_reservoir_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return reservoir_reservoir_1::simulator();
 }

@@ -480,6 +480,6 @@ inline const rddl_simulator* simulator() {
 #define RDDL_ENTRY rddl_simulator_robot_robot_1
 #endif
 
-extern "C" const rddl_simulator* RDDL_ENTRY(void) {
+extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
     return robot_robot_1::simulator();
 }

@@ -72,10 +72,11 @@ std::vector<std::string> compiler_command(Processors processors) {
     if (command.empty()) command = {"c++"};
     // Lanes are vectors already. GCC would put numbers of one environment together as well, which
     // costs more than it gains where they then wait for each other, as in a polynomial. Nor may it
-    // make one copy of a loop over a constant table: GCC 12 is wrong there (rddl/tables.hpp).
+    // make one copy of a loop over a constant table: GCC 12 is wrong there (rddl/tables.hpp). What
+    // is hidden is called without a detour through a table of the linker.
     command.insert(command.end(),
-                   {"-std=c++20", "-O3", "-fPIC", "-ffp-contract=off", "-fno-tree-slp-vectorize",
-                    "-fno-tree-loop-distribute-patterns"});
+                   {"-std=c++20", "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
+                    "-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns"});
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
@@ -95,15 +96,14 @@ constexpr const char* precompiled_name = "simulator.hpp.gch";
 
 std::vector<std::string> batches_command(const fs::path& source, const fs::path& output) {
     std::vector<std::string> command = compiler_command(Processors::LikeThis);
-    command.insert(command.end(),
-                   {"-fvisibility=hidden", "-c", "-o", output.string(), source.string()});
+    command.insert(command.end(), {"-c", "-o", output.string(), source.string()});
     return command;
 }
 
 std::vector<std::string> header_command(const fs::path& source, const fs::path& output) {
     std::vector<std::string> command = compiler_command(Processors::LikeThis);
-    command.insert(command.end(), {"-fvisibility-inlines-hidden", "-DRDDL_LINKS_BATCHES", "-x",
-                                   "c++-header", "-o", output.string(), source.string()});
+    command.insert(command.end(), {"-DRDDL_LINKS_BATCHES", "-x", "c++-header", "-o",
+                                   output.string(), source.string()});
     return command;
 }
 
@@ -150,10 +150,12 @@ std::vector<std::string> part_command(const Part& part, const fs::path& source,
                                       const fs::path& object) {
     std::vector<std::string> command = compiler_command(Processors::Any);
     const fs::path dispatcher = runtime_include_folder().value_or("") / "rddl" / "dispatch.cpp";
-    command.insert(command.end(),
-                   {"-march=" + std::string(part.level), "-fvisibility=hidden", "-c", "-o",
-                    object.string(), part.entry ? source.string() : dispatcher.string()});
-    if (part.entry) command.push_back("-DRDDL_ENTRY=" + std::string(part.entry));
+    command.insert(command.end(), {"-march=" + std::string(part.level), "-c", "-o", object.string(),
+                                   part.entry ? source.string() : dispatcher.string()});
+    if (part.entry) {
+        command.push_back("-DRDDL_ENTRY=" + std::string(part.entry));
+        command.push_back("-DRDDL_EXPORT=");
+    }
     return command;
 }
 
@@ -211,9 +213,8 @@ std::optional<fs::path> runtime_include_folder() {
 std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output,
                                                Processors processors) {
     std::vector<std::string> command = compiler_command(processors);
-    command.insert(command.end(),
-                   {"-shared", "-fvisibility-inlines-hidden", "-DRDDL_ENTRY=rddl_simulator_entry",
-                    "-o", output.string(), source.string()});
+    command.insert(command.end(), {"-shared", "-DRDDL_ENTRY=rddl_simulator_entry", "-o",
+                                   output.string(), source.string()});
     return command;
 }
 

@@ -11,7 +11,7 @@ const rddl_simulator* rddl_simulator_sse2(void);
 const rddl_simulator* rddl_simulator_avx2(void);
 const rddl_simulator* rddl_simulator_avx512(void);
 
-[[gnu::visibility("default")]] const rddl_simulator* rddl_simulator_entry(void) {
+RDDL_EXPORT const rddl_simulator* rddl_simulator_entry(void) {
     switch (rddl::allowed_instruction_set()) {
         case rddl::InstructionSet::Avx512:
             return rddl_simulator_avx512();

@@ -10,6 +10,7 @@
 // variables returns its value; what does is void and fills a span, its last parameter.
 #pragma once
 
+#include <rddl/export.h>
 #include <rddl/external.h>
 
 #include <array>
@@ -34,8 +35,8 @@ namespace rddl_extern {}
 //
 //     RDDL_EXTERN(inflow, double(double, std::span<const double>))
 #define RDDL_EXTERN(name, ...)                                                                  \
-    extern "C" std::int32_t rddl_extern_##name(const rddl_array* arguments, std::int32_t count, \
-                                               const rddl_array* result) {                      \
+    extern "C" RDDL_EXPORT std::int32_t rddl_extern_##name(                                     \
+        const rddl_array* arguments, std::int32_t count, const rddl_array* result) {            \
         return rddl::external::call<__VA_ARGS__>(                                               \
             RDDL_EXTERN_FUNCTION(name), {arguments, static_cast<std::size_t>(count)}, *result); \
     }

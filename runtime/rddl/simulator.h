@@ -14,6 +14,8 @@
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H
 
+#include <rddl/export.h>
+
 #include <stddef.h>
 #include <stdint.h>
 
