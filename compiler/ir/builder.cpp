@@ -201,6 +201,11 @@ NodeId Builder::convert(NodeId operand, Scalar type) {
     if (const auto* inner = std::get_if<Convert>(&node.form)) {
         return intern({type, Convert{inner->operand}});
     }
+    if (const auto* choice = std::get_if<Select>(&node.form)) {
+        const auto [condition, then_value, else_value] = *choice;
+        if (constants(program_, {then_value, else_value}))
+            return select(condition, convert(then_value, type), convert(else_value, type));
+    }
     return intern({type, Convert{operand}});
 }
 

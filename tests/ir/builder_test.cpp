@@ -192,6 +192,12 @@ TEST_F(BuilderTest, SearchesConstants) {
     EXPECT_EQ(w.builder().search(ends, w.real(std::nan(""))), w.integer(0));
 }
 
+TEST_F(BuilderTest, ChoosesBetweenConvertedConstants) {
+    const NodeId choice = w.builder().select(up(), w.integer(0), w.integer(3));
+    EXPECT_EQ(w.builder().convert(choice, Scalar::Real),
+              w.builder().select(up(), w.real(0), w.real(3)));
+}
+
 TEST_F(BuilderTest, ConvertsBoolToRealInOneStep) {
     const NodeId as_int = w.builder().convert(up(), Scalar::Int);
     EXPECT_EQ(w.builder().convert(as_int, Scalar::Real), w.builder().convert(up(), Scalar::Real));

@@ -22,7 +22,7 @@ TEST(FoldUniformTables, FoldsWhatFollows) {
         passes::fold_uniform_tables);
     EXPECT_EQ(x.before,
               "sum[o in obj](state.v[o] + "
-              "real(select(exists[u in obj](NONE[o, u] && state.p[u]), 1, 2)))");
+              "select(exists[u in obj](NONE[o, u] && state.p[u]), 1.0, 2.0))");
     EXPECT_EQ(x.after, "sum[o in obj](state.v[o] + 2.0)");
 }
 

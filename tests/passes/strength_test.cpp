@@ -42,6 +42,15 @@ TEST(FastMath, MultipliesByReciprocals) {
     EXPECT_EQ(relaxed("sum_{?o : obj} [x / v(?o)]"), "sum[o in obj](state.x / state.v[o])");
 }
 
+TEST(FastMath, BringsConstantFactorsTogether) {
+    EXPECT_EQ(relaxed("2 * exp[x] * x / 4"), "0.5 * exp(state.x) * state.x");
+    EXPECT_EQ(relaxed("x * (exp[x] * 2) * 4"), "state.x * (exp(state.x) * 8.0)");
+    EXPECT_EQ(relaxed("(3 - 2 * x) / 4"), "0.75 - 0.5 * state.x");
+    EXPECT_EQ(relaxed("x / (0.5 * (x * 4 + 3))"), "state.x / (state.x * 2.0 + 1.5)");
+    EXPECT_EQ(relaxed("0 - 2 * x"), "-2.0 * state.x");
+    EXPECT_EQ(relaxed("2 * (x + 1)"), "2.0 * (state.x + 1.0)") << "as many operations";
+}
+
 TEST(FastMath, SubtractsMultiplesForRemainders) {
     EXPECT_EQ(relaxed("fmod[x, 4]"), "state.x - 4.0 * real(floor(state.x * 0.25))");
     EXPECT_EQ(relaxed("fmod[x, 0]"), "floor_mod_real(state.x, 0.0)");
