@@ -86,41 +86,25 @@ class Relaxing {
         return builder_.apply(op, {b, a});
     }
 
-    // x * factor, where that takes no more operations than x does: a factor of x, or of a term, is
-    // constant. Sought in `depth` operations inside each other.
-    std::optional<ir::NodeId> scaled(ir::NodeId x, double factor, int depth = 4) {
+    // x * factor, where that takes no more operations than x does: x or one of its factors is
+    // constant, or so are those of both of its terms. Sought in `depth` operations inside each
+    // other.
+    std::optional<ir::NodeId> scaled(ir::NodeId x, double factor, int depth = 5) {
         if (factor == 0 && ir::is_droppable(builder_.facts(x))) return builder_.constant(0.0);
+        if (const auto value = constant(x)) return builder_.constant(*value * factor);
         const auto* apply = std::get_if<ir::Apply>(&builder_.program()[x].form);
         if (!apply || depth == 0) return std::nullopt;
         const Operator op = apply->op;
         const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
-        switch (op) {
-            case Operator::Multiply:
-                return scaled_product(a, b, factor, depth);
-            case Operator::Add:
-            case Operator::Subtract:
-                return scaled_sum(op, a, b, factor, depth);
-            default:
-                return std::nullopt;
+        if (op == Operator::Multiply) {
+            if (const auto second = scaled(b, factor, depth - 1)) return multiply(a, *second);
+            if (const auto first = scaled(a, factor, depth - 1)) return multiply(*first, b);
         }
-    }
-    std::optional<ir::NodeId> scaled_product(ir::NodeId a, ir::NodeId b, double factor, int depth) {
-        if (const auto inner = constant(b)) return multiply(a, builder_.constant(*inner * factor));
-        if (const auto inner = constant(a)) return multiply(builder_.constant(*inner * factor), b);
-        if (const auto simpler = scaled(a, factor, depth - 1)) return multiply(*simpler, b);
-        if (const auto simpler = scaled(b, factor, depth - 1)) return multiply(a, *simpler);
+        if (op == Operator::Add || op == Operator::Subtract) {
+            const auto first = scaled(a, factor, depth - 1), second = scaled(b, factor, depth - 1);
+            if (first && second) return builder_.apply(op, {*first, *second});
+        }
         return std::nullopt;
-    }
-    // Of a constant and another term.
-    std::optional<ir::NodeId> scaled_sum(Operator op, ir::NodeId a, ir::NodeId b, double factor,
-                                         int depth) {
-        const auto first = constant(a), second = constant(b);
-        if (!first && !second) return std::nullopt;
-        const auto other = scaled(first ? b : a, factor, depth - 1);
-        if (!other) return std::nullopt;
-        const ir::NodeId scaled_constant = builder_.constant(factor * (first ? *first : *second));
-        return first ? builder_.apply(op, {scaled_constant, *other})
-                     : builder_.apply(op, {*other, scaled_constant});
     }
 
     // factor * rest; the factor may be 1.

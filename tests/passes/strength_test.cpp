@@ -48,6 +48,7 @@ TEST(FastMath, BringsConstantFactorsTogether) {
     EXPECT_EQ(relaxed("(3 - 2 * x) / 4"), "0.75 - 0.5 * state.x");
     EXPECT_EQ(relaxed("x / (0.5 * (x * 4 + 3))"), "state.x / (state.x * 2.0 + 1.5)");
     EXPECT_EQ(relaxed("0 - 2 * x"), "-2.0 * state.x");
+    EXPECT_EQ(relaxed("(2 * x - exp[x] * 3) * 4"), "8.0 * state.x - exp(state.x) * 12.0");
     EXPECT_EQ(relaxed("2 * (x + 1)"), "2.0 * (state.x + 1.0)") << "as many operations";
 }
 
