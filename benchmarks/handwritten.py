@@ -59,6 +59,8 @@ class Comparison:
 # And GCC 12 makes wrong copies of constants (rddl/tables.hpp).
 NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns"]
 FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES]
+# Each reference as if it were alone in its program.
+INLINING = ["--param", "inline-unit-growth=1000"]
 
 
 def run(command: list) -> str:
@@ -77,7 +79,7 @@ def build_references(options: argparse.Namespace) -> Path:
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler"]
     libraries = [options.build / "compiler/support/librddlc_support.a", "-lfmt", "-ldl", "-pthread"]
-    run([options.cxx, *FLAGS, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])
+    run([options.cxx, *FLAGS, *INLINING, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])
     return program
 
 
@@ -86,7 +88,7 @@ def build_simulator(problem: str, rddlc_options: list[str], options: argparse.Na
     source = options.folder / f"{problem}.cpp"
     simulator = source.with_suffix(".so")
     run([options.build / "bin/rddlc", *rddlc_options, case.domain_path, case.instance_path, "-o", source])
-    linking = ["-shared", "-fPIC", "-fvisibility-inlines-hidden", "-DRDDL_ENTRY=rddl_simulator_entry"]
+    linking = ["-shared", "-fPIC", "-fvisibility=hidden", "-DRDDL_ENTRY=rddl_simulator_entry"]
     run([options.cxx, *FLAGS, *linking, f"-I{ROOT / 'runtime'}", source, "-o", simulator])
     return simulator
 

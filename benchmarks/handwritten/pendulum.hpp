@@ -50,7 +50,7 @@ struct Pendulum {
         const Real from_top = s.angle - whole((s.angle + pi) * (0.5 / pi)) * (2 * pi);
         const Real cost = from_top * from_top + 0.1 * (s.velocity * s.velocity) +
                           0.001 * (actions.torque * actions.torque);
-        const Real push = (14.700000000000001 * rddl::sin(s.angle) + 3.0 * actions.torque) * 0.05;
+        const Real push = 0.735 * rddl::sin(s.angle) + 0.15 * actions.torque;
         const Real velocity = larger(smaller(s.velocity + push, 8.0), -8.0);
         const Real angle = s.angle + velocity * 0.05;
         const auto [sin, cos] = sin_cos(angle);

@@ -13,7 +13,7 @@
 namespace handwritten {
 
 struct Reservoir {
-    static constexpr int width = 8;
+    static constexpr int width = 16;
     static constexpr std::uint64_t horizon = 100;
     static constexpr bool stochastic = true;
     static constexpr std::size_t count = std::size(reservoir::top_res);
