@@ -67,10 +67,6 @@ ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
     ir::Buffer buffer{.name = unused_name(name),
                       .storage = ir::Storage::Scratch,
                       .scalar = scalar,
-                      .shape = {},
-                      .types = {},
-                      .fluent = {},
-                      .values = {},
                       .span = expr.span,
                       .finite = scalar != ir::Scalar::Real};
     double count = 1;

@@ -71,12 +71,13 @@ struct Buffer {
     std::string name;  // the RDDL name of the fluent, or a name made by a pass
     Storage storage;
     Scalar scalar;
-    std::vector<std::int64_t> shape;  // empty: one value
+    std::vector<std::int64_t> shape = {};  // empty: one value
     // One per dimension, index into Program::types; empty for a table over something else.
-    std::vector<std::uint32_t> types;
-    std::optional<std::uint32_t> fluent;  // index into Program::fluents; absent: the policy's own
+    std::vector<std::uint32_t> types = {};
+    // Index into Program::fluents; absent: the policy's own.
+    std::optional<std::uint32_t> fluent = {};
     // Constant: the table; State, Memory: initial; Action: defaults.
-    Table values;
+    Table values = {};
     Span span;
     // No element is ever inf or nan, as long as no sum or product overflows and actions are finite.
     bool finite = true;

@@ -334,9 +334,6 @@ class Counting {
         ir::Buffer table{.name = without_ending(origin.name, "-rows") + "-bits",
                          .storage = ir::Storage::Constant,
                          .scalar = ir::Scalar::Int,
-                         .shape = {},
-                         .types = {},
-                         .fluent = {},
                          .values = std::move(values),
                          .span = origin.span};
         std::vector<ir::NodeId> indices;

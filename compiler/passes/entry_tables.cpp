@@ -21,8 +21,6 @@ ir::BufferId EntryTables::table(const std::string& name, ir::Scalar scalar,
                                      .storage = ir::Storage::Constant,
                                      .scalar = scalar,
                                      .shape = {std::ssize(values)},
-                                     .types = {},
-                                     .fluent = {},
                                      .values = values,
                                      .span = span,
                                      .finite = std::ranges::all_of(values, is_finite)});

@@ -40,10 +40,6 @@ ir::BufferId scratch_table(ir::Program& program, const std::string& wish, ir::Sc
     ir::Buffer table{.name = unused_name(program, wish),
                      .storage = ir::Storage::Scratch,
                      .scalar = scalar,
-                     .shape = {},
-                     .types = {},
-                     .fluent = {},
-                     .values = {},
                      .span = span,
                      .finite = finite};
     set_dimensions(program, table, variables);

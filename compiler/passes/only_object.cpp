@@ -124,9 +124,6 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
                           .storage = ir::Storage::Constant,
                           .scalar = ir::Scalar::Int,
                           .shape = {last - first + 1},
-                          .types = {},
-                          .fluent = {},
-                          .values = {},
                           .span = table.span};
     const ir::NodeId place =
         builder_.apply(Operator::Subtract, {clamped(value, first, last), number(first)});

@@ -84,8 +84,6 @@ ir::BufferId new_table(ir::Program& program, const Pieces& pieces, const std::st
                      .storage = ir::Storage::Constant,
                      .scalar = static_cast<ir::Scalar>(values.front().index()),
                      .shape = {static_cast<std::int64_t>(values.size())},
-                     .types = {},
-                     .fluent = {},
                      .values = std::move(values),
                      .span = program.reward.span};
     table.finite = table.values.all_of(is_finite);

@@ -111,9 +111,6 @@ class Tabulation {
         ir::Buffer buffer{.name = name + "-table",
                           .storage = ir::Storage::Constant,
                           .scalar = program_[id].type,
-                          .shape = {},
-                          .types = {},
-                          .fluent = {},
                           .values = *std::move(values),
                           .span = span};
         set_dimensions(program_, buffer, variables);

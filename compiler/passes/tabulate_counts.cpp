@@ -208,9 +208,6 @@ class Tabulation {
         ir::Buffer table{.name = name_ + "-by-" + name_of(count),
                          .storage = ir::Storage::Constant,
                          .scalar = ir::Scalar::Real,
-                         .shape = {},
-                         .types = {},
-                         .fluent = {},
                          .values = values,
                          .span = span_};
         for (ir::VariableId variable : variables) table.shape.push_back(program_[variable].size);
