@@ -3,6 +3,7 @@
 #include "ir/analysis.hpp"
 #include "ir/verify.hpp"
 #include "passes/compare_counts.hpp"
+#include "passes/compare_magnitudes.hpp"
 #include "passes/count_bits.hpp"
 #include "passes/count_bools.hpp"
 #include "passes/evaluate_together.hpp"
@@ -81,6 +82,8 @@ constexpr Pass in_order[] = {
      passes::skip_zero_terms},
     {"count_bits", "sums and tests over tables of bools work on the bits of ints",
      passes::count_bits},
+    {"compare_magnitudes", "two opposite bounds of a real become one of its absolute value",
+     passes::compare_magnitudes},
     {"share_across_definitions", "what several CPFs compute is computed once",
      passes::share_across_definitions},
     {"separate_aggregations",
