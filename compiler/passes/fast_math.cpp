@@ -24,8 +24,10 @@ class Relaxing {
         switch (apply->op) {
             case Operator::Multiply:
                 return product(a, b);
+            case Operator::Add:
+                return sum(a, b);
             case Operator::Subtract:
-                return constant(a) == 0.0 ? scaled(b, -1.0) : std::nullopt;
+                return difference(a, b);
             case Operator::Divide:
                 return quotient(a, b);
             case Operator::Power:
@@ -41,6 +43,36 @@ class Relaxing {
     }
 
   private:
+    std::optional<ir::NodeId> sum(ir::NodeId a, ir::NodeId b) {
+        if (const auto first = constant(a)) return shifted(b, *first);
+        if (const auto second = constant(b)) return shifted(a, *second);
+        return std::nullopt;
+    }
+    std::optional<ir::NodeId> difference(ir::NodeId a, ir::NodeId b) {
+        if (const auto second = constant(b)) return shifted(a, -*second);
+        return constant(a) == 0.0 ? scaled(b, -1.0) : std::nullopt;
+    }
+
+    // x + shift, where that takes no more operations than x does: x is a sum with a constant term.
+    // Sought in `depth` operations inside each other.
+    std::optional<ir::NodeId> shifted(ir::NodeId x, double shift, int depth = 5) {
+        if (shift == 0) return x;
+        if (const auto value = constant(x)) return builder_.constant(*value + shift);
+        const auto* apply = std::get_if<ir::Apply>(&builder_.program()[x].form);
+        const bool is_sum =
+            apply && (apply->op == Operator::Add || apply->op == Operator::Subtract);
+        if (!is_sum || depth == 0) return std::nullopt;
+        const Operator op = apply->op;
+        const ir::NodeId a = apply->operands[0], b = apply->operands[1];
+        const double shift_of_b = op == Operator::Add ? shift : -shift;
+        if (const auto second = shifted(b, shift_of_b, depth - 1))
+            return constant(*second) == 0.0 ? a : builder_.apply(op, {a, *second});
+        if (const auto first = shifted(a, shift, depth - 1))
+            return constant(*first) == 0.0 && op == Operator::Add ? b
+                                                                  : builder_.apply(op, {*first, b});
+        return std::nullopt;
+    }
+
     std::optional<ir::NodeId> product(ir::NodeId a, ir::NodeId b) {
         const auto first = constant(a), second = constant(b);
         if (!first && !second) return std::nullopt;

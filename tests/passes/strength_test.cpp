@@ -52,6 +52,15 @@ TEST(FastMath, BringsConstantFactorsTogether) {
     EXPECT_EQ(relaxed("2 * (x + 1)"), "2.0 * (state.x + 1.0)") << "as many operations";
 }
 
+TEST(FastMath, BringsConstantTermsTogether) {
+    EXPECT_EQ(relaxed("x + 3 - exp[x] - 1"), "state.x + 2.0 - exp(state.x)");
+    EXPECT_EQ(relaxed("x + 3 - exp[x] - 3"), "state.x - exp(state.x)");
+    EXPECT_EQ(relaxed("1 + (exp[x] - (x + 3))"), "exp(state.x) - (state.x + 2.0)");
+    EXPECT_EQ(relaxed("(3 - x) - 3"), "0.0 - state.x");
+    EXPECT_EQ(relaxed("(3 + x) - 3"), "state.x");
+    EXPECT_EQ(relaxed("(x * 2 + 1) * 3 + 4"), "state.x * 6.0 + 7.0");
+}
+
 TEST(FastMath, SubtractsMultiplesForRemainders) {
     EXPECT_EQ(relaxed("fmod[x, 4]"), "state.x - 4.0 * real(floor(state.x * 0.25))");
     EXPECT_EQ(relaxed("fmod[x, 0]"), "floor_mod_real(state.x, 0.0)");
@@ -59,7 +68,7 @@ TEST(FastMath, SubtractsMultiplesForRemainders) {
 }
 
 TEST(FastMath, DropsZeroTimesAnything) {
-    EXPECT_EQ(relaxed("x + sum_{?o : obj} [0.0 * v(?o)]"), "state.x + 0.0");
+    EXPECT_EQ(relaxed("x + sum_{?o : obj} [0.0 * v(?o)]"), "state.x");
     EXPECT_EQ(relaxed("0.0 * sum_{?o : obj} Normal(0, 1)"),
               "0.0 * sum[o in obj](sample normal@0[o](0.0, 1.0))");
 }
