@@ -30,8 +30,9 @@ class AnyEngine {
           scratch_size_(engine.scratch_size()),
           has_policy_(rddl::has_policy(engine)),
           memory_size_(rddl::memory_size(engine)) {
-        reset_ = [](const void* self, std::byte* state, Context<L>& context) {
-            of<E>(self).reset(state, context);
+        reset_some_ = [](const void* self, const Columns& columns, Bool lanes,
+                         const StateRecords& records, Context<L>& context) -> Bool {
+            return rddl::reset_some(of<E>(self), columns, lanes, records, context);
         };
         // Only one of them, since compilers stop inlining in simulators that have both.
         if constexpr (L::width == 1)
@@ -69,7 +70,11 @@ class AnyEngine {
     std::size_t observation_size() const { return observation_size_; }
     std::size_t scratch_size() const { return scratch_size_; }
 
-    void reset(std::byte* state, Context<L>& context) const { reset_(engine_, state, context); }
+    // As rddl::reset_some.
+    typename L::Bool reset_some(const Columns& columns, typename L::Bool lanes,
+                                const StateRecords& records, Context<L>& context) const {
+        return reset_some_(engine_, columns, lanes, records, context);
+    }
     typename L::Bool terminal(const std::byte* state, Context<L>& context) const {
         return terminal_(engine_, state, context);
     }
@@ -112,7 +117,7 @@ class AnyEngine {
     bool has_policy_;
     std::size_t memory_size_;
 
-    void (*reset_)(const void*, std::byte*, Context<L>&);
+    Bool (*reset_some_)(const void*, const Columns&, Bool, const StateRecords&, Context<L>&);
     Stop<L> (*advance_)(const void*, const Blocks<L>&, Range, Actions, const StepBuffers&,
                         const rddl_transition&) = nullptr;
     rddl_error (*advance_one_)(const void*, const BatchView<L>&, std::int64_t, Actions,
@@ -125,6 +130,12 @@ class AnyEngine {
 };
 
 // Compiled with the simulator.
+template <class L>
+typename L::Bool reset_some(const AnyEngine<L>& engine, const Columns& columns,
+                            typename L::Bool lanes, const StateRecords& records,
+                            Context<L>& context) {
+    return engine.reset_some(columns, lanes, records, context);
+}
 template <class L>
 Stop<L> advance(const AnyEngine<L>& engine, const Blocks<L>& blocks, Range range, Actions actions,
                 const StepBuffers& memory, const rddl_transition& out) {

@@ -68,7 +68,7 @@ struct BatchOptions {
 };
 
 // The engine must outlive the batch.
-template <StartingEngine E>
+template <StateEngine E>
 class Batch {
   public:
     using L = typename E::Lane;

@@ -103,11 +103,10 @@ Columns columns_of(const rddl_problem& problem, rddl_role role, std::int64_t row
     detail::lay_out<L>(columns, problem, role);
     return columns;
 }
-template <class L, const rddl_problem& problem>
-constexpr auto known_action_columns() {
-    KnownColumns<detail::column_count(problem, RDDL_ACTION)> columns{.row_size =
-                                                                         problem.action_size};
-    detail::lay_out<L>(columns, problem, RDDL_ACTION);
+template <class L, const rddl_problem& problem, rddl_role role>
+constexpr auto known_columns(std::int64_t row_size) {
+    KnownColumns<detail::column_count(problem, role)> columns{.row_size = row_size};
+    detail::lay_out<L>(columns, problem, role);
     return columns;
 }
 
@@ -401,27 +400,28 @@ void write_values(L, const Columns& columns, const std::byte* block, Number* row
 // -------------------------------------------------------------------------------- in blocks
 
 // Takes over another block's values where the mask holds.
-template <class R>
-void merge(ScalarOf<R>, const Columns& columns, bool mask, const std::byte* from,
+template <class R, class List>
+void merge(ScalarOf<R>, const ColumnTable<List>& columns, bool mask, const std::byte* from,
            std::byte* block) {
     if (mask && columns.block_size > 0)
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
 }
-template <int n, class R>
-void merge(Pack<n, R>, const Columns& columns, Mask<n> mask, const std::byte* from,
+template <int n, class R, class List>
+void merge(Pack<n, R>, const ColumnTable<List>& columns, Mask<n> mask, const std::byte* from,
            std::byte* block) {
     if (all(mask) && columns.block_size > 0) {
         std::memcpy(block, from, static_cast<std::size_t>(columns.block_size));
         return;
     }
     if (!any(mask)) return;
-    for (const Column& column : columns.list)
-        with_type<Pack<n, R>>(column.scalar, [&]<class T>() {
+    for_each_column(columns, [&](const Column& column) RDDL_INLINE_LAMBDA {
+        with_type<Pack<n, R>>(column.scalar, [&]<class T>() RDDL_INLINE_LAMBDA {
             const T* const theirs = detail::values_in<T>(from, column);
             T* const ours = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k)
                 ours[k] = select(mask, theirs[k], ours[k]);
         });
+    });
 }
 
 }  // namespace rddl

@@ -38,7 +38,9 @@ struct Compiled {
                   std::is_trivially_copyable_v<Memory>);
 
     static constexpr bool has_state_tables = has_tables(problem, RDDL_STATE);
-    static constexpr auto action_columns = known_action_columns<L, problem>();
+    static constexpr auto state_columns = known_columns<L, problem, RDDL_STATE>(problem.state_size);
+    static constexpr auto action_columns =
+        known_columns<L, problem, RDDL_ACTION>(problem.action_size);
     // Callers get all bytes of the records of one environment.
     static constexpr bool shows_padding =
         L::width == 1 && (has_padding(problem, RDDL_STATE, problem.state_size) ||

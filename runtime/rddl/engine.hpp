@@ -19,9 +19,9 @@
 
 namespace rddl {
 
-// What starts and describes episodes.
+// The sizes of records, and the conditions on states.
 template <class E>
-concept StartingEngine = requires(const E engine, const std::byte* record, std::byte* target,
+concept StateEngine = requires(const E engine, const std::byte* record, std::byte* target,
                                   Context<typename E::Lane>& context) {
     // Bytes of one record; 0 for an empty one. Scratch is whatever a step needs beside them.
     { engine.state_size() } -> std::convertible_to<std::size_t>;
@@ -29,8 +29,6 @@ concept StartingEngine = requires(const E engine, const std::byte* record, std::
     { engine.observation_size() } -> std::convertible_to<std::size_t>;
     { engine.scratch_size() } -> std::convertible_to<std::size_t>;
 
-    // reset(state, context): the initial values.
-    {engine.reset(target, context)};
     // Whether a termination condition holds.
     { engine.terminal(record, context) } -> std::convertible_to<typename E::Lane::Bool>;
     // The first violated condition, or -1. One that faults counts as violated.
@@ -40,9 +38,11 @@ concept StartingEngine = requires(const E engine, const std::byte* record, std::
 };
 
 template <class E>
-concept Engine = StartingEngine<E> &&
+concept Engine = StateEngine<E> &&
     requires(const E engine, const std::byte* record, std::byte* target,
              Context<typename E::Lane>& context) {
+    // reset(state, context): the initial values.
+    {engine.reset(target, context)};
     // step(state, action, scratch, next, observation, context): fills the next state, and the
     // observation of a partially observed problem; the reward.
     {
@@ -54,7 +54,7 @@ concept Engine = StartingEngine<E> &&
 
 // An engine that may have a policy. Memory is what the policy remembers within an episode.
 template <class E>
-concept PolicyEngine = StartingEngine<E> &&
+concept PolicyEngine = StateEngine<E> &&
     requires(const E engine, const std::byte* record, std::byte* target,
              Context<typename E::Lane>& context) {
     // The functions below may be called where this is true.
@@ -83,6 +83,7 @@ concept TypedEngine = Engine<E> && requires {
     typename E::Action;
     typename E::Scratch;
     typename E::Observation;
+    E::state_columns;
     E::action_columns;
     { E::has_state_tables } -> std::convertible_to<bool>;
     { E::shows_padding } -> std::convertible_to<bool>;
@@ -154,13 +155,13 @@ void copy_observation(const E& engine, const std::byte* from, std::byte* to) {
         std::memcpy(to, from, engine.observation_size());
 }
 
-template <StartingEngine E>
+template <StateEngine E>
 constexpr bool has_policy(const E& engine) {
     if constexpr (PolicyEngine<E>) return engine.has_policy();
     return false;
 }
 
-template <StartingEngine E>
+template <StateEngine E>
 constexpr std::size_t memory_size(const E& engine) {
     if constexpr (PolicyEngine<E>) return engine.has_policy() ? engine.memory_size() : 0;
     return 0;

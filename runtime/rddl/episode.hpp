@@ -70,6 +70,15 @@ struct alignas(64) Episodes {
         return Context<L>::of(key_low, key_high, words_of(steps), active);
     }
 
+    // These lanes run, unless their state is terminal or faulted.
+    void begin(Bool lanes, Bool terminal, const Context<L>& context) {
+        ends.terminated = select(lanes, terminal, ends.terminated);
+        ends.beyond_horizon = ends.beyond_horizon && !lanes;
+        ends.violated = ends.violated && !lanes;
+        ends.faulted = ends.faulted && !lanes;
+        if (any(context.faulted())) end_by_faults(context);
+    }
+
     void end_by_faults(const Context<L>& context) {
         for_each_lane(context.faulted(), [&](int lane) {
             const auto place = static_cast<std::size_t>(lane);
@@ -122,18 +131,38 @@ struct Blocks {
 };
 
 // Ends the episodes whose state, not reached by a step, is terminal; the others of `lanes` run.
-template <StartingEngine E, class L = typename E::Lane>
+template <StateEngine E, class L = typename E::Lane>
 void end_if_terminal(const E& engine, Episodes<L>& episodes, typename L::Bool lanes,
                      const std::byte* states) {
-    using Bool = typename L::Bool;
     Context<L> context = episodes.context_of_state(lanes);
-    const Bool terminal = engine.terminal(states, context);
-    Ends<L>& ends = episodes.ends;
-    ends.terminated = select(lanes, terminal, ends.terminated);
-    ends.beyond_horizon = select(lanes, Bool(false), ends.beyond_horizon);
-    ends.violated = select(lanes, Bool(false), ends.violated);
-    ends.faulted = select(lanes, Bool(false), ends.faulted);
-    if (any(context.faulted())) episodes.end_by_faults(context);
+    const typename L::Bool terminal = engine.terminal(states, context);
+    episodes.begin(lanes, terminal, context);
+}
+
+// The states of a block, and room for as many.
+struct StateRecords {
+    std::byte* states;
+    std::byte* room;
+};
+
+// These lanes' states become initial ones; where they are terminal.
+template <Engine E, class L = typename E::Lane>
+typename L::Bool reset_some(const E& engine, const Columns& columns, typename L::Bool lanes,
+                            const StateRecords& records, Context<L>& context) {
+    engine.reset(records.room, context);
+    merge(L{}, columns, lanes, records.room, records.states);
+    return engine.terminal(records.room, context);
+}
+// Small states are made and merged in registers.
+template <TypedEngine E, class L = typename E::Lane>
+requires(!E::has_state_tables && !E::shows_padding)  //
+    typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool lanes,
+                                const StateRecords& records, Context<L>& context) {
+    typename E::State initial;
+    auto* const made = reinterpret_cast<std::byte*>(&initial);
+    engine.reset(made, context);
+    merge(L{}, E::state_columns, lanes, made, records.states);
+    return engine.terminal(made, context);
 }
 
 // What the random stream of each episode of a batch is made of.
@@ -142,28 +171,33 @@ struct Streams {
     bool drawn_from;  // false: nothing is drawn, so there need be none
 };
 
-// Starts the next episodes of these lanes, in the initial state. `identity` is that of lane 0;
-// `room` is a block of states to work in.
-template <StartingEngine E, class L = typename E::Lane>
-void start_next(const E& engine, const Columns& columns, Episodes<L>& episodes,
-                typename L::Bool lanes, const Streams& streams, std::uint64_t identity,
-                std::byte* room, std::byte* states) {
+// Of the episodes that start in these lanes. `identity` is that of lane 0.
+template <class L>
+void set_keys(Episodes<L>& episodes, typename L::Bool lanes, std::uint64_t seed,
+              std::uint64_t identity) {
     for_each_lane(lanes, [&](int lane) {
-        const std::int64_t number = get_lane(episodes.number, lane) + 1;
-        set_lane(episodes.number, lane, number);
-        set_lane(episodes.steps, lane, std::int64_t{0});
-        set_lane(episodes.has_fault, lane, false);
-        if (!streams.drawn_from) return;
-        const StreamKey key = stream_key(streams.seed, identity + static_cast<std::uint64_t>(lane),
-                                         static_cast<std::uint64_t>(number));
+        const auto number = static_cast<std::uint64_t>(get_lane(episodes.number, lane));
+        const StreamKey key = stream_key(seed, identity + static_cast<std::uint64_t>(lane), number);
         set_lane(episodes.key_low, lane, std::uint64_t{key.low});
         set_lane(episodes.key_high, lane, std::uint64_t{key.high});
     });
+}
+
+// Starts the next episodes of these lanes, in the initial state. `identity` is that of lane 0;
+// `room` is a block of states to work in.
+template <StateEngine E, class L = typename E::Lane>
+void start_next(const E& engine, const Columns& columns, Episodes<L>& episodes,
+                typename L::Bool lanes, const Streams& streams, std::uint64_t identity,
+                std::byte* room, std::byte* states) {
+    using Int = typename L::Int;
+    episodes.number = select(lanes, wrap_add(episodes.number, Int{1}), episodes.number);
+    episodes.steps = select(lanes, Int{0}, episodes.steps);
+    episodes.has_fault = episodes.has_fault && !lanes;
+    if (streams.drawn_from) set_keys(episodes, lanes, streams.seed, identity);
     Context<L> context = episodes.context_of_state(lanes);
-    engine.reset(room, context);
-    merge(L{}, columns, lanes, room, states);
-    end_if_terminal(engine, episodes, lanes && !context.faulted(), states);
-    if (any(context.faulted())) episodes.end_by_faults(context);
+    const typename L::Bool terminal =
+        reset_some(engine, columns, lanes, StateRecords{states, room}, context);
+    episodes.begin(lanes, terminal, context);
 }
 
 }  // namespace rddl

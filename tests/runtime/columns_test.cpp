@@ -83,7 +83,7 @@ TYPED_TEST_SUITE(ColumnsOf, PackTypes);
 TYPED_TEST(ColumnsOf, ReadAndWriteWholeAndOtherBlocks) {
     using L = TypeParam;
     const Columns columns = columns_of<L>(problem, RDDL_ACTION, problem.action_size);
-    constexpr auto known = known_action_columns<L, problem>();
+    constexpr auto known = known_columns<L, problem, RDDL_ACTION>(problem.action_size);
     ASSERT_EQ(columns.block_size, static_cast<std::int64_t>(sizeof(Block<L>)));
     ASSERT_EQ(known.block_size, columns.block_size);
     for (const int present : {1, 7, L::width - 1, L::width}) {
