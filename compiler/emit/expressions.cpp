@@ -346,6 +346,12 @@ Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
             next == load.indices.end() ? "" : ", " + arguments({next, load.indices.end()});
         return {"rddl::at(" + text + ", " + several_->objects + rest + ")", Level::Primary};
     }
+    if (several_ && !std::ranges::all_of(load.indices, [&](ir::NodeId id) {
+            return ir::is_same_for_all(unit_.facts_of(id), several_->nest);
+        }))
+        return {"rddl::at_own(" + text + ", " + several_->objects + ", " + arguments(load.indices) +
+                    ")",
+                Level::Primary};
     for (; next != load.indices.end() && unit_.facts_of(*next).uniform; ++next) {
         text += "[" + index(*next).text + "]";
     }

@@ -67,4 +67,10 @@ bool begins_with(const Program& program, const std::vector<NodeId>& indices, con
                [&](VariableId variable, NodeId id) { return is_index_of(program, variable, id); });
 }
 
+bool is_same_for_all(const Facts& facts, const Nest& nest) {
+    return facts.uniform && std::ranges::none_of(nest.variables, [&](VariableId variable) {
+               return std::ranges::binary_search(facts.free_variables, variable);
+           });
+}
+
 }  // namespace rddlc::ir

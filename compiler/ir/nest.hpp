@@ -1,6 +1,7 @@
 // Loops right inside each other, over all combinations of their variables.
 #pragma once
 
+#include "ir/analysis.hpp"
 #include "ir/ir.hpp"
 
 #include <vector>
@@ -21,5 +22,7 @@ Block looped(Block body, const std::vector<VariableId>& variables);
 bool is_place_in(const Program& program, const Nest& nest, NodeId id);
 // The first indices are the variables of the nest.
 bool begins_with(const Program& program, const std::vector<NodeId>& indices, const Nest& nest);
+// Equal in all iterations of the nest, and in all environments.
+bool is_same_for_all(const Facts& facts, const Nest& nest);
 
 }  // namespace rddlc::ir

@@ -70,19 +70,19 @@ bool SeveralObjects::can_evaluate_all(const std::vector<ir::NodeId>& ids) const 
     return std::ranges::all_of(ids, [&](ir::NodeId id) { return can_evaluate(id); });
 }
 
-// An element of these objects, or one that is the same for all of them.
+// An element of these objects, or one that is the same for all of them, or that they choose from a
+// table of constants.
 bool SeveralObjects::can_load(const ir::Load& load) const {
     if (ir::begins_with(program_, load.indices, nest_)) {
         const auto rest =
             load.indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
         return can_evaluate_all({rest, load.indices.end()});
     }
-    return std::ranges::all_of(load.indices, [&](ir::NodeId index) {
-        const ir::Facts& facts = facts_of_(index);
-        return facts.uniform && std::ranges::none_of(nest_.variables, [&](ir::VariableId v) {
-                   return std::ranges::binary_search(facts.free_variables, v);
-               });
+    const bool is_same = std::ranges::all_of(load.indices, [&](ir::NodeId index) {
+        return ir::is_same_for_all(facts_of_(index), nest_);
     });
+    return is_same || (program_[load.buffer].storage == ir::Storage::Constant &&
+                       can_evaluate_all(load.indices));
 }
 
 bool SeveralObjects::can_store(const ir::Store& store) const {

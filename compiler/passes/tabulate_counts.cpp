@@ -5,9 +5,12 @@
 #include "passes/new_tables.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -19,6 +22,9 @@ constexpr double largest_range = 256;
 // elements each of them is worth.
 constexpr double worth_a_table = 8;
 constexpr double elements_for_an_operation = 64;
+// A table of several kinds of objects has this many times fewer rows, at least.
+constexpr std::size_t objects_of_a_kind = 4;
+constexpr std::size_t most_kinds = 64;
 
 // How an expression depends on what differs between environments.
 struct Dependence {
@@ -26,6 +32,11 @@ struct Dependence {
     std::optional<ir::NodeId> count;  // a small int; none: on nothing
     double cost = 0;                  // of what is computed beside the count
 };
+
+bool have_same_bits(const ir::Value& a, const ir::Value& b) {
+    return std::bit_cast<std::uint64_t>(std::get<double>(a)) ==
+           std::bit_cast<std::uint64_t>(std::get<double>(b));
+}
 
 // Replaces the outermost expressions that depend on one count.
 class Tabulation {
@@ -106,12 +117,15 @@ class Tabulation {
         if (elements > cost * elements_for_an_operation) return std::nullopt;
         auto values = values_of(cases, variables);
         if (!values) return std::nullopt;
-        repeat_last_reached(*values, std::ssize(cases), *count, variables);
 
         ++report_["expressions of a count made tables"];
-        const ir::BufferId table = new_table(*count, variables, std::ssize(cases), *values);
-        std::vector<ir::NodeId> indices;
-        for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+        const Rows rows{.cases = cases.size(),
+                        .values = std::move(*values),
+                        .reached = reached_cases(*count, cases.size(), variables)};
+        const std::string name = name_ + "-by-" + name_of(*count);
+        const auto kinds = kinds_of(rows);
+        auto [table, indices] = kinds ? table_of_kinds(name, rows, *kinds, variables)
+                                      : table_of_objects(name, rows, variables);
         indices.push_back(builder_.apply(Operator::Subtract, {rewritten(*count), least(*count)}));
         return builder_.load(table, std::move(indices));
     }
@@ -151,21 +165,20 @@ class Tabulation {
         return values;
     }
 
-    // Elements that an object's count does not reach become the last one that it does, so that they
-    // do not widen the range of the table.
-    void repeat_last_reached(std::vector<ir::Value>& values, std::int64_t cases, ir::NodeId count,
-                             const std::vector<ir::VariableId>& variables) {
+    // How many of its cases each object's count may reach.
+    std::vector<std::size_t> reached_cases(ir::NodeId count, std::size_t cases,
+                                           const std::vector<ir::VariableId>& variables) {
+        std::vector<std::size_t> reached(static_cast<std::size_t>(objects_of(variables)), cases);
         const auto greatest =
             constant_values(evaluator_, program_, greatest_for(count, variables), variables);
-        if (!greatest) return;
-        const double least = builder_.facts(count).range->lower;
-        for (std::size_t object = 0; object < greatest->size(); ++object) {
-            const auto reached = std::get<std::int64_t>((*greatest)[object]);
-            ir::Value* const row = &values[object * static_cast<std::size_t>(cases)];
-            for (std::int64_t k = 1; k < cases; ++k)
-                if (least + static_cast<double>(k) > static_cast<double>(reached))
-                    row[k] = row[k - 1];
+        if (!greatest) return reached;
+        const auto least = static_cast<std::int64_t>(builder_.facts(count).range->lower);
+        for (std::size_t object = 0; object < reached.size(); ++object) {
+            const std::int64_t last = std::get<std::int64_t>((*greatest)[object]) - least;
+            reached[object] = static_cast<std::size_t>(
+                std::clamp<std::int64_t>(last + 1, 1, static_cast<std::int64_t>(cases)));
         }
+        return reached;
     }
 
     // An upper bound of a count, from constants and these variables.
@@ -203,18 +216,100 @@ class Tabulation {
         return objects;
     }
 
-    ir::BufferId new_table(ir::NodeId count, const std::vector<ir::VariableId>& variables,
-                           std::int64_t cases, const std::vector<ir::Value>& values) {
-        ir::Buffer table{.name = name_ + "-by-" + name_of(count),
+    // ---------------------------------------------------------------------------- tables
+
+    // A row for each object, in row-major order.
+    struct Rows {
+        std::size_t cases;
+        std::vector<ir::Value> values;
+        std::vector<std::size_t> reached;  // by object: how many of its row's elements are read
+
+        std::span<const ir::Value> reached_by(std::size_t object) const {
+            return std::span(values).subspan(object * cases, reached[object]);
+        }
+    };
+    // Objects of one kind have the same row, as far as both reach.
+    struct Kinds {
+        std::vector<std::size_t> examples;  // of each kind, the object that reaches furthest
+        std::vector<ir::Value> of_objects;  // ints
+    };
+    struct Place {
+        ir::BufferId table;
+        std::vector<ir::NodeId> indices;  // but for the count
+    };
+
+    // None where the objects are of too many kinds.
+    static std::optional<Kinds> kinds_of(const Rows& rows) {
+        Kinds kinds;
+        for (std::size_t object = 0; object < rows.reached.size(); ++object) {
+            const auto row = rows.reached_by(object);
+            const auto known = std::ranges::find_if(kinds.examples, [&](std::size_t example) {
+                const auto other = rows.reached_by(example);
+                const std::size_t both = std::min(row.size(), other.size());
+                return std::ranges::equal(row.first(both), other.first(both), have_same_bits);
+            });
+            kinds.of_objects.push_back(std::int64_t{known - kinds.examples.begin()});
+            if (known == kinds.examples.end())
+                kinds.examples.push_back(object);
+            else if (row.size() > rows.reached[*known])
+                *known = object;
+            const std::size_t count = kinds.examples.size();
+            const std::size_t most = std::min(rows.reached.size() / objects_of_a_kind, most_kinds);
+            if (count > 1 && count > most) return std::nullopt;
+        }
+        return kinds;
+    }
+
+    Place table_of_kinds(const std::string& name, const Rows& rows, const Kinds& kinds,
+                         const std::vector<ir::VariableId>& variables) {
+        if (kinds.examples.size() == 1) return {new_table(name, rows, kinds.examples, {}), {}};
+        ir::Buffer of_objects{.name = name_ + "-kind",
+                              .storage = ir::Storage::Constant,
+                              .scalar = ir::Scalar::Int,
+                              .values = kinds.of_objects,
+                              .span = span_};
+        set_dimensions(program_, of_objects, variables);
+        const ir::BufferId kind = constant_table(program_, std::move(of_objects));
+        const auto count = static_cast<std::int64_t>(kinds.examples.size());
+        return {new_table(name, rows, kinds.examples, {count}),
+                {builder_.load(kind, indices_of(variables))}};
+    }
+    Place table_of_objects(const std::string& name, const Rows& rows,
+                           const std::vector<ir::VariableId>& variables) {
+        std::vector<std::size_t> all(rows.reached.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::vector<std::int64_t> shape;
+        for (ir::VariableId variable : variables) shape.push_back(program_[variable].size);
+        return {new_table(name, rows, all, std::move(shape)), indices_of(variables)};
+    }
+
+    // The rows of these objects. Elements that are not reached repeat the last one that is, so that
+    // they do not widen the range of the table.
+    ir::BufferId new_table(const std::string& name, const Rows& rows,
+                           const std::vector<std::size_t>& objects,
+                           std::vector<std::int64_t> shape) {
+        shape.push_back(static_cast<std::int64_t>(rows.cases));
+        std::vector<ir::Value> values;
+        for (std::size_t object : objects) {
+            const auto row = rows.reached_by(object);
+            values.insert(values.end(), row.begin(), row.end());
+            values.insert(values.end(), rows.cases - row.size(), row.back());
+        }
+        ir::Buffer table{.name = name,
                          .storage = ir::Storage::Constant,
                          .scalar = ir::Scalar::Real,
-                         .values = values,
+                         .shape = std::move(shape),
                          .span = span_};
-        for (ir::VariableId variable : variables) table.shape.push_back(program_[variable].size);
-        table.shape.push_back(cases);
         table.finite = std::ranges::all_of(
             values, [](const ir::Value& value) { return std::isfinite(std::get<double>(value)); });
+        table.values = std::move(values);
         return constant_table(program_, std::move(table));
+    }
+
+    std::vector<ir::NodeId> indices_of(const std::vector<ir::VariableId>& variables) {
+        std::vector<ir::NodeId> indices;
+        for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+        return indices;
     }
 
     std::string name_of(ir::NodeId count) const {

@@ -4,7 +4,12 @@
 //                                       =>
 //     burning-by-count[sum[e in row](int(state.burning[e]))]
 //
-// Constants that differ between the objects of a loop make a row of the table each. Only reals, and
+// Constants that differ between the objects of a loop make a row of the table each, or each kind of
+// objects where these are few:
+//
+//     burning-by-count[burning-kind[x], sum[e in row[x]](int(state.burning[e]))]
+//
+// Only reals, and
 // only where no entry faults and enough work is saved for the size of the table.
 #pragma once
 

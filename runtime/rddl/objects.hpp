@@ -166,6 +166,20 @@ requires(sizeof...(Indices) > 0)  //
                                                         select(objects.mask(), places, Int{0}));
 }
 
+// The element that each object chooses from the table by indices of its own.
+template <class Table, class... Indices>
+RDDL_INLINE auto at_own(const Table& table, OneObject, const Indices&... indices) {
+    return at(table, indices...);
+}
+template <class Table, int n, class... Indices>
+RDDL_INLINE auto at_own(const Table& table, const SomeObjects<n>& objects,
+                        const Indices&... indices) {
+    using Int = Lanes<std::int64_t, n>;
+    const Int places = detail::place_in<Table, Int>(indices...);
+    return detail::gather<detail::Nested<Table>::count>(&detail::first_part<0>(table),
+                                                        select(objects.mask(), places, Int{0}));
+}
+
 // The elements in which values are stored.
 template <class Table>
 RDDL_INLINE auto& elements(Table& table, OneObject object) {

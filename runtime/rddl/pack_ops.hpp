@@ -533,13 +533,18 @@ auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
 }  // namespace detail
 
 // An element of a nested std::array; at least one index differs between the lanes.
-template <class Array, class... Indices>
-requires SomePack<Indices...> RDDL_INLINE auto at(const Array& array, const Indices&... indices) {
-    constexpr int n = std::max({detail::pack_width<Indices>...});
-    const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(indices...);
-    using Nested = detail::Nested<Array>;
-    return detail::gather<Nested::count>(reinterpret_cast<const typename Nested::Element*>(&array),
-                                         place);
+template <class Array, class First, class... Rest>
+requires SomePack<First, Rest...> RDDL_INLINE auto at(const Array& array, const First& first,
+                                                      const Rest&... rest) {
+    if constexpr (std::is_integral_v<First>) {
+        return at(array[static_cast<std::size_t>(first)], rest...);
+    } else {
+        constexpr int n = std::max({detail::pack_width<First>, detail::pack_width<Rest>...});
+        const auto place = detail::place_in<Array, Lanes<std::int64_t, n>>(first, rest...);
+        using Nested = detail::Nested<Array>;
+        return detail::gather<Nested::count>(
+            reinterpret_cast<const typename Nested::Element*>(&array), place);
+    }
 }
 
 // ------------------------------------------------------------------------ some of the lanes

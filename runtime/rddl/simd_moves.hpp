@@ -65,6 +65,11 @@ template <std::int64_t count>
             return _mm512_maskz_permutexvar_pd(0xFF, (__m512i)indices, first);
         const Reals second = _mm512_maskz_loadu_pd((1 << second_half) - 1, table + first_half);
         return _mm512_permutex2var_pd(first, (__m512i)indices, second);
+    } else if constexpr (count <= 32) {
+        const __mmask8 beyond =
+            _mm512_test_epi64_mask((__m512i)indices, _mm512_set1_epi64(std::int64_t{16}));
+        return _mm512_mask_mov_pd(look_up<16>(table, indices), beyond,
+                                  look_up<count - 16>(table + 16, indices));
     }
 #endif
     return gather(table, indices);

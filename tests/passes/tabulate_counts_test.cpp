@@ -5,6 +5,8 @@
 
 #include <rddl/math.hpp>
 
+#include <algorithm>
+
 namespace rddlc {
 namespace {
 
@@ -49,6 +51,46 @@ TEST(TabulateCounts, RepeatsTheLastEntryThatAnObjectReaches) {
         return ir::Value(rddl::exp(x));
     };
     EXPECT_EQ(table.values, (std::vector{e(1), e(2), e(2), e(4), e(4), e(4), e(1), e(2), e(3)}));
+}
+
+TEST(TabulateCounts, HasOneRowForObjectsOfAKind) {
+    Problem problem =
+        with_tables("sum_{?u : obj, ?w : obj} [v(?u) * exp[NONE(?u, ?w) * sum_{?o : obj} p(?o)]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1);";
+    passes::Report report;
+    const ir::Program program = valid(passes::tabulate_counts(grounded(problem), report));
+    EXPECT_EQ(value_of_x(program),
+              "sum[u in obj](sum[w in obj](state.v[u] * "
+              "x-by-count[x-kind[u, w], sum[o in obj](int(state.p[o]))]))");
+    const auto table = [&](const std::string& name) {
+        return *std::ranges::find(program.buffers, name, &ir::Buffer::name);
+    };
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table("x-by-count").shape, (std::vector<std::int64_t>{2, 4}));
+    EXPECT_EQ(table("x-by-count").values,
+              (std::vector{e(0), e(0), e(0), e(0), e(0), e(1), e(2), e(3)}));
+    EXPECT_EQ(table("x-kind").shape, (std::vector<std::int64_t>{3, 3}));
+    const std::vector<std::int64_t> kinds{0, 1, 0, 0, 0, 0, 1, 0, 0};
+    EXPECT_EQ(table("x-kind").values, std::vector<ir::Value>(kinds.begin(), kinds.end()));
+}
+
+// b1 reaches two of the cases, b2 one and b3 all three.
+TEST(TabulateCounts, SharesTheRowOfTheObjectThatReachesFurthest) {
+    Problem problem = with_tables(
+        "sum_{?u : obj} [v(?u) * exp[SAME(?u) * (1 + sum_{?o : obj} [NONE(?u, ?o) ^ p(?o) ^ v(?o) "
+        "> 0])]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1); NONE(b3, b3);";
+    passes::Report report;
+    ir::Program program = passes::make_aggregations_sparse(grounded(problem), report);
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    const ir::Buffer& table = program.buffers.back();
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table.shape, std::vector<std::int64_t>{3});
+    EXPECT_EQ(table.values, (std::vector{e(1.5), e(3), e(4.5)}));
 }
 
 TEST(TabulateCounts, BeginsWithTheLeastCount) {

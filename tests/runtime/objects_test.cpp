@@ -69,6 +69,44 @@ TEST(Objects, AreElementsOfTables) {
     EXPECT_EQ(to.behind_number, -1);
 }
 
+template <std::size_t kinds>
+void expect_own_choices() {
+    std::array<std::array<double, 9>, kinds> values;
+    std::array<std::array<bool, 9>, kinds> flags;
+    for (std::size_t k = 0; k < 9 * kinds; ++k) {
+        values[k / 9][k % 9] = 0.5 * static_cast<double>(k);
+        flags[k / 9][k % 9] = k % 3 == 1;
+    }
+    Grid<std::int64_t> kind;
+    Index i = 0;
+    for (auto& row : kind)
+        for (std::int64_t& of_object : row) of_object = (5 * i++ + 2) % static_cast<Index>(kinds);
+    const Tables from = tables();
+    Context<Scalar> context = context_of_step(1);
+    Grid<double> value;
+    Grid<bool> flag;
+    for_each_object(context, count, [&](auto&, auto x) {
+        const auto number = wrap_add(at(from.number, x), 6);
+        elements(value, x) = at_own(values, x, at(kind, x), number);
+        elements(flag, x) = at_own(flags, x, at(kind, x), number);
+    });
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const auto row = static_cast<std::size_t>(kind[r][c]);
+            const auto number = static_cast<std::size_t>(from.number[r][c] + 6);
+            EXPECT_EQ(value[r][c], values[row][number]);
+            EXPECT_EQ(flag[r][c], flags[row][number]);
+        }
+}
+
+// From tables that registers may hold, and greater ones.
+TEST(Objects, ChooseElementsOfTheirOwn) {
+    expect_own_choices<1>();
+    expect_own_choices<2>();
+    expect_own_choices<3>();
+    expect_own_choices<9>();
+}
+
 TEST(Objects, TakeOneValueForAll) {
     for (const Index n : {Index{8}, Index{16}, Index{17}, Index{64}}) {
         std::array<bool, 65> on{};
