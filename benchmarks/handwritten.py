@@ -58,7 +58,9 @@ class Comparison:
 # GCC would put halves of one environment's polynomials into registers together, and lose half of its speed.
 # And GCC 12 makes wrong copies of constants (rddl/tables.hpp).
 NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns"]
-FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES]
+# As rddl has it (compiler/driver/shared_object.cpp).
+INLINE_MORE = ["--param", "max-inline-insns-single=400"]
+FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES, *INLINE_MORE]
 # Each reference as if it were alone in its program.
 INLINING = ["--param", "inline-unit-growth=1000"]
 
