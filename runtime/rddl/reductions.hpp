@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace rddl {
 
@@ -119,9 +120,17 @@ constexpr T maximum_over(Index n, Body&& body) {
 
 template <class Bool, class Body>
 constexpr Bool for_all(IndexRange range, Body&& body) {
-    Bool all{true};
-    for (Index i = range.begin; i < range.end; ++i) all = Bool(all & body(i));
-    return all;
+    if constexpr (std::is_same_v<Bool, bool>) {
+        // As wide as the numbers that most bodies compare, of which compilers then take several at
+        // once.
+        std::int64_t exceptions = 0;
+        for (Index i = range.begin; i < range.end; ++i) exceptions |= body(i) ? 0 : 1;
+        return exceptions == 0;
+    } else {
+        Bool all{true};
+        for (Index i = range.begin; i < range.end; ++i) all = Bool(all & body(i));
+        return all;
+    }
 }
 
 template <class Bool, class Body>
