@@ -66,12 +66,13 @@ Measurement measure(const rddl_simulator& simulator, const RandomCourse& course,
     do {
         const Batch batch = create_batch(simulator, options);
         simulator.step(batch.get(), course.of_step(0), &outcomes.transition);
-        const double processor_begin = processor_seconds();
+        // One clock within the other: a thread has no more processor time than there is time.
         const auto begin = Clock::now();
+        const double processor_begin = processor_seconds();
         for (std::int64_t step = 1; step < course.steps; ++step)
             simulator.step(batch.get(), course.of_step(step), &outcomes.transition);
-        result.seconds += seconds_since(begin);
         result.processor_seconds += processor_seconds() - processor_begin;
+        result.seconds += seconds_since(begin);
         result.steps += (course.steps - 1) * course.environments;
     } while (result.seconds < seconds && !is_interrupted());
     return result;

@@ -84,10 +84,6 @@ Typed check_arithmetic(const BinaryPlace& place, Typed left, Typed right, Scope&
     return apply_converted(place.op, std::move(*left), std::move(*right), type, type, place.span);
 }
 
-bool is_order(Operator op) {
-    return op != Operator::Equal && op != Operator::NotEqual;
-}
-
 Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
     if (!left || !right) return std::nullopt;
     const bool objects = is_object(left->type) || is_object(right->type);

@@ -36,10 +36,6 @@ bool is_numeric(const model::Fluent& fluent) {
     return fluent.range == model::int_type || fluent.range == model::real_type;
 }
 
-bool is_order(Operator op) {
-    return op >= Operator::Less && op <= Operator::GreaterEqual;
-}
-
 const model::Reference* reference_behind(const model::Expr& expr) {
     if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
         return reference_behind(*convert->operand);

@@ -178,6 +178,10 @@ bool is_comparison(Operator op) {
     return op >= Operator::Equal && op <= Operator::GreaterEqual;
 }
 
+bool is_order(Operator op) {
+    return op >= Operator::Less && op <= Operator::GreaterEqual;
+}
+
 Operator mirrored(Operator op) {
     switch (op) {
         case Operator::Less:

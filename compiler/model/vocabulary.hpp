@@ -80,6 +80,8 @@ bool is_extension(Operator op);
 
 // Equal to GreaterEqual.
 bool is_comparison(Operator op);
+// Less to GreaterEqual.
+bool is_order(Operator op);
 // Of a comparison: `a op b` is `b mirrored(op) a`.
 Operator mirrored(Operator op);
 

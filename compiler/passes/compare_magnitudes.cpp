@@ -17,11 +17,6 @@ struct Bound {
     double limit;
 };
 
-bool is_order(Operator op) {
-    return op == Operator::Less || op == Operator::LessEqual || op == Operator::Greater ||
-           op == Operator::GreaterEqual;
-}
-
 const double* constant(const ir::Program& program, ir::NodeId id) {
     const auto* form = std::get_if<ir::Constant>(&program[id].form);
     return form ? std::get_if<double>(&form->value) : nullptr;

@@ -5,7 +5,6 @@
 #include "passes/new_tables.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -32,11 +31,6 @@ struct Dependence {
     std::optional<ir::NodeId> count;  // a small int; none: on nothing
     double cost = 0;                  // of what is computed beside the count
 };
-
-bool have_same_bits(const ir::Value& a, const ir::Value& b) {
-    return std::bit_cast<std::uint64_t>(std::get<double>(a)) ==
-           std::bit_cast<std::uint64_t>(std::get<double>(b));
-}
 
 // Replaces the outermost expressions that depend on one count.
 class Tabulation {
@@ -246,7 +240,9 @@ class Tabulation {
             const auto known = std::ranges::find_if(kinds.examples, [&](std::size_t example) {
                 const auto other = rows.reached_by(example);
                 const std::size_t both = std::min(row.size(), other.size());
-                return std::ranges::equal(row.first(both), other.first(both), have_same_bits);
+                return std::ranges::equal(
+                    row.first(both), other.first(both),
+                    [](const ir::Value& a, const ir::Value& b) { return identical(a, b); });
             });
             kinds.of_objects.push_back(std::int64_t{known - kinds.examples.begin()});
             if (known == kinds.examples.end())
