@@ -336,8 +336,33 @@ std::string Expressions::external_call_text(const ir::Call& call) {
            comma_separated(arguments) + ")";
 }
 
+// "rddl::at_row<up_by_count, up_kind>(x, count)": from a row of each of several objects, or of its
+// kind.
+std::optional<std::string> Expressions::element_of_row(const ir::Load& load) {
+    const auto is_constant = [&](ir::BufferId id) {
+        return unit_.program[id].storage == ir::Storage::Constant;
+    };
+    const bool is_row = several_ && load.indices.size() == 2 && is_constant(load.buffer) &&
+                        unit_.program[load.buffer].scalar == ir::Scalar::Real;
+    if (!is_row) return std::nullopt;
+    const auto is_of_objects = [&](const std::vector<ir::NodeId>& indices) {
+        return indices.size() == several_->nest.variables.size() &&
+               ir::begins_with(unit_.program, indices, several_->nest);
+    };
+    std::string tables = record(load.buffer);
+    if (!is_of_objects({load.indices[0]})) {
+        const auto* kind = std::get_if<ir::Load>(&unit_.program[load.indices[0]].form);
+        const bool is_kind = kind && !is_named(load.indices[0]) && is_constant(kind->buffer) &&
+                             is_of_objects(kind->indices);
+        if (!is_kind) return std::nullopt;
+        tables += ", " + record(kind->buffer);
+    }
+    return "rddl::at_row<" + tables + ">(" + several_->objects + ", " + text(load.indices[1]) + ")";
+}
+
 // Uniform indices first in brackets; from the first other one on, the lanes differ.
 Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
+    if (const auto text = element_of_row(load)) return {*text, Level::Primary};
     std::string text = record(load.buffer);
     auto next = load.indices.begin();
     if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest)) {

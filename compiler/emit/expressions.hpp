@@ -120,6 +120,7 @@ class Expressions {
     // What an aggregation runs over: a count, a row of a table, or rddl::IndexRange(begin, end).
     std::string range(const ir::Reduce& reduce);
     std::optional<std::string> row_of(const ir::Bounds& bounds);
+    std::optional<std::string> element_of_row(const ir::Load& load);
     std::string arguments(const std::vector<ir::NodeId>& operands);
     std::string place(const ir::Place& place);
     std::string record(ir::BufferId buffer);

@@ -89,7 +89,8 @@ RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place)
     philox::Block<Word> words;
     context.schedule.generate(place.series, first + Word::load(detail::lane_numbers<n / 2>.data()),
                               words);
-    return unit_real<R>(interleaved(words[0], words[2]), interleaved(words[1], words[3]));
+    return unit_real<R>(
+        interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
 }
 
 // --------------------------------------------------------------------------------- elements

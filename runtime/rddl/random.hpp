@@ -26,19 +26,20 @@ constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
     return {static_cast<std::uint32_t>(block[0]), static_cast<std::uint32_t>(block[1])};
 }
 
-// The upper 52 bits of two words, low word first: a multiple of 2^-52 in [0, 1).
+// The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). For floats the upper 23,
+// hence what the double is rounded down to.
 template <class R = double, class Word>
-requires std::same_as<R, double> RDDL_INLINE auto unit_real(Word low, Word high) {
-    const Word mantissa = join_lower_halves(low, high) >> 12;
+RDDL_INLINE auto unit_real(Word bits) {
     const Word one = Word{std::uint64_t{0x3FF0000000000000}};
-    return real_of_bits(mantissa | one) - 1.0;
+    if constexpr (std::same_as<R, float>)
+        return to_float(real_of_bits(((bits >> 41) << 29) | one) - 1.0);
+    else
+        return real_of_bits((bits >> 12) | one) - 1.0;
 }
-// For floats the upper 23 bits, hence what the double is rounded down to.
-template <class R, class Word>
-requires std::same_as<R, float> RDDL_INLINE auto unit_real(Word, Word high) {
-    const Word mantissa = ((high << 32) >> 41) << 29;
-    const Word one = Word{std::uint64_t{0x3FF0000000000000}};
-    return to_float(real_of_bits(mantissa | one) - 1.0);
+// Of a number's two words, low word first.
+template <class R = double, class Word>
+RDDL_INLINE auto unit_real(Word low, Word high) {
+    return unit_real<R>(join_lower_halves(low, high));
 }
 // In (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
 template <RealLanes Real>

@@ -10,6 +10,7 @@
 #include <rddl/objects.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/reductions.hpp>
+#include <rddl/rows.hpp>
 #include <rddl/search.hpp>
 #include <rddl/simulator.h>
 #include <rddl/simulator_table.hpp>
