@@ -93,7 +93,12 @@ constexpr Int arg_best(Index n, Body& body, Wins wins) {
 template <class T, class Body>
 constexpr T sum(IndexRange range, Body&& body) {
     T total{0};
-    for (Index i = range.begin; i < range.end; ++i) total = detail::plus(total, body(i));
+    for (Index i = range.begin; i < range.end; ++i) {
+        // Reals are added one after the other, so that registers would only gather the few of a
+        // row.
+        if (std::floating_point<T> && !__builtin_constant_p(range.end)) asm volatile("");
+        total = detail::plus(total, body(i));
+    }
     return total;
 }
 
