@@ -17,6 +17,7 @@
 #include "passes/index_directly.hpp"
 #include "passes/make_aggregations_sparse.hpp"
 #include "passes/merge_draws.hpp"
+#include "passes/prove_invariants.hpp"
 #include "passes/reduce_strength.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "passes/search_intervals.hpp"
@@ -24,9 +25,11 @@
 #include "passes/share_across_definitions.hpp"
 #include "passes/share_subexpressions.hpp"
 #include "passes/skip_zero_terms.hpp"
+#include "passes/straighten_rows.hpp"
 #include "passes/tabulate_constant_fluents.hpp"
 #include "passes/tabulate_constants.hpp"
 #include "passes/tabulate_counts.hpp"
+#include "passes/unroll_rows.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -58,6 +61,8 @@ constexpr Pass in_order[] = {
     {"fuse_interm_fluents",
      "interm-fluents read once, or cheap ones, are computed where they are read",
      passes::fuse_interm_fluents},
+    {"prove_invariants", "only with --fast-math: an invariant that every step keeps is not tested",
+     passes::prove_invariants, true},
     {"index_directly", "an aggregation to which one object contributes takes that object",
      passes::index_directly},
     {"search_intervals", "what depends on the interval of a number becomes a binary search",
@@ -76,6 +81,8 @@ constexpr Pass in_order[] = {
      passes::make_aggregations_sparse},
     {"tabulate_counts", "what a count, or another small int, decides becomes a table",
      passes::tabulate_counts},
+    {"straighten_rows", "only with --fast-math: rows of tables that are nearly lines become lines",
+     passes::straighten_rows, true},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
     {"skip_zero_terms", "sums compute only the expensive terms that a bool lets count",
@@ -89,6 +96,7 @@ constexpr Pass in_order[] = {
     {"separate_aggregations",
      "loops and sums leave aggregations and terms to tables, to run over several objects at once",
      passes::separate_aggregations},
+    {"unroll_rows", "small tables of sums over rows are filled without loops", passes::unroll_rows},
     {"remove_unused_buffers", "tables and interm-fluents that nobody reads go",
      passes::remove_unused_buffers},
     {"share_subexpressions", "what is used twice, or does not change in a loop, gets a name",
@@ -114,7 +122,7 @@ std::vector<PassDescription> all_passes() {
     std::vector<PassDescription> passes;
     for (const Pass& pass : in_order) {
         const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
-        if (known == passes.end()) passes.push_back({pass.name, pass.summary});
+        if (known == passes.end()) passes.push_back({pass.name, pass.summary, pass.only_fast_math});
     }
     return passes;
 }

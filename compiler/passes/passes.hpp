@@ -16,6 +16,7 @@ namespace rddlc {
 struct PassDescription {
     std::string_view name;
     std::string_view summary;
+    bool only_fast_math;  // runs only with PassOptions::fast_math
 };
 // In the order in which they run first; each once.
 std::vector<PassDescription> all_passes();

@@ -8,18 +8,19 @@ from pathlib import Path
 from ours import ReplayFailure, last_lines, problem_words
 from problems import Case
 
-FAST_MATH = "fast_math"  # done only if asked for, so it is not left out but taken in
+# Done only if asked for, so they are not left out but taken in.
+FAST_MATH = ("fast_math", "prove_invariants", "straighten_rows")
 
 
 def cases_without_each(rddlc: Path, cases: list[Case], most: int) -> list[Case]:
     """For each optimisation the cases, `most` at most, in which it saves most, compiled without it;
-    with it for fast_math."""
+    with all of FAST_MATH for each of these."""
     savings: dict[str, list[tuple[float, Case]]] = {}
     for case in cases:
         for name, left in operations_left(rddlc, case).items():
             savings.setdefault(name, []).append((left, case))
     return [
-        replace(case, options=("--fast-math",) if name == FAST_MATH else (f"--without={name}",))
+        replace(case, options=("--fast-math",) if name in FAST_MATH else (f"--without={name}",))
         for name, found in savings.items()
         for _, case in sorted(found, key=lambda pair: pair[0])[:most]
     ]
