@@ -130,10 +130,7 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
         engine.step(states, action, made.scratch, made.next, made.observation, context);
     const Bool terminal = engine.terminal(made.next, context);
     const Bool violation = engine.violates_invariant(made.next, context);
-    if (any(context.faulted())) {
-        episodes.end_by_faults(context);
-        ends = episodes.ends;
-    }
+    if (any(context.faulted())) episodes.end_by_faults(context);
     const Bool moved = running && !context.faulted();
     const Bool whole_block = moved || !episodes.is_present();  // whatever there is in absent lanes
     take_over(engine, blocks, b, whole_block, made, memory);
@@ -141,15 +138,25 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
     if (all(moved)) {
         episodes.steps = wrap_add(episodes.steps, Int{1});
         ends = {terminal, episodes.steps >= Int{blocks.horizon}, violation, false};
-        episodes.ends = ends;
+        if (any(ends.any())) episodes.ends = ends;  // they ran, so there were none
         return reward;
     }
     episodes.steps = select(moved, wrap_add(episodes.steps, Int{1}), episodes.steps);
+    ends = episodes.ends;
     ends.terminated = select(moved, terminal, ends.terminated);
     ends.violated = select(moved, violation, ends.violated);
     ends.beyond_horizon = select(moved, episodes.steps >= Int{blocks.horizon}, ends.beyond_horizon);
     episodes.ends = ends;
     return select(moved, reward, typename L::Real{0});
+}
+
+// Whether the next episodes of packs start with nothing but their states, and these are small: then
+// their blocks need not stop for that.
+template <Engine E>
+constexpr bool starts_states_only() {
+    if constexpr (TypedEngine<E> && !PolicyEngine<E>)
+        return E::Lane::width > 1 && !E::has_state_tables && !E::shows_padding;
+    return false;
 }
 
 }  // namespace detail
@@ -179,20 +186,26 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
     if constexpr (L::width == 1) range.end = range.begin + 1;
     for (std::int64_t b = range.begin; b < range.end; ++b) {
         const Bool present = blocks.episodes[b].is_present();
-        Ends<L> ends = blocks.episodes[b].ends;
-        const Bool running = present && !ends.any();
-        if (blocks.autoreset == RDDL_AUTORESET_NEXT_STEP && any(present && !running))
+        const Bool running = blocks.episodes[b].running();
+        if (any(present && !running) && blocks.autoreset == RDDL_AUTORESET_NEXT_STEP)
             return {b, false};
         typename L::Real reward{0};
+        Ends<L> ends;
         if (any(running))
             reward = with_step_buffers<E>(memory, [&](const StepBuffers& made) RDDL_INLINE_LAMBDA {
                 return detail::make_step(engine, blocks, b, running, ends, actions, made, memory);
             });
+        else
+            ends = blocks.episodes[b].ends;
         if (out.rewards != nullptr)
             write_reals(reward, out.rewards + b * L::width, blocks.lanes_of(b));
         write_ends(blocks, b, ends, out);
         const Bool over = present && ends.any();
-        if (blocks.autoreset == RDDL_AUTORESET_SAME_STEP && any(over)) return {b, over};
+        if (!any(over) || blocks.autoreset != RDDL_AUTORESET_SAME_STEP) continue;
+        const bool alone = out.final_observations == nullptr && blocks.observations == nullptr;
+        if (!detail::starts_states_only<E>() || !alone) return {b, over};
+        if constexpr (detail::starts_states_only<E>())
+            start_next(engine, blocks, b, over, memory.next);
     }
     return {range.end, false};
 }

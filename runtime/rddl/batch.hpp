@@ -272,15 +272,21 @@ class Batch {
 
     Blocks<L> blocks() {
         constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-        return {.environment_count = options_.environment_count,
-                .horizon = options_.horizon > 0 ? options_.horizon : never,
-                .autoreset = options_.autoreset,
-                .episodes = episodes_.data(),
-                .states = states_[0],
-                .observations = options_.partially_observed ? observations_[0] : nullptr,
-                .state_columns = &state_columns_,
-                .action_columns = &action_columns_,
-                .observation_columns = &observation_columns_};
+        return {
+            .environment_count = options_.environment_count,
+            .horizon = options_.horizon > 0 ? options_.horizon : never,
+            .autoreset = options_.autoreset,
+            .streams = {.seed = options_.seed,
+                        .drawn_from = problem_->stochastic != 0 || has_policy(*engine_),
+                        .first_environment =
+                            static_cast<std::uint64_t>(options_.first_environment)},
+            .episodes = episodes_.data(),
+            .states = states_[0],
+            .observations = options_.partially_observed ? observations_[0] : nullptr,
+            .state_columns = &state_columns_,
+            .action_columns = &action_columns_,
+            .observation_columns = &observation_columns_,
+            .action_alignment_bits = static_cast<std::uintptr_t>(action_columns_.alignment - 1)};
     }
 
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
@@ -346,15 +352,13 @@ class Batch {
         return views;
     }
 
-    Streams streams() const {
-        return {options_.seed, problem_->stochastic != 0 || has_policy(*engine_)};
-    }
-
     void start(Workspace& workspace, std::int64_t b, Bool lanes) {
-        const std::uint64_t identity = static_cast<std::uint64_t>(options_.first_environment) +
-                                       static_cast<std::uint64_t>(b * width);
-        start_next(*engine_, state_columns_, episodes_[index(b)], lanes, streams(), identity,
-                   workspace.next[0], state(b));
+        Episodes<L>& episodes = episodes_[index(b)];
+        episodes.has_fault = episodes.has_fault && !lanes;
+        start_keeping_faults(workspace, b, lanes);
+    }
+    void start_keeping_faults(Workspace& workspace, std::int64_t b, Bool lanes) {
+        start_next(*engine_, blocks_, b, lanes, workspace.next[0]);
         if (options_.partially_observed) clear_observations(workspace, b, lanes);
         if constexpr (PolicyEngine<E>)
             if (engine_->has_policy() && any(lanes)) engine_->reset_policy(memories_[b]);
@@ -435,14 +439,6 @@ class Batch {
                           const rddl_transition& out) {
         write_final_observations(out.final_observations, b, lanes);
         start_keeping_faults(workspace, b, lanes);
-    }
-
-    // The fault that ended an episode can be read until the next one makes a step.
-    void start_keeping_faults(Workspace& workspace, std::int64_t b, Bool lanes) {
-        Episodes<L>& episodes = episodes_[index(b)];
-        const Bool had_fault = episodes.has_fault;
-        start(workspace, b, lanes);
-        episodes.has_fault = episodes.has_fault || had_fault;
     }
 
     void write_observations(void* records, std::int64_t b) const {

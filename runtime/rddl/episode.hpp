@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -60,7 +61,11 @@ struct alignas(64) Episodes {
         return present;
     }
     Bool over() const { return is_present() && ends.any(); }
-    Bool running() const { return is_present() && !ends.any(); }
+    Bool running() const {
+        // All at once, since that is one load.
+        if constexpr (L::width == 1) return std::bit_cast<std::uint32_t>(ends) == 0;
+        return is_present() && !ends.any();
+    }
 
     // The draws of the step that leaves timestep t are counted as t + 1, those at reset as 0.
     Context<L> context_of_step(Bool active) const {
@@ -96,24 +101,32 @@ struct alignas(64) Episodes {
     Word next_step() const { return words_of(steps) + Word{std::uint64_t{1}}; }
 };
 
+// What the random stream of each episode of a batch is made of.
+struct Streams {
+    std::uint64_t seed;
+    bool drawn_from;                  // false: nothing is drawn, so there need be none
+    std::uint64_t first_environment;  // what the first environment is counted as
+};
+
 // The environments of a batch, in blocks.
 template <class L>
 struct Blocks {
     std::int64_t environment_count;
     std::int64_t horizon;  // the greatest int: none
     rddl_autoreset autoreset;
+    Streams streams;
     Episodes<L>* episodes;
     std::byte* states;        // two records for each block: its state, and room for the next one
     std::byte* observations;  // null when fully observed
     const Columns* state_columns;
     const Columns* action_columns;
     const Columns* observation_columns;
+    std::uintptr_t action_alignment_bits;  // 0 in the addresses of aligned action records
 
     // Whether action records of single environments are blocks as they stand.
     bool are_blocks(const std::byte* rows) const {
-        const auto address = reinterpret_cast<std::uintptr_t>(rows);
         return rows != nullptr &&
-               (address & static_cast<std::uintptr_t>(action_columns->alignment - 1)) == 0;
+               (reinterpret_cast<std::uintptr_t>(rows) & action_alignment_bits) == 0;
     }
 
     // `state_size` is that of a block.
@@ -165,38 +178,34 @@ requires(!E::has_state_tables && !E::shows_padding)  //
     return engine.terminal(made, context);
 }
 
-// What the random stream of each episode of a batch is made of.
-struct Streams {
-    std::uint64_t seed;
-    bool drawn_from;  // false: nothing is drawn, so there need be none
-};
-
-// Of the episodes that start in these lanes. `identity` is that of lane 0.
+// Of the episodes that start in these lanes of block `b`.
 template <class L>
-void set_keys(Episodes<L>& episodes, typename L::Bool lanes, std::uint64_t seed,
-              std::uint64_t identity) {
+void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
+    Episodes<L>& episodes = blocks.episodes[b];
     for_each_lane(lanes, [&](int lane) {
         const auto number = static_cast<std::uint64_t>(get_lane(episodes.number, lane));
-        const StreamKey key = stream_key(seed, identity + static_cast<std::uint64_t>(lane), number);
+        const std::uint64_t identity =
+            blocks.streams.first_environment + static_cast<std::uint64_t>(b * L::width + lane);
+        const StreamKey key = stream_key(blocks.streams.seed, identity, number);
         set_lane(episodes.key_low, lane, std::uint64_t{key.low});
         set_lane(episodes.key_high, lane, std::uint64_t{key.high});
     });
 }
 
-// Starts the next episodes of these lanes, in the initial state. `identity` is that of lane 0;
-// `room` is a block of states to work in.
+// Starts the next episodes of these lanes of block `b`, in the initial state. `room` is a block of
+// states to work in. The fault that ended an episode can be read until the next one makes a step.
 template <StateEngine E, class L = typename E::Lane>
-void start_next(const E& engine, const Columns& columns, Episodes<L>& episodes,
-                typename L::Bool lanes, const Streams& streams, std::uint64_t identity,
-                std::byte* room, std::byte* states) {
+void start_next(const E& engine, const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes,
+                std::byte* room) {
     using Int = typename L::Int;
+    Episodes<L>& episodes = blocks.episodes[b];
     episodes.number = select(lanes, wrap_add(episodes.number, Int{1}), episodes.number);
     episodes.steps = select(lanes, Int{0}, episodes.steps);
-    episodes.has_fault = episodes.has_fault && !lanes;
-    if (streams.drawn_from) set_keys(episodes, lanes, streams.seed, identity);
+    if (blocks.streams.drawn_from) set_keys(blocks, b, lanes);
     Context<L> context = episodes.context_of_state(lanes);
+    const StateRecords records{blocks.state_of(b, engine.state_size()), room};
     const typename L::Bool terminal =
-        reset_some(engine, columns, lanes, StateRecords{states, room}, context);
+        reset_some(engine, *blocks.state_columns, lanes, records, context);
     episodes.begin(lanes, terminal, context);
 }
 

@@ -82,7 +82,7 @@ RDDL_ALWAYS_INLINE R negated_by_bit(Bits bits, int place, R a) {
 template <class R, class Function>
 RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
     const auto great = absolute(a) > greatest_angle;
-    if (!any(great)) return result;
+    if (!any(great)) [[likely]] return result;
     return select(great, map_lanes(a, function), result);
 }
 
