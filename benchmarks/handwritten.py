@@ -55,9 +55,10 @@ class Comparison:
     fast_ratio: float  # with --fast-math
 
 
-# GCC would put halves of one environment's polynomials into registers together, and lose half of its speed.
-# And GCC 12 makes wrong copies of constants (rddl/tables.hpp).
-NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns"]
+# GCC would put halves of one environment's polynomials into registers together, and lose half of its speed;
+# and keep coefficients that are used twice in registers, and numbers elsewhere. GCC 12 makes wrong copies of
+# constants (rddl/tables.hpp).
+NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns"]
 # As rddl has it (compiler/driver/shared_object.cpp).
 INLINE_MORE = ["--param", "max-inline-insns-single=400"]
 FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES, *INLINE_MORE]

@@ -71,15 +71,16 @@ std::vector<std::string> compiler_command(Processors processors) {
     std::vector<std::string> command = words(compiler ? compiler : "");
     if (command.empty()) command = {"c++"};
     // Lanes are vectors already. GCC would put numbers of one environment together as well, which
-    // costs more than it gains where they then wait for each other, as in a polynomial. Nor may it
-    // make one copy of a loop over a constant table: GCC 12 is wrong there (rddl/tables.hpp). What
-    // is hidden is called without a detour through a table of the linker. The body of a loop over
-    // several objects stands in two calls (rddl/objects.hpp), which GCC would take for a reason to
-    // inline neither; clang ignores the parameter.
+    // costs more than it gains where they then wait for each other, as in a polynomial. It would
+    // keep the coefficients of polynomials that are evaluated twice in registers (gcse), and
+    // numbers elsewhere. Nor may it make one copy of a loop over a constant table: GCC 12 is wrong
+    // there (rddl/tables.hpp). What is hidden is called without a detour through a table of the
+    // linker. The body of a loop over several objects stands in two calls (rddl/objects.hpp), which
+    // GCC would take for a reason to inline neither; clang ignores the parameter.
     command.insert(command.end(),
                    {"-std=c++20", "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
-                    "-fno-tree-slp-vectorize", "-fno-tree-loop-distribute-patterns", "--param",
-                    "max-inline-insns-single=400"});
+                    "-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns",
+                    "--param", "max-inline-insns-single=400"});
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());
