@@ -1,5 +1,7 @@
 #include "passes/straighten_rows.hpp"
 
+#include <rddl/line.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,7 +15,7 @@ namespace {
 // In units in the last place of the greatest element.
 constexpr double greatest_change = 16;
 
-// Computed as the simulator computes it, in its reals.
+// In the reals of the simulator.
 template <class Real>
 bool straighten(std::span<ir::Value> row) {
     const auto element = [&](std::size_t count) {
@@ -21,13 +23,13 @@ bool straighten(std::span<ir::Value> row) {
     };
     const Real first = element(0), last = element(row.size() - 1);
     // What the second element of the line rises by, once that is rounded.
-    const Real rise = first + (element(1) - first) - first;
+    const rddl::Line<Real> line{first, first + (element(1) - first) - first, last};
     const Real greatest = std::max(std::abs(first), std::abs(last));
     const Real change =
         static_cast<Real>(greatest_change) * std::numeric_limits<Real>::epsilon() * greatest;
     if (!std::isfinite(change)) return false;
     for (std::size_t count = 0; count < row.size(); ++count) {
-        const Real value = std::min(first + rise * static_cast<Real>(count), last);
+        const Real value = line.at(count);
         if (!(std::abs(value - element(count)) <= change)) return false;
         row[count] = double{value};
     }

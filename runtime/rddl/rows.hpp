@@ -7,7 +7,9 @@
 // bit.
 #pragma once
 
+#include <rddl/line.hpp>
 #include <rddl/objects.hpp>
+#include <rddl/real.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,25 +23,11 @@
 namespace rddl {
 namespace detail {
 
-// From the first element of a row by equal steps to the last one, which may repeat.
-template <std::floating_point R>
-struct Line {
-    R first, rise, last;
-
-    template <std::size_t cases>
-    constexpr explicit Line(const std::array<R, cases>& row)
-        : first(row.front()), rise(row[cases > 1] - row.front()), last(row.back()) {}
-
-    constexpr R at(std::size_t count) const {
-        const R value = first + rise * static_cast<R>(count);
-        return value < last ? value : last;
-    }
-};
-
+// Bit for bit.
 template <class R, std::size_t cases>
 constexpr bool is_line(const std::array<R, cases>& row) {
     for (std::size_t count = 0; count < cases; ++count)
-        if (rddl::bits_of(Line(row).at(count)) != rddl::bits_of(row[count])) return false;
+        if (rddl::bits_of(line_of(row).at(count)) != rddl::bits_of(row[count])) return false;
     return true;
 }
 
@@ -69,7 +57,7 @@ inline constexpr auto lines = [] {
     constexpr auto numbers = row_numbers<rows, kinds...>();
     Lines<typename Nested<std::remove_cvref_t<decltype(rows)>>::Element, numbers.size()> all{};
     for (std::size_t x = 0; x < numbers.size(); ++x) {
-        const Line line(rows[static_cast<std::size_t>(numbers[x])]);
+        const auto line = line_of(rows[static_cast<std::size_t>(numbers[x])]);
         all.first[x] = line.first;
         all.rise[x] = line.rise;
         all.last[x] = line.last;
@@ -103,8 +91,8 @@ RDDL_INLINE auto at_row(const SomeObjects<n>& x, const Count& count) {
         using R = typename std::remove_cvref_t<decltype(lines.first)>::value_type;
         const auto steps = detail::reals<R>(Lanes<std::int64_t, n>(count));
         const auto value = at(lines.first, x) + at(lines.rise, x) * steps;
-        // minimum(value, last), without its care for nan.
-        return Lanes<R, n>::each([](auto a, auto b) { return a < b ? a : b; }, value,
+        // As std::min, which Line takes: without the care for nan that minimum has.
+        return Lanes<R, n>::each([](auto a, auto b) { return b < a ? b : a; }, value,
                                  at(lines.last, x));
     } else if constexpr (sizeof...(kinds) == 0) {
         return at(rows, x, count);
