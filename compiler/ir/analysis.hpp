@@ -57,6 +57,14 @@ std::optional<BufferId> buffer_read_by(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
+// The value of a constant of this type; none: it is something else.
+template <class T>
+std::optional<T> constant(const Program& program, NodeId id) {
+    const auto* form = std::get_if<Constant>(&program[id].form);
+    const T* value = form ? std::get_if<T>(&form->value) : nullptr;
+    return value ? std::optional(*value) : std::nullopt;
+}
+
 // Where the bounds are an element of a table and the next one, so that they are a row's: the first.
 const Load* row_of(const Program& program, const Bounds& bounds);
 

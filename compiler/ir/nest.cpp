@@ -32,9 +32,7 @@ bool is_place(const Program& program, std::span<const VariableId> variables, Nod
 
 Nest nest_of(const Loop& outermost) {
     Nest nest{{outermost.variable}, &outermost.body};
-    while (nest.body->size() == 1) {
-        const auto* inner = std::get_if<Loop>(&nest.body->front().form);
-        if (!inner) break;
+    while (const auto* inner = only_statement<Loop>(*nest.body)) {
         nest.variables.push_back(inner->variable);
         nest.body = &inner->body;
     }
@@ -42,8 +40,7 @@ Nest nest_of(const Loop& outermost) {
 }
 
 Block& innermost_body(Loop& outermost) {
-    auto* const inner =
-        outermost.body.size() == 1 ? std::get_if<Loop>(&outermost.body.front().form) : nullptr;
+    auto* const inner = only_statement<Loop>(outermost.body);
     return inner ? innermost_body(*inner) : outermost.body;
 }
 

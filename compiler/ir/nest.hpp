@@ -4,9 +4,17 @@
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
 
+#include <variant>
 #include <vector>
 
 namespace rddlc::ir {
+
+// The statement of a block that has no other; null if it has, or is of another form.
+template <class Form, class SomeBlock>
+auto only_statement(SomeBlock& block) {
+    using Found = decltype(std::get_if<Form>(&block.front().form));
+    return block.size() == 1 ? std::get_if<Form>(&block.front().form) : Found{};
+}
 
 struct Nest {
     std::vector<VariableId> variables;  // outermost first

@@ -26,6 +26,10 @@ bool identical(const Value& a, const Value& b) {
     return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(*y);
 }
 
+bool are_identical(std::span<const Value> a, std::span<const Value> b) {
+    return std::ranges::equal(a, b, [](const Value& x, const Value& y) { return identical(x, y); });
+}
+
 Table::Table(const std::vector<Value>& values)
     : size_(std::ssize(values)), common_(majority_of(values)) {
     for (std::int64_t i = 0; i < size_; ++i) {

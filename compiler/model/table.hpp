@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,7 @@ using Value = std::variant<bool, std::int64_t, double>;
 
 // The same bits: zeros have a sign, and nan equals itself.
 bool identical(const Value& a, const Value& b);
+bool are_identical(std::span<const Value> a, std::span<const Value> b);
 
 class Table {
   public:

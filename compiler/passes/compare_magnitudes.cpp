@@ -17,17 +17,13 @@ struct Bound {
     double limit;
 };
 
-const double* constant(const ir::Program& program, ir::NodeId id) {
-    const auto* form = std::get_if<ir::Constant>(&program[id].form);
-    return form ? std::get_if<double>(&form->value) : nullptr;
-}
-
 std::optional<Bound> bound(const ir::Program& program, ir::NodeId id) {
     const auto* apply = std::get_if<ir::Apply>(&program[id].form);
     if (!apply || !is_order(apply->op)) return std::nullopt;
     const ir::NodeId a = apply->operands[0], b = apply->operands[1];
-    if (const double* limit = constant(program, b)) return Bound{a, apply->op, *limit};
-    if (const double* limit = constant(program, a)) return Bound{b, mirrored(apply->op), *limit};
+    if (const auto limit = ir::constant<double>(program, b)) return Bound{a, apply->op, *limit};
+    if (const auto limit = ir::constant<double>(program, a))
+        return Bound{b, mirrored(apply->op), *limit};
     return std::nullopt;
 }
 

@@ -16,14 +16,9 @@ struct Term {
 };
 using Terms = std::vector<Term>;
 
-const double* real_constant(const ir::Program& program, ir::NodeId id) {
-    const auto* form = std::get_if<ir::Constant>(&program[id].form);
-    return form ? std::get_if<double>(&form->value) : nullptr;
-}
-
 // Appends the terms whose sum, times the coefficient, the expression is; false if it is none.
 bool split(const ir::Program& program, ir::NodeId id, double coefficient, Terms& terms) {
-    if (const double* constant = real_constant(program, id)) return *constant == 0;
+    if (const auto constant = ir::constant<double>(program, id)) return *constant == 0;
     if (const auto* convert = std::get_if<ir::Convert>(&program[id].form)) {
         terms.push_back({coefficient, convert->operand});
         return true;
@@ -42,7 +37,7 @@ bool split(const ir::Program& program, ir::NodeId id, double coefficient, Terms&
             return operand(0, -coefficient);
         case Operator::Multiply:
             for (const std::size_t k : {0, 1}) {
-                const double* factor = real_constant(program, apply->operands[k]);
+                const auto factor = ir::constant<double>(program, apply->operands[k]);
                 if (factor) return operand(1 - k, coefficient * *factor);
             }
             return false;

@@ -178,9 +178,7 @@ class Relaxing {
     }
 
     std::optional<double> constant(ir::NodeId id) const {
-        const auto* form = std::get_if<ir::Constant>(&builder_.program()[id].form);
-        const double* value = form ? std::get_if<double>(&form->value) : nullptr;
-        return value ? std::optional(*value) : std::nullopt;
+        return ir::constant<double>(builder_.program(), id);
     }
 
     ir::NodeId multiply(ir::NodeId a, ir::NodeId b) {

@@ -27,8 +27,7 @@ bool may_be_wrong(const ir::Builder& builder, const ir::Sample& sample) {
 
 // The probability with which a bool is true.
 std::optional<double> certainty(const ir::Program& program, ir::NodeId id) {
-    const auto* constant = std::get_if<ir::Constant>(&program[id].form);
-    const bool* value = constant ? std::get_if<bool>(&constant->value) : nullptr;
+    const auto value = ir::constant<bool>(program, id);
     if (!value) return std::nullopt;
     return *value ? 1.0 : 0.0;
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace rddlc::passes {
 namespace {
@@ -66,14 +68,12 @@ class Proof {
                                       const std::vector<ir::NodeId>& indices) {
         const ir::Block* body = &definition.body;
         std::vector<ir::VariableId> variables;
-        if (const auto* loop =
-                body->size() == 1 ? std::get_if<ir::Loop>(&body->front().form) : nullptr) {
+        if (const auto* loop = ir::only_statement<ir::Loop>(*body)) {
             ir::Nest nest = ir::nest_of(*loop);
             variables = std::move(nest.variables);
             body = nest.body;
         }
-        const auto* store =
-            body->size() == 1 ? std::get_if<ir::Store>(&body->front().form) : nullptr;
+        const auto* store = ir::only_statement<ir::Store>(*body);
         if (!store || variables.size() != indices.size()) return std::nullopt;
         std::map<ir::NodeId, ir::NodeId> known;
         for (std::size_t k = 0; k < indices.size(); ++k) {

@@ -13,12 +13,6 @@ namespace {
 constexpr double cheap = 6;
 constexpr std::int64_t largest_int_exponent = 4;
 
-template <class T>
-const T* constant(const ir::Program& program, ir::NodeId id) {
-    const auto* form = std::get_if<ir::Constant>(&program[id].form);
-    return form ? std::get_if<T>(&form->value) : nullptr;
-}
-
 bool is_power_of_two(double value) {
     int exponent = 0;
     const double fraction = std::frexp(std::abs(value), &exponent);
@@ -32,7 +26,7 @@ bool is_from_bool(const ir::Program& program, ir::NodeId id) {
 }
 
 bool is_zero(const ir::Program& program, ir::NodeId id) {
-    const double* value = constant<double>(program, id);
+    const auto value = ir::constant<double>(program, id);
     return value && std::bit_cast<std::uint64_t>(*value) == 0;
 }
 
@@ -46,9 +40,9 @@ ir::NodeId product(ir::Builder& builder, ir::NodeId base, std::int64_t count) {
 std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
                                         ir::NodeId exponent) {
     if (builder.facts(base).cost > cheap) return std::nullopt;
-    const double* real = constant<double>(builder.program(), exponent);
+    const auto real = ir::constant<double>(builder.program(), exponent);
     if (real && *real == 2) return product(builder, base, 2);
-    const auto* whole = constant<std::int64_t>(builder.program(), exponent);
+    const auto whole = ir::constant<std::int64_t>(builder.program(), exponent);
     if (whole && *whole >= 1 && *whole <= largest_int_exponent)
         return product(builder, base, *whole);
     return std::nullopt;
@@ -59,7 +53,7 @@ std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) 
     const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
     switch (apply.op) {
         case Operator::Divide: {
-            const double* divisor = constant<double>(program, b);
+            const auto divisor = ir::constant<double>(program, b);
             if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
             return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
         }

@@ -20,11 +20,6 @@ constexpr double affordable_cost = 1e7;
 // What costs less than this many times a search stays as it is.
 constexpr double worth_a_search = 2;
 
-bool are_identical(const std::vector<ir::Value>& a, const std::vector<ir::Value>& b) {
-    return std::ranges::equal(
-        a, b, [](const ir::Value& x, const ir::Value& y) { return identical(x, y); });
-}
-
 // The values of an expression for numbers from all pieces.
 class Trying {
   public:

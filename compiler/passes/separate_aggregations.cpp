@@ -52,8 +52,7 @@ class Separation {
 
     void separate(ir::Loop& loop, ir::Block& before) {
         const ir::Nest nest = ir::nest_of(loop);
-        ir::Block& body = ir::innermost_body(loop);
-        auto* const store = body.size() == 1 ? std::get_if<ir::Store>(&body.front().form) : nullptr;
+        auto* const store = ir::only_statement<ir::Store>(ir::innermost_body(loop));
         if (!store) return;
         std::vector<ir::NodeId> aggregations;
         const bool all_found = find_aggregations(store->value, aggregations);

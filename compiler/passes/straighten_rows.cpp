@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace rddlc::passes {
 namespace {
@@ -53,10 +55,10 @@ bool is_candidate(const ir::Buffer& buffer) {
 ir::Program straighten_rows(ir::Program program, Report& report) {
     for (ir::Buffer& buffer : program.buffers) {
         if (!is_candidate(buffer)) continue;
-        const auto values = buffer.values.dense();
-        const auto cases = static_cast<std::size_t>(buffer.shape.back());
-        auto lines = program.real == RealType::Float ? straight<float>(values, cases)
-                                                     : straight<double>(values, cases);
+        const auto straight_in =
+            program.real == RealType::Float ? straight<float> : straight<double>;
+        auto lines =
+            straight_in(buffer.values.dense(), static_cast<std::size_t>(buffer.shape.back()));
         if (!lines) continue;
         buffer.values = std::move(*lines);
         ++report["tables of lines"];

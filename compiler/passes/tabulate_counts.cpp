@@ -240,9 +240,7 @@ class Tabulation {
             const auto known = std::ranges::find_if(kinds.examples, [&](std::size_t example) {
                 const auto other = rows.reached_by(example);
                 const std::size_t both = std::min(row.size(), other.size());
-                return std::ranges::equal(
-                    row.first(both), other.first(both),
-                    [](const ir::Value& a, const ir::Value& b) { return identical(a, b); });
+                return are_identical(row.first(both), other.first(both));
             });
             kinds.of_objects.push_back(std::int64_t{known - kinds.examples.begin()});
             if (known == kinds.examples.end())

@@ -3,8 +3,9 @@
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 
-#include <iterator>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,8 +50,7 @@ class Unrolling {
     // The only statement of small loops.
     const ir::Store* sums_over_rows(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
-        if (nest.body->size() != 1) return nullptr;
-        const auto* store = std::get_if<ir::Store>(&nest.body->front().form);
+        const auto* store = ir::only_statement<ir::Store>(*nest.body);
         if (!store) return nullptr;
         double cost = builder_.facts(store->value).cost;
         for (ir::VariableId variable : nest.variables)
@@ -101,7 +101,8 @@ class Unrolling {
         const auto* form = std::get_if<ir::Reduce>(&node.form);
         if (!form || form->op != Reduction::Sum || !form->bounds) return std::nullopt;
         const ir::Reduce sum = *form;  // the builder moves nodes
-        const auto begin = constant(sum.bounds->begin), end = constant(sum.bounds->end);
+        const auto begin = ir::constant<std::int64_t>(program_, sum.bounds->begin);
+        const auto end = ir::constant<std::int64_t>(program_, sum.bounds->end);
         if (!begin || !end) return std::nullopt;
         const ir::NodeId variable = builder_.index(sum.variable);
         std::optional<ir::NodeId> total;
@@ -110,10 +111,6 @@ class Unrolling {
             total = total ? builder_.apply(Operator::Add, {*total, term}) : term;
         }
         return total;
-    }
-    std::optional<std::int64_t> constant(ir::NodeId id) const {
-        const auto* form = std::get_if<ir::Constant>(&program_[id].form);
-        return form ? std::optional(std::get<std::int64_t>(form->value)) : std::nullopt;
     }
 
     ir::Program program_;

@@ -153,11 +153,8 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
 // Whether the next episodes of packs start with nothing but their states, and these are small: then
 // their blocks need not stop for that.
 template <Engine E>
-constexpr bool starts_states_only() {
-    if constexpr (TypedEngine<E> && !PolicyEngine<E>)
-        return E::Lane::width > 1 && !E::has_state_tables && !E::shows_padding;
-    return false;
-}
+inline constexpr bool starts_states_only =
+    SmallStateEngine<E> && !PolicyEngine<E> && E::Lane::width > 1;
 
 }  // namespace detail
 
@@ -203,8 +200,8 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
         const Bool over = present && ends.any();
         if (!any(over) || blocks.autoreset != RDDL_AUTORESET_SAME_STEP) continue;
         const bool alone = out.final_observations == nullptr && blocks.observations == nullptr;
-        if (!detail::starts_states_only<E>() || !alone) return {b, over};
-        if constexpr (detail::starts_states_only<E>())
+        if (!detail::starts_states_only<E> || !alone) return {b, over};
+        if constexpr (detail::starts_states_only<E>)
             start_next(engine, blocks, b, over, memory.next);
     }
     return {range.end, false};

@@ -89,6 +89,10 @@ concept TypedEngine = Engine<E> && requires {
     { E::shows_padding } -> std::convertible_to<bool>;
 };
 
+// One whose state has no tables, so that it can be made and merged in registers.
+template <class E>
+concept SmallStateEngine = TypedEngine<E> && !E::has_state_tables && !E::shows_padding;
+
 // Whether a step makes the next state where it is going to stay, instead of in registers, from
 // where it is copied.
 template <Engine E>

@@ -167,10 +167,9 @@ typename L::Bool reset_some(const E& engine, const Columns& columns, typename L:
     return engine.terminal(records.room, context);
 }
 // Small states are made and merged in registers.
-template <TypedEngine E, class L = typename E::Lane>
-requires(!E::has_state_tables && !E::shows_padding)  //
-    typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool lanes,
-                                const StateRecords& records, Context<L>& context) {
+template <SmallStateEngine E, class L = typename E::Lane>
+typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool lanes,
+                            const StateRecords& records, Context<L>& context) {
     typename E::State initial;
     auto* const made = reinterpret_cast<std::byte*>(&initial);
     engine.reset(made, context);
