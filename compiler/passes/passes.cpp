@@ -142,8 +142,9 @@ ir::Program optimise(ir::Program program, const PassOptions& options, std::vecto
         if (runs) {
             run.before = before;
             run.after = size_of(program);
-            runs->push_back(std::move(run));
         }
+        if (options.observe) options.observe(run, program);
+        if (runs) runs->push_back(std::move(run));
 #ifndef NDEBUG
         ir::expect_valid(program, pass.name);
 #endif

@@ -6,6 +6,7 @@
 #include "passes/report.hpp"
 
 #include <chrono>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -21,11 +22,6 @@ struct PassDescription {
 // In the order in which they run first; each once.
 std::vector<PassDescription> all_passes();
 
-struct PassOptions {
-    std::set<std::string, std::less<>> without;  // names of passes that are left out
-    bool fast_math = false;                      // --fast-math
-};
-
 // How large a program is.
 struct ProgramSize {
     std::size_t nodes;
@@ -39,6 +35,14 @@ struct PassRun {
     passes::Report report;
     ProgramSize before, after;
     std::chrono::duration<double> time;
+};
+
+struct PassOptions {
+    std::set<std::string, std::less<>> without;  // names of passes that are left out
+    bool fast_math = false;                      // --fast-math
+    // Is told after each run of a pass what the pass has made. The sizes of the run are 0 unless
+    // `optimise` is asked for all runs.
+    std::function<void(const PassRun&, const ir::Program&)> observe = {};
 };
 
 // All passes, in the order that passes.cpp lists. What they did is added to `runs`.

@@ -1,10 +1,15 @@
 // The text before and after each pass; sharing has a file of its own.
 #include "passes/passes.hpp"
 
+#include "ir/print.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "texts.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace rddlc {
 namespace {
@@ -101,6 +106,26 @@ TEST(Externals, AreNotCalledForWhatNobodyReads) {
     const ir::Program program = valid(optimise(grounded(problem)));
     EXPECT_EQ(ir::print(program).find("$f"), std::string::npos) << ir::print(program);
     EXPECT_EQ(names(program, ir::Storage::Constant), "");
+}
+
+// Who observes is told of each run with the program that it left; the last is the result.
+TEST(Optimise, TellsWhatEachPassHasMade) {
+    std::vector<std::string> told, texts, ran;
+    PassOptions options{.without = {"count_bits"}};
+    options.observe = [&](const PassRun& run, const ir::Program& made) {
+        told.emplace_back(run.name);
+        texts.push_back(ir::print(made));
+    };
+    std::vector<PassRun> runs;
+    const ir::Program program = grounded(with_tables("sum_{?o : obj} [v(?o) * SAME(?o)]"));
+    const ir::Program last = optimise(program, options, &runs);
+    for (const PassRun& run : runs) ran.emplace_back(run.name);
+    EXPECT_EQ(told, ran);
+    EXPECT_EQ(told.front(), "tabulate_constant_fluents");
+    EXPECT_EQ(std::ranges::count(told, "reduce_strength"), 2);
+    EXPECT_EQ(std::ranges::count(told, "count_bits"), 0);
+    EXPECT_NE(texts.front(), texts.back());
+    EXPECT_EQ(texts.back(), ir::print(last));
 }
 
 }  // namespace
