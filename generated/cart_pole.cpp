@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace cart_pole_cart_pole_1 {
+namespace rddl_simulators::cart_pole_cart_pole_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -82,38 +82,38 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/,
                      rddl::Context<L>& /*context*/) {
-        angle(state, next);
-        friction(state, scratch);
-        position(state, next);
-        drive(state, action, scratch);
-        turn(state, scratch);
-        angle_change(state, scratch, next);
-        pressure(state, scratch);
-        speed_up(state, action, scratch);
-        velocity(state, scratch, next);
+        set_angle(state, next);
+        set_friction(state, scratch);
+        set_position(state, next);
+        set_drive(state, action, scratch);
+        set_turn(state, scratch);
+        set_angle_change(state, scratch, next);
+        set_pressure(state, scratch);
+        set_speed_up(state, action, scratch);
+        set_velocity(state, scratch, next);
     }
 
     // angle'  (domain.rddl:76)
     template <class L>
-    static void angle(const State<L>& state, State<L>& next) {
+    static void set_angle(const State<L>& state, State<L>& next) {
         next.angle = state.angle + 0.02 * state.angle_change;
     }
 
     // friction  (domain.rddl:47)
     template <class L>
-    static void friction(const State<L>& state, Scratch<L>& scratch) {
+    static void set_friction(const State<L>& state, Scratch<L>& scratch) {
         scratch.friction = 5e-04 * rddl::to_real(rddl::sign(state.velocity));
     }
 
     // position'  (domain.rddl:74)
     template <class L>
-    static void position(const State<L>& state, State<L>& next) {
+    static void set_position(const State<L>& state, State<L>& next) {
         next.position = state.position + 0.02 * state.velocity;
     }
 
     // drive  (domain.rddl:49)
     template <class L>
-    static void drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+    static void set_drive(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         scratch.sin_angle = rddl::sin(state.angle);
@@ -130,7 +130,7 @@ struct Simulator {
 
     // turn  (domain.rddl:55)
     template <class L>
-    static void turn(const State<L>& state, Scratch<L>& scratch) {
+    static void set_turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = scratch.cos_angle * (scratch.drive - scratch.friction * 9.8);
         const Real term_2 = 9.8 * scratch.sin_angle -
@@ -144,13 +144,13 @@ struct Simulator {
 
     // angle-change'  (domain.rddl:77)
     template <class L>
-    static void angle_change(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+    static void set_angle_change(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         next.angle_change = state.angle_change + 0.02 * scratch.turn;
     }
 
     // pressure  (domain.rddl:64)
     template <class L>
-    static void pressure(const State<L>& state, Scratch<L>& scratch) {
+    static void set_pressure(const State<L>& state, Scratch<L>& scratch) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         const Bool condition = state.angle_change * state.angle_change == 0.0;
@@ -164,7 +164,7 @@ struct Simulator {
 
     // speed-up  (domain.rddl:68)
     template <class L>
-    static void speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+    static void set_speed_up(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         const Bool condition = state.angle_change * state.angle_change == 0.0;
@@ -179,7 +179,7 @@ struct Simulator {
 
     // velocity'  (domain.rddl:75)
     template <class L>
-    static void velocity(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+    static void set_velocity(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         next.velocity = state.velocity + 0.02 * scratch.speed_up;
     }
 
@@ -195,7 +195,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 2;
     template <class L>
     static typename L::Bool termination(rddl::Index k, const State<L>& state,
                                         rddl::Context<L>& /*context*/) {
@@ -222,7 +221,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -230,7 +228,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 0;
     template <class L>
     static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
                                          const Action<L>& /*action*/,
@@ -341,12 +338,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace cart_pole_cart_pole_1
+}  // namespace rddl_simulators::cart_pole_cart_pole_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_cart_pole_cart_pole_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return cart_pole_cart_pole_1::simulator();
+    return rddl_simulators::cart_pole_cart_pole_1::simulator();
 }

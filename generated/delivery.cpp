@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace delivery_delivery_1 {
+namespace rddl_simulators::delivery_delivery_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -37,7 +37,7 @@ inline constexpr rddl::Index progress_count = 3;   // waiting, riding, delivered
 
 // ROAD, domain.rddl:27
 // clang-format off
-inline constexpr std::array<std::array<std::int64_t, direction_count>, place_count> ROAD = {{
+inline constexpr std::array<std::array<std::int64_t, direction_count>, place_count> ROAD_ = {{
     {0, 0, 1, 3, 0},
     {1, 1, 2, 4, 0},
     {2, 2, 2, 5, 1},
@@ -48,20 +48,20 @@ inline constexpr std::array<std::array<std::int64_t, direction_count>, place_cou
 // clang-format on
 
 // STEEP, domain.rddl:28
-inline constexpr std::array<bool, place_count> STEEP = {0, 0, 1, 0, 0, 0};
+inline constexpr std::array<bool, place_count> STEEP_ = {0, 0, 1, 0, 0, 0};
 
 // ORIGIN, domain.rddl:31
-inline constexpr std::array<std::int64_t, parcel_count> ORIGIN = {3, 1, 5};
+inline constexpr std::array<std::int64_t, parcel_count> ORIGIN_ = {3, 1, 5};
 
 // DESTINATION, domain.rddl:32
-inline constexpr std::array<std::int64_t, parcel_count> DESTINATION = {2, 4, 0};
+inline constexpr std::array<std::int64_t, parcel_count> DESTINATION_ = {2, 4, 0};
 
 // PRICE, domain.rddl:33
-inline constexpr std::array<double, parcel_count> PRICE = {20, 20, 35};
+inline constexpr std::array<double, parcel_count> PRICE_ = {20, 20, 35};
 
 // CHANGE, domain.rddl:36
 // clang-format off
-inline constexpr std::array<std::array<double, weather_count>, weather_count> CHANGE = {{
+inline constexpr std::array<std::array<double, weather_count>, weather_count> CHANGE_ = {{
     {0.8, 0.15, 0.05},
     {0.3, 0.6, 0.1},
     {0.2, 0.2, 0.6},
@@ -122,27 +122,27 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        grip(state, scratch);
-        loaded(state, scratch);
-        sky(state, next, context);
-        called(state, action, scratch);
-        position(state, action, scratch, next, context);
-        carrier(state, scratch, next);
-        status(state, scratch, next);
+        set_grip(state, scratch);
+        set_loaded(state, scratch);
+        set_sky(state, next, context);
+        set_called(state, action, scratch);
+        set_position(state, action, scratch, next, context);
+        set_carrier(state, scratch, next);
+        set_status(state, scratch, next);
     }
 
     // grip(?v)  (domain.rddl:60)
     template <class L>
-    static void grip(const State<L>& state, Scratch<L>& scratch) {
+    static void set_grip(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
-        const Real term = rddl::select(rddl::at(STEEP, state.position[0]), 0.4, 0.7);
+        const Real term = rddl::select(rddl::at(STEEP_, state.position[0]), 0.4, 0.7);
         scratch.grip[0] =
             rddl::select(state.sky == 0, 1.0, rddl::select(state.sky == 1, 0.9, term));
     }
 
     // loaded(?v)  (domain.rddl:71)
     template <class L>
-    static void loaded(const State<L>& state, Scratch<L>& scratch) {
+    static void set_loaded(const State<L>& state, Scratch<L>& scratch) {
         using Int = typename L::Int;
         scratch.loaded[0] = rddl::sum<Int>(parcel_count, [&](rddl::Index p) {
             return rddl::to_int(state.status[p] == 1 && state.carrier[p] == 0);
@@ -151,34 +151,34 @@ struct Simulator {
 
     // sky'  (domain.rddl:57)
     template <class L>
-    static void sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
+    static void set_sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.sky = rddl::sample::discrete_over(
             context, {0, 0}, weather_count,
-            [&](rddl::Index tomorrow) { return rddl::at(CHANGE, state.sky, tomorrow); });
+            [&](rddl::Index tomorrow) { return rddl::at(CHANGE_, state.sky, tomorrow); });
     }
 
     // called(?p)  (domain.rddl:73)
     template <class L>
-    static void called(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+    static void set_called(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         for (rddl::Index p = 0; p < parcel_count; ++p) {
             scratch.called[p] =
-                action.take[0][p] && state.position[0] == ORIGIN[p] && scratch.loaded[0] < 2;
+                action.take[0][p] && state.position[0] == ORIGIN_[p] && scratch.loaded[0] < 2;
         }
     }
 
     // position'(?v)  (domain.rddl:67)
     template <class L>
-    static void position(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
-                         State<L>& next, rddl::Context<L>& context) {
+    static void set_position(const State<L>& state, const Action<L>& action,
+                             const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
         using Bool = typename L::Bool;
         const Bool draw = rddl::sample::bernoulli(context, {1, 0}, scratch.grip[0]);
         next.position[0] =
-            rddl::select(draw, rddl::at(ROAD, state.position[0], action.go[0]), state.position[0]);
+            rddl::select(draw, rddl::at(ROAD_, state.position[0], action.go[0]), state.position[0]);
     }
 
     // carrier'(?p)  (domain.rddl:77)
     template <class L>
-    static void carrier(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+    static void set_carrier(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         for (rddl::Index p = 0; p < parcel_count; ++p) {
             next.carrier[p] =
                 rddl::select(state.status[p] == 0 && scratch.called[p], 0, state.carrier[p]);
@@ -187,7 +187,7 @@ struct Simulator {
 
     // status'(?p)  (domain.rddl:84)
     template <class L>
-    static void status(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+    static void set_status(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         using Bool = typename L::Bool;
         using Int = typename L::Int;
         for (rddl::Index p = 0; p < parcel_count; ++p) {
@@ -196,7 +196,7 @@ struct Simulator {
                 [&] { return rddl::select(scratch.called[p], Int{1}, Int{0}); },
                 [&] {
                     const Bool condition =
-                        rddl::at(next.position, state.carrier[p]) == DESTINATION[p];
+                        rddl::at(next.position, state.carrier[p]) == DESTINATION_[p];
                     const Int number = rddl::select(condition, Int{2}, Int{1});
                     return rddl::select(state.status[p] == 1, number, 2);
                 });
@@ -210,13 +210,12 @@ struct Simulator {
                                    rddl::Context<L>& /*context*/) {
         using Real = typename L::Real;
         const Real total = rddl::sum<Real>(parcel_count, [&](rddl::Index p) {
-            return PRICE[p] * rddl::to_real(state.status[p] == 1 && next.status[p] == 2);
+            return PRICE_[p] * rddl::to_real(state.status[p] == 1 && next.status[p] == 2);
         });
         return total - rddl::to_real(action.go[0] != 0);
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 1;
     template <class L>
     static typename L::Bool termination(rddl::Index k, const State<L>& state,
                                         rddl::Context<L>& /*context*/) {
@@ -237,7 +236,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -245,7 +243,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 2;
     template <class L>
     static typename L::Bool precondition(rddl::Index k, const State<L>& state,
                                          const Action<L>& action, rddl::Context<L>& /*context*/) {
@@ -264,7 +261,7 @@ struct Simulator {
     static typename L::Bool precondition_0(const State<L>& state, const Action<L>& action) {
         using Bool = typename L::Bool;
         return rddl::for_all<Bool>(parcel_count, [&](rddl::Index p) {
-            return !action.take[0][p] || (state.status[p] == 0 && state.position[0] == ORIGIN[p]);
+            return !action.take[0][p] || (state.status[p] == 0 && state.position[0] == ORIGIN_[p]);
         });
     }
 
@@ -417,12 +414,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace delivery_delivery_1
+}  // namespace rddl_simulators::delivery_delivery_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_delivery_delivery_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return delivery_delivery_1::simulator();
+    return rddl_simulators::delivery_delivery_1::simulator();
 }

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace fire_fire_1 {
+namespace rddl_simulators::fire_fire_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -33,7 +33,7 @@ inline constexpr rddl::Index ypos_count = 5;  // y1, y2, y3, y4, y5
 
 // CLEARING, domain.rddl:23
 // clang-format off
-inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING = {{
+inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING_ = {{
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
     {0, 0, 0, 1, 1},
@@ -55,7 +55,7 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
 
 // ignites-rows, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 26> ignites_rows = {
+inline constexpr std::array<std::int64_t, 26> ignites_rows_ = {
     0, 2, 5, 8, 11, 13, 16, 20, 24, 28, 31, 34, 38, 42, 46, 49, 52, 56, 60, 64, 67, 69, 72, 75, 78,
     80
 };
@@ -63,7 +63,7 @@ inline constexpr std::array<std::int64_t, 26> ignites_rows = {
 
 // ignites-n, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 80> ignites_n = {
+inline constexpr std::array<std::int64_t, 80> ignites_n_ = {
     0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 2, 1,
     2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 3, 2, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4,
     2, 3, 4, 3, 4, 3, 4, 4, 3, 4, 4, 3, 4, 4, 3, 4
@@ -72,7 +72,7 @@ inline constexpr std::array<std::int64_t, 80> ignites_n = {
 
 // ignites-m, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 80> ignites_m = {
+inline constexpr std::array<std::int64_t, 80> ignites_m_ = {
     1, 0, 0, 2, 1, 1, 3, 2, 2, 4, 3, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0,
     1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3,
     4, 3, 4, 0, 1, 1, 0, 2, 2, 1, 3, 3, 2, 4, 4, 3
@@ -81,7 +81,7 @@ inline constexpr std::array<std::int64_t, 80> ignites_m = {
 
 // ignites-entries, domain.rddl:58
 // clang-format off
-inline constexpr std::array<double, 80> ignites_entries = {
+inline constexpr std::array<double, 80> ignites_entries_ = {
     0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88,
     0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
     0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
@@ -95,10 +95,10 @@ inline constexpr std::array<double, 80> ignites_entries = {
 // clang-format on
 
 // HOUSE-c, domain.rddl:22
-inline constexpr std::array<std::int64_t, 3> HOUSE_c = {4, 4, 4};
+inline constexpr std::array<std::int64_t, 3> HOUSE_c_ = {4, 4, 4};
 
 // HOUSE-r, domain.rddl:22
-inline constexpr std::array<std::int64_t, 3> HOUSE_r = {0, 2, 4};
+inline constexpr std::array<std::int64_t, 3> HOUSE_r_ = {0, 2, 4};
 
 // --------------------------------------------------------------------------------- records
 
@@ -148,15 +148,15 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        bare(state, action, next, context);
-        ignites(state, action, scratch, context);
-        burning(state, action, scratch, next, context);
+        set_bare(state, action, next, context);
+        set_ignites(state, action, scratch, context);
+        set_burning(state, action, scratch, next, context);
     }
 
     // bare'(?c, ?r)  (domain.rddl:65)
     template <class L>
-    static void bare(const State<L>& state, const Action<L>& action, State<L>& next,
-                     rddl::Context<L>& context) {
+    static void set_bare(const State<L>& state, const Action<L>& action, State<L>& next,
+                         rddl::Context<L>& context) {
         rddl::for_each_object(context, xpos_count * ypos_count, [&](auto& several, auto c_r) {
             rddl::elements(next.bare, c_r) = rddl::branch(
                 several, rddl::at(state.burning, c_r),
@@ -169,22 +169,22 @@ struct Simulator {
 
     // ignites(?c, ?r)  (domain.rddl:58)
     template <class L>
-    static void ignites(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                        rddl::Context<L>& context) {
+    static void set_ignites(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                            rddl::Context<L>& context) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
-                const Bool condition =
-                    CLEARING[c][r] || state.burning[c][r] || state.bare[c][r] || action.clear[c][r];
+                const Bool condition = CLEARING_[c][r] || state.burning[c][r] || state.bare[c][r] ||
+                                       action.clear[c][r];
                 scratch.ignites[c][r] = rddl::branch(
                     context, condition, [&] { return false; },
                     [&] {
                         const Real product = rddl::product<Real>(
-                            rddl::row(ignites_rows, c * 5 + r), [&](rddl::Index entry) {
+                            rddl::row(ignites_rows_, c * 5 + r), [&](rddl::Index entry) {
                                 return rddl::select(
-                                    state.burning[ignites_n[entry]][ignites_m[entry]],
-                                    ignites_entries[entry], 1.0);
+                                    state.burning[ignites_n_[entry]][ignites_m_[entry]],
+                                    ignites_entries_[entry], 1.0);
                             });
                         const Real term = 1.0 - 0.9995 * product;
                         return rddl::sample::bernoulli(context, {1, c * 5 + r}, term);
@@ -195,8 +195,8 @@ struct Simulator {
 
     // burning'(?c, ?r)  (domain.rddl:63)
     template <class L>
-    static void burning(const State<L>& state, const Action<L>& action, const Scratch<L>& scratch,
-                        State<L>& next, rddl::Context<L>& context) {
+    static void set_burning(const State<L>& state, const Action<L>& action,
+                            const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
         rddl::for_each_object(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
             const auto condition = rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
                                    !rddl::at(next.bare, c_r);
@@ -218,7 +218,7 @@ struct Simulator {
             });
         });
         const Int total_2 = rddl::sum<Int>(3, [&](rddl::Index entry) {
-            return rddl::to_int(scratch.ignites[HOUSE_c[entry]][HOUSE_r[entry]]);
+            return rddl::to_int(scratch.ignites[HOUSE_c_[entry]][HOUSE_r_[entry]]);
         });
         const Real term = rddl::to_real(rddl::count_ones(rddl::bits(next.burning))) +
                           50.0 * rddl::to_real(total_2) + 0.5 * rddl::to_real(total);
@@ -226,7 +226,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 0;
     template <class L>
     static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
                                         rddl::Context<L>& /*context*/) {
@@ -234,7 +233,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 1;
     template <class L>
     static typename L::Bool invariant(rddl::Index k, const State<L>& state,
                                       rddl::Context<L>& /*context*/) {
@@ -253,7 +251,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 2;
     template <class L>
     static typename L::Bool precondition(rddl::Index k, const State<L>& state,
                                          const Action<L>& action, rddl::Context<L>& /*context*/) {
@@ -412,12 +409,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace fire_fire_1
+}  // namespace rddl_simulators::fire_fire_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_fire_fire_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return fire_fire_1::simulator();
+    return rddl_simulators::fire_fire_1::simulator();
 }

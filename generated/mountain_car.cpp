@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace mountain_car_mountain_car_1 {
+namespace rddl_simulators::mountain_car_mountain_car_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -32,14 +32,14 @@ inline constexpr rddl::Index segment_count = 9;  // s1, s2, s3, s4, s5, s6, s7, 
 
 // position-breaks, domain.rddl:66
 // clang-format off
-inline constexpr std::array<double, 9> position_breaks = {
+inline constexpr std::array<double, 9> position_breaks_ = {
     -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6
 };
 // clang-format on
 
 // position-values, domain.rddl:66
 // clang-format off
-inline constexpr std::array<double, 10> position_values = {
+inline constexpr std::array<double, 10> position_values_ = {
     0, -2.9200000000000004, -2.670000000000001, -1.4949999999999992, 0.2099999999999997,
     1.8350000000000004, 2.8249999999999997, 1.8350000000000004, 0.2099999999999997, 0
 };
@@ -94,23 +94,23 @@ struct Simulator {
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/,
                      rddl::Context<L>& /*context*/) {
-        slope(state, scratch);
-        speed(state, action, scratch);
-        position(state, scratch, next);
-        velocity(scratch, next);
+        set_slope(state, scratch);
+        set_speed(state, action, scratch);
+        set_position(state, scratch, next);
+        set_velocity(scratch, next);
     }
 
     // slope  (domain.rddl:52)
     template <class L>
-    static void slope(const State<L>& state, Scratch<L>& scratch) {
+    static void set_slope(const State<L>& state, Scratch<L>& scratch) {
         using Int = typename L::Int;
         scratch.slope =
-            rddl::at(position_values, rddl::search<position_breaks, Int>(state.position));
+            rddl::at(position_values_, rddl::search<position_breaks_, Int>(state.position));
     }
 
     // speed  (domain.rddl:57)
     template <class L>
-    static void speed(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+    static void set_speed(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = state.velocity + 0.0015 * action.throttle - 0.00083333 * scratch.slope;
         scratch.speed = rddl::maximum(-0.07, rddl::minimum(0.07, term));
@@ -118,13 +118,13 @@ struct Simulator {
 
     // position'  (domain.rddl:59)
     template <class L>
-    static void position(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
+    static void set_position(const State<L>& state, const Scratch<L>& scratch, State<L>& next) {
         next.position = rddl::maximum(-1.2, state.position + scratch.speed);
     }
 
     // velocity'  (domain.rddl:62)
     template <class L>
-    static void velocity(const Scratch<L>& scratch, State<L>& next) {
+    static void set_velocity(const Scratch<L>& scratch, State<L>& next) {
         next.velocity =
             rddl::select(next.position <= -1.2 && scratch.speed < 0.0, 0.0, scratch.speed);
     }
@@ -139,7 +139,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 1;
     template <class L>
     static typename L::Bool termination(rddl::Index k, const State<L>& state,
                                         rddl::Context<L>& /*context*/) {
@@ -158,7 +157,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -166,7 +164,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 2;
     template <class L>
     static typename L::Bool precondition(rddl::Index k, const State<L>& /*state*/,
                                          const Action<L>& action, rddl::Context<L>& /*context*/) {
@@ -305,12 +302,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace mountain_car_mountain_car_1
+}  // namespace rddl_simulators::mountain_car_mountain_car_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_mountain_car_mountain_car_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return mountain_car_mountain_car_1::simulator();
+    return rddl_simulators::mountain_car_mountain_car_1::simulator();
 }

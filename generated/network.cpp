@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace network_network_1 {
+namespace rddl_simulators::network_network_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -34,7 +34,7 @@ inline constexpr rddl::Index computer_count = 8;  // c1, c2, c3, c4, c5, c6, c7,
 inline constexpr std::array<bool, computer_count> initial_running = {1, 1, 0, 1, 1, 1, 1, 1};
 
 // LINK-object, domain.rddl:16
-inline constexpr std::array<std::int64_t, computer_count> LINK_object = {7, 0, 1, 2, 3, 4, 5, 6};
+inline constexpr std::array<std::int64_t, computer_count> LINK_object_ = {7, 0, 1, 2, 3, 4, 5, 6};
 
 // --------------------------------------------------------------------------------- records
 
@@ -79,13 +79,13 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& /*scratch*/,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        running(state, action, next, context);
+        set_running(state, action, next, context);
     }
 
     // running'(?c)  (domain.rddl:40)
     template <class L>
-    static void running(const State<L>& state, const Action<L>& action, State<L>& next,
-                        rddl::Context<L>& context) {
+    static void set_running(const State<L>& state, const Action<L>& action, State<L>& next,
+                            rddl::Context<L>& context) {
         using Int = typename L::Int;
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
@@ -93,7 +93,7 @@ struct Simulator {
                 context, action.reboot[c], [&] { return true; },
                 [&] {
                     const Int number =
-                        rddl::wrap_add(1, rddl::to_int(state.running[LINK_object[c]]));
+                        rddl::wrap_add(1, rddl::to_int(state.running[LINK_object_[c]]));
                     const Real term = 0.45 + 0.5 * (rddl::to_real(number) * 0.5);
                     const Real term_2 = rddl::select(state.running[c], term, 0.05);
                     return rddl::sample::valid_bernoulli(context, {0, c}, term_2);
@@ -111,7 +111,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 0;
     template <class L>
     static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
                                         rddl::Context<L>& /*context*/) {
@@ -119,7 +118,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -127,7 +125,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 0;
     template <class L>
     static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
                                          const Action<L>& /*action*/,
@@ -226,12 +223,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace network_network_1
+}  // namespace rddl_simulators::network_network_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_network_network_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return network_network_1::simulator();
+    return rddl_simulators::network_network_1::simulator();
 }

@@ -23,7 +23,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace orchard_orchard_1 {
+namespace rddl_simulators::orchard_orchard_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -54,11 +54,11 @@ static_assert(rddl::external::fits<void(std::span<const double, 3>, std::span<co
 // ---------------------------------------------------------------------------------- tables
 
 // CAPACITY, domain.rddl:13
-inline constexpr std::array<double, plot_count> CAPACITY = {25, 40, 40};
+inline constexpr std::array<double, plot_count> CAPACITY_ = {25, 40, 40};
 
 // RUNS-TO, domain.rddl:14
 // clang-format off
-inline constexpr std::array<std::array<double, plot_count>, plot_count> RUNS_TO = {{
+inline constexpr std::array<std::array<double, plot_count>, plot_count> RUNS_TO_ = {{
     {0, 0.75, 0},
     {0, 0, 0.75},
     {0, 0, 0},
@@ -119,23 +119,23 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        evaporation(state, scratch);
-        supplied(state, action, scratch);
-        temperature(state, next, context);
-        settled(scratch);
-        water(scratch, next);
+        set_evaporation(state, scratch);
+        set_supplied(state, action, scratch);
+        set_temperature(state, next, context);
+        set_settled(scratch);
+        set_water(scratch, next);
     }
 
     // evaporation  (domain.rddl:30)
     template <class L>
-    static void evaporation(const State<L>& state, Scratch<L>& scratch) {
+    static void set_evaporation(const State<L>& state, Scratch<L>& scratch) {
         scratch.evaporation_2 = rddl_extern::evaporation(state.temperature);
         scratch.evaporation = scratch.evaporation_2;
     }
 
     // supplied(?p)  (domain.rddl:31)
     template <class L>
-    static void supplied(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
+    static void set_supplied(const State<L>& state, const Action<L>& action, Scratch<L>& scratch) {
         for (rddl::Index p = 0; p < plot_count; ++p) {
             scratch.supplied[p] = state.water[p] + rddl::to_real(action.open[p]) * 6.0;
         }
@@ -143,16 +143,16 @@ struct Simulator {
 
     // temperature'  (domain.rddl:34)
     template <class L>
-    static void temperature(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
+    static void set_temperature(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.temperature = 22.0 + 0.8 * (state.temperature - 22.0) +
                            rddl::sample::normal(context, {0, 0}, 0.0, 4.0);
     }
 
     // settled(?p)  (domain.rddl:32)
     template <class L>
-    static void settled(Scratch<L>& scratch) {
+    static void set_settled(Scratch<L>& scratch) {
         rddl_extern::settle(rddl::external::input(scratch.supplied),
-                            rddl::external::input(CAPACITY), rddl::external::input(RUNS_TO),
+                            rddl::external::input(CAPACITY_), rddl::external::input(RUNS_TO_),
                             rddl::external::output(scratch.settle));
         for (rddl::Index p = 0; p < plot_count; ++p) {
             scratch.settled[p] = scratch.settle[p];
@@ -161,7 +161,7 @@ struct Simulator {
 
     // water'(?p)  (domain.rddl:33)
     template <class L>
-    static void water(const Scratch<L>& scratch, State<L>& next) {
+    static void set_water(const Scratch<L>& scratch, State<L>& next) {
         for (rddl::Index p = 0; p < plot_count; ++p) {
             next.water[p] = rddl::maximum(0.0, scratch.settled[p] - scratch.evaporation);
         }
@@ -180,7 +180,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 0;
     template <class L>
     static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
                                         rddl::Context<L>& /*context*/) {
@@ -188,7 +187,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -196,7 +194,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 0;
     template <class L>
     static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
                                          const Action<L>& /*action*/,
@@ -298,12 +295,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace orchard_orchard_1
+}  // namespace rddl_simulators::orchard_orchard_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_orchard_orchard_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return orchard_orchard_1::simulator();
+    return rddl_simulators::orchard_orchard_1::simulator();
 }

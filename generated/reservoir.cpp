@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace reservoir_reservoir_1 {
+namespace rddl_simulators::reservoir_reservoir_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -31,28 +31,28 @@ inline constexpr rddl::Index basin_count = 4;  // north, lake, east, valley
 // ---------------------------------------------------------------------------------- tables
 
 // CAPACITY, domain.rddl:21
-inline constexpr std::array<double, basin_count> CAPACITY = {100, 200, 100, 150};
+inline constexpr std::array<double, basin_count> CAPACITY_ = {100, 200, 100, 150};
 
 // SAFE-LOW, domain.rddl:22
-inline constexpr std::array<double, basin_count> SAFE_LOW = {20, 50, 20, 30};
+inline constexpr std::array<double, basin_count> SAFE_LOW_ = {20, 50, 20, 30};
 
 // SAFE-HIGH, domain.rddl:23
-inline constexpr std::array<double, basin_count> SAFE_HIGH = {80, 170, 80, 120};
+inline constexpr std::array<double, basin_count> SAFE_HIGH_ = {80, 170, 80, 120};
 
 // RAIN-CHANCE, domain.rddl:26
-inline constexpr std::array<double, basin_count> RAIN_CHANCE = {0.5, 0.3, 0.2, 0.3};
+inline constexpr std::array<double, basin_count> RAIN_CHANCE_ = {0.5, 0.3, 0.2, 0.3};
 
 // RAIN-SCALE, domain.rddl:28
-inline constexpr std::array<double, basin_count> RAIN_SCALE = {6, 10, 15, 10};
+inline constexpr std::array<double, basin_count> RAIN_SCALE_ = {6, 10, 15, 10};
 
 // water, domain.rddl:36
 inline constexpr std::array<double, basin_count> initial_water = {50, 120, 50, 60};
 
 // FLOWS-TO-rows, domain.rddl:18
-inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows = {0, 0, 1, 1, 3};
+inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows_ = {0, 0, 1, 1, 3};
 
 // FLOWS-TO-up, domain.rddl:18
-inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up = {0, 1, 2};
+inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up_ = {0, 1, 2};
 
 // --------------------------------------------------------------------------------- records
 
@@ -100,43 +100,43 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
-        balance(state, action, scratch, context);
-        spill(scratch);
-        water(scratch, next);
+        set_balance(state, action, scratch, context);
+        set_spill(scratch);
+        set_water(scratch, next);
     }
 
     // balance(?b)  (domain.rddl:56)
     template <class L>
-    static void balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                        rddl::Context<L>& context) {
+    static void set_balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                            rddl::Context<L>& context) {
         using Bool = typename L::Bool;
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE[b]);
+            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
             const Real term = rddl::branch(
                 context, draw,
                 [&] {
-                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE[b]);
+                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]);
                 },
                 [&] { return 0.0; });
-            const Real total = rddl::sum<Real>(rddl::row(FLOWS_TO_rows, b), [&](rddl::Index entry) {
-                return action.release[FLOWS_TO_up[entry]];
-            });
+            const Real total = rddl::sum<Real>(
+                rddl::row(FLOWS_TO_rows_, b),
+                [&](rddl::Index entry) { return action.release[FLOWS_TO_up_[entry]]; });
             scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
         }
     }
 
     // spill(?b)  (domain.rddl:58)
     template <class L>
-    static void spill(Scratch<L>& scratch) {
+    static void set_spill(Scratch<L>& scratch) {
         for (rddl::Index b = 0; b < basin_count; ++b) {
-            scratch.spill[b] = rddl::maximum(0.0, scratch.balance[b] - CAPACITY[b]);
+            scratch.spill[b] = rddl::maximum(0.0, scratch.balance[b] - CAPACITY_[b]);
         }
     }
 
     // water'(?b)  (domain.rddl:60)
     template <class L>
-    static void water(const Scratch<L>& scratch, State<L>& next) {
+    static void set_water(const Scratch<L>& scratch, State<L>& next) {
         for (rddl::Index b = 0; b < basin_count; ++b) {
             next.water[b] = rddl::maximum(0.0, scratch.balance[b] - scratch.spill[b]);
         }
@@ -149,15 +149,14 @@ struct Simulator {
                                    rddl::Context<L>& /*context*/) {
         using Real = typename L::Real;
         const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index b) {
-            return 5.0 * rddl::maximum(0.0, SAFE_LOW[b] - next.water[b]) +
-                   10.0 * rddl::maximum(0.0, next.water[b] - SAFE_HIGH[b]) +
+            return 5.0 * rddl::maximum(0.0, SAFE_LOW_[b] - next.water[b]) +
+                   10.0 * rddl::maximum(0.0, next.water[b] - SAFE_HIGH_[b]) +
                    50.0 * scratch.spill[b];
         });
         return -total;
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 0;
     template <class L>
     static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
                                         rddl::Context<L>& /*context*/) {
@@ -165,7 +164,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 2;
     template <class L>
     static typename L::Bool invariant(rddl::Index k, const State<L>& state,
                                       rddl::Context<L>& /*context*/) {
@@ -192,11 +190,10 @@ struct Simulator {
     static typename L::Bool invariant_1(const State<L>& state) {
         using Bool = typename L::Bool;
         return rddl::for_all<Bool>(basin_count,
-                                   [&](rddl::Index b) { return state.water[b] <= CAPACITY[b]; });
+                                   [&](rddl::Index b) { return state.water[b] <= CAPACITY_[b]; });
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 2;
     template <class L>
     static typename L::Bool precondition(rddl::Index k, const State<L>& state,
                                          const Action<L>& action, rddl::Context<L>& /*context*/) {
@@ -349,12 +346,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace reservoir_reservoir_1
+}  // namespace rddl_simulators::reservoir_reservoir_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_reservoir_reservoir_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return reservoir_reservoir_1::simulator();
+    return rddl_simulators::reservoir_reservoir_1::simulator();
 }

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace robot_robot_1 {
+namespace rddl_simulators::robot_robot_1 {
 // Unnamed, so that two versions of a simulator can be loaded into one program.
 namespace {
 
@@ -31,10 +31,10 @@ inline constexpr rddl::Index beacon_count = 3;  // west, south, middle
 // ---------------------------------------------------------------------------------- tables
 
 // BEACON-X, domain.rddl:17
-inline constexpr std::array<double, beacon_count> BEACON_X = {0, 5, 6};
+inline constexpr std::array<double, beacon_count> BEACON_X_ = {0, 5, 6};
 
 // BEACON-Y, domain.rddl:18
-inline constexpr std::array<double, beacon_count> BEACON_Y = {5, 0, 6};
+inline constexpr std::array<double, beacon_count> BEACON_Y_ = {5, 0, 6};
 
 // --------------------------------------------------------------------------------- records
 
@@ -98,27 +98,27 @@ struct Simulator {
     template <class L>
     static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
                      State<L>& next, Observation<L>& observation, rddl::Context<L>& context) {
-        course(state, action, scratch, context);
-        distance(action, scratch, context);
-        ahead_x(state, scratch);
-        ahead_y(state, scratch);
-        heading(scratch, next);
-        hit_wall(scratch);
-        reached_x(scratch);
-        reached_y(scratch);
-        bump(scratch, observation, context);
-        range_to(scratch);
-        x(scratch, next);
-        y(scratch, next);
-        answers(scratch, context);
-        echo(scratch, observation);
-        range(scratch, observation, context);
+        set_course(state, action, scratch, context);
+        set_distance(action, scratch, context);
+        set_ahead_x(state, scratch);
+        set_ahead_y(state, scratch);
+        set_heading(scratch, next);
+        set_hit_wall(scratch);
+        set_reached_x(scratch);
+        set_reached_y(scratch);
+        set_bump(scratch, observation, context);
+        set_range_to(scratch);
+        set_x(scratch, next);
+        set_y(scratch, next);
+        set_answers(scratch, context);
+        set_echo(scratch, observation);
+        set_range(scratch, observation, context);
     }
 
     // course  (domain.rddl:64)
     template <class L>
-    static void course(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
-                       rddl::Context<L>& context) {
+    static void set_course(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                           rddl::Context<L>& context) {
         using Real = typename L::Real;
         const Real draw =
             rddl::sample::normal(context, {0, 0}, action.turn, 0.01 * rddl::absolute(action.turn));
@@ -127,7 +127,8 @@ struct Simulator {
 
     // distance  (domain.rddl:65)
     template <class L>
-    static void distance(const Action<L>& action, Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void set_distance(const Action<L>& action, Scratch<L>& scratch,
+                             rddl::Context<L>& context) {
         using Real = typename L::Real;
         const Real term = 0.02 * rddl::absolute(action.drive);
         scratch.distance = rddl::sample::normal(context, {1, 0}, action.drive, term);
@@ -135,45 +136,45 @@ struct Simulator {
 
     // ahead-x  (domain.rddl:67)
     template <class L>
-    static void ahead_x(const State<L>& state, Scratch<L>& scratch) {
+    static void set_ahead_x(const State<L>& state, Scratch<L>& scratch) {
         scratch.ahead_x = state.x + scratch.distance * rddl::cos(scratch.course);
     }
 
     // ahead-y  (domain.rddl:68)
     template <class L>
-    static void ahead_y(const State<L>& state, Scratch<L>& scratch) {
+    static void set_ahead_y(const State<L>& state, Scratch<L>& scratch) {
         scratch.ahead_y = state.y + scratch.distance * rddl::sin(scratch.course);
     }
 
     // heading'  (domain.rddl:76)
     template <class L>
-    static void heading(const Scratch<L>& scratch, State<L>& next) {
+    static void set_heading(const Scratch<L>& scratch, State<L>& next) {
         next.heading = scratch.course;
     }
 
     // hit-wall  (domain.rddl:69)
     template <class L>
-    static void hit_wall(Scratch<L>& scratch) {
+    static void set_hit_wall(Scratch<L>& scratch) {
         scratch.hit_wall = scratch.ahead_x < 0.0 || scratch.ahead_x > 10.0 ||
                            scratch.ahead_y < 0.0 || scratch.ahead_y > 10.0;
     }
 
     // reached-x  (domain.rddl:71)
     template <class L>
-    static void reached_x(Scratch<L>& scratch) {
+    static void set_reached_x(Scratch<L>& scratch) {
         scratch.reached_x = rddl::maximum(0.0, rddl::minimum(10.0, scratch.ahead_x));
     }
 
     // reached-y  (domain.rddl:72)
     template <class L>
-    static void reached_y(Scratch<L>& scratch) {
+    static void set_reached_y(Scratch<L>& scratch) {
         scratch.reached_y = rddl::maximum(0.0, rddl::minimum(10.0, scratch.ahead_y));
     }
 
     // bump  (domain.rddl:88)
     template <class L>
-    static void bump(const Scratch<L>& scratch, Observation<L>& observation,
-                     rddl::Context<L>& context) {
+    static void set_bump(const Scratch<L>& scratch, Observation<L>& observation,
+                         rddl::Context<L>& context) {
         observation.bump = rddl::branch(
             context, scratch.hit_wall,
             [&] {
@@ -184,28 +185,28 @@ struct Simulator {
 
     // range-to(?b)  (domain.rddl:79)
     template <class L>
-    static void range_to(Scratch<L>& scratch) {
+    static void set_range_to(Scratch<L>& scratch) {
         for (rddl::Index b = 0; b < beacon_count; ++b) {
             scratch.range_to[b] =
-                rddl::hypot(scratch.reached_x - BEACON_X[b], scratch.reached_y - BEACON_Y[b]);
+                rddl::hypot(scratch.reached_x - BEACON_X_[b], scratch.reached_y - BEACON_Y_[b]);
         }
     }
 
     // x'  (domain.rddl:74)
     template <class L>
-    static void x(const Scratch<L>& scratch, State<L>& next) {
+    static void set_x(const Scratch<L>& scratch, State<L>& next) {
         next.x = scratch.reached_x;
     }
 
     // y'  (domain.rddl:75)
     template <class L>
-    static void y(const Scratch<L>& scratch, State<L>& next) {
+    static void set_y(const Scratch<L>& scratch, State<L>& next) {
         next.y = scratch.reached_y;
     }
 
     // answers(?b)  (domain.rddl:82)
     template <class L>
-    static void answers(Scratch<L>& scratch, rddl::Context<L>& context) {
+    static void set_answers(Scratch<L>& scratch, rddl::Context<L>& context) {
         for (rddl::Index b = 0; b < beacon_count; ++b) {
             scratch.answers[b] =
                 rddl::sample::bernoulli(context, {3, b}, rddl::exp(-scratch.range_to[b] / 6.0));
@@ -214,7 +215,7 @@ struct Simulator {
 
     // echo(?b)  (domain.rddl:84)
     template <class L>
-    static void echo(const Scratch<L>& scratch, Observation<L>& observation) {
+    static void set_echo(const Scratch<L>& scratch, Observation<L>& observation) {
         for (rddl::Index b = 0; b < beacon_count; ++b) {
             observation.echo[b] = scratch.answers[b];
         }
@@ -222,8 +223,8 @@ struct Simulator {
 
     // range(?b)  (domain.rddl:85)
     template <class L>
-    static void range(const Scratch<L>& scratch, Observation<L>& observation,
-                      rddl::Context<L>& context) {
+    static void set_range(const Scratch<L>& scratch, Observation<L>& observation,
+                          rddl::Context<L>& context) {
         using Real = typename L::Real;
         for (rddl::Index b = 0; b < beacon_count; ++b) {
             observation.range[b] = rddl::branch(
@@ -246,7 +247,6 @@ struct Simulator {
     }
 
     // An episode ends where one of these holds.
-    static constexpr rddl::Index termination_count = 1;
     template <class L>
     static typename L::Bool termination(rddl::Index k, const State<L>& state,
                                         rddl::Context<L>& /*context*/) {
@@ -265,7 +265,6 @@ struct Simulator {
     }
 
     // Hold in every state that makes sense.
-    static constexpr rddl::Index invariant_count = 0;
     template <class L>
     static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
                                       rddl::Context<L>& /*context*/) {
@@ -273,7 +272,6 @@ struct Simulator {
     }
 
     // Hold for every action that is allowed.
-    static constexpr rddl::Index precondition_count = 4;
     template <class L>
     static typename L::Bool precondition(rddl::Index k, const State<L>& /*state*/,
                                          const Action<L>& action, rddl::Context<L>& /*context*/) {
@@ -474,12 +472,12 @@ inline const rddl_simulator* simulator() {
 }
 
 }  // namespace
-}  // namespace robot_robot_1
+}  // namespace rddl_simulators::robot_robot_1
 
 #ifndef RDDL_ENTRY
 #define RDDL_ENTRY rddl_simulator_robot_robot_1
 #endif
 
 extern "C" RDDL_EXPORT const rddl_simulator* RDDL_ENTRY(void) {
-    return robot_robot_1::simulator();
+    return rddl_simulators::robot_robot_1::simulator();
 }

@@ -16,10 +16,6 @@
 namespace rddlc::cpp {
 namespace {
 
-const std::vector<std::string> about_words = {"types",      "fluents",        "preconditions",
-                                              "invariants", "terminations",   "problem",
-                                              "sites",      "default_action", "simulator"};
-
 std::string role_constant(Role role) {
     switch (role) {
         case Role::NonFluent:
@@ -80,7 +76,7 @@ std::string on_lines(std::string_view text) {
 // Writes one table after the other; equal small tables are shared.
 class Describer {
   public:
-    explicit Describer(const Unit& unit) : unit_(unit), scope_(&unit.names.file, about_words) {}
+    explicit Describer(const Unit& unit) : unit_(unit), scope_(&unit.names.file) {}
 
     std::string describe() {
         files();
@@ -148,7 +144,7 @@ class Describer {
             const ir::ObjectType& type = unit_.program.types[index];
             std::string objects = "nullptr";
             if (!type.objects.empty()) {
-                objects = scope_.claim(type.name + "_objects");
+                objects = scope_.claim(type.name, marks::objects);
                 std::vector<std::string> names;
                 for (const std::string& name : type.objects) {
                     names.push_back(literal(std::string_view(name)));
@@ -166,23 +162,22 @@ class Describer {
         if (fluent.parameter_types.empty()) return "nullptr";
         std::string& name = parameter_types_[fluent.parameter_types];
         if (!name.empty()) return name;
-        std::string wish = "of";
+        std::string wish;
         std::vector<std::string> numbers;
         for (std::uint32_t type : fluent.parameter_types) {
-            wish += "_" + unit_.program.types[type].name;
+            wish += (wish.empty() ? "" : "_") + unit_.program.types[type].name;
             numbers.push_back(std::to_string(type));
         }
-        name = scope_.claim(wish);
+        name = scope_.claim(wish, marks::parameter_types);
         add(list("inline constexpr std::int32_t " + name + "[]", numbers));
         return name;
     }
 
     // nullptr where nothing bounds the fluent.
-    std::string bounds(const ir::Fluent& fluent, const std::string& which,
-                       const std::vector<double>& values) {
+    std::string bounds(const ir::Fluent& fluent, Mark which, const std::vector<double>& values) {
         const bool unbounded = std::ranges::all_of(values, [](double v) { return std::isinf(v); });
         if (values.empty() || (unbounded && are_infinite(fluent))) return "nullptr";
-        const std::string name = scope_.claim(fluent.name + "_" + which);
+        const std::string name = scope_.claim(fluent.name, which);
         const std::string type = "std::array<double, " + std::to_string(values.size()) + ">";
         const std::vector<ir::Value> entries(values.begin(), values.end());
         if (entries.size() > 1 && are_equal(entries)) {
@@ -226,8 +221,8 @@ class Describer {
                              scalar_constant(fluent.scalar), std::to_string(range),
                              std::to_string(fluent.parameter_types.size()), parameter_types(fluent),
                              std::to_string(count), offset(fluent),
-                             bounds(fluent, "lower", fluent.lower),
-                             bounds(fluent, "upper", fluent.upper), source(fluent.span)});
+                             bounds(fluent, marks::lower, fluent.lower),
+                             bounds(fluent, marks::upper, fluent.upper), source(fluent.span)});
         }
         rows("rddl_fluent", "fluents", table,
              "name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, "
@@ -319,9 +314,10 @@ class Describer {
         }
         std::string& name = scope_tables_[key];
         if (!name.empty()) return name;
-        std::string wish = "scope";
-        for (ir::VariableId id : site.scope) wish += "_" + unit_.program[id].name;
-        name = scope_.claim(wish);
+        std::string wish;
+        for (ir::VariableId id : site.scope)
+            wish += (wish.empty() ? "" : "_") + unit_.program[id].name;
+        name = scope_.claim(wish, marks::scope);
         add(list("inline constexpr rddl::SiteVariable " + name + "[]", variables));
         return name;
     }

@@ -256,32 +256,16 @@ std::string Expressions::lambda_call(const ir::Node& node, ir::VariableId variab
 
 std::string Expressions::record(ir::BufferId id) {
     const std::string& name = unit_.names.buffers[id.index];
-    switch (unit_.program[id].storage) {
-        case ir::Storage::Constant:
-            return name;
-        case ir::Storage::State:
-            uses_.state = true;
-            return "state." + name;
-        case ir::Storage::Action:
-            uses_.action = true;
-            return "action." + name;
-        case ir::Storage::Scratch:
-            uses_.scratch = true;
-            return "scratch." + name;
-        case ir::Storage::Next:
-            uses_.next = true;
-            return "next." + name;
-        case ir::Storage::Observation:
-            uses_.observation = true;
-            return "observation." + name;
-        case ir::Storage::Memory:
-            uses_.memory = true;
-            return "memory." + name;
-        case ir::Storage::NextMemory:
-            uses_.next_memory = true;
-            return "next_memory." + name;
-    }
-    return name;
+    const ir::Storage storage = unit_.program[id].storage;
+    if (storage == ir::Storage::Constant) return name;
+    uses_.state |= storage == ir::Storage::State;
+    uses_.action |= storage == ir::Storage::Action;
+    uses_.scratch |= storage == ir::Storage::Scratch;
+    uses_.next |= storage == ir::Storage::Next;
+    uses_.observation |= storage == ir::Storage::Observation;
+    uses_.memory |= storage == ir::Storage::Memory;
+    uses_.next_memory |= storage == ir::Storage::NextMemory;
+    return words_of(storage).parameter + "." + name;
 }
 
 std::string Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) {

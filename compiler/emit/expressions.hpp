@@ -46,7 +46,8 @@ struct Uses {
 // Spells the expressions of one function, by the names that are known at the current point.
 class Expressions {
   public:
-    explicit Expressions(const Unit& unit) : unit_(unit), scope_(&unit.names.file) {}
+    explicit Expressions(const Unit& unit)
+        : unit_(unit), scope_(&unit.names.file, function_words()) {}
 
     Spelled spell(ir::NodeId id);
     std::string text(ir::NodeId id) { return spell(id).text; }

@@ -15,7 +15,6 @@
 namespace rddlc {
 namespace {
 
-using cpp::identifier;
 
 // "std::span<const std::array<double, 2>, 3>"
 std::string type_of(const ir::Program& program, const ir::TableView& view, std::string_view row) {
@@ -48,7 +47,7 @@ struct Use {
 Use use_of(const ir::Program& program, ir::ExternalId id, const ir::Call& call) {
     const ir::External& external = program[id];
     Use use{external.name,
-            identifier(external.name),
+            cpp::external_identifier(external.name),
             type_of(program, call.output, ""),
             {},
             external.span};
@@ -145,7 +144,7 @@ std::string emit_external_library(const ir::Program& program,
 }
 
 std::string external_entry(std::string_view name) {
-    return "rddl_extern_" + cpp::identifier(name);
+    return "rddl_extern_" + cpp::external_identifier(name);
 }
 
 std::string external_signature(const ir::Program& program, const ir::Call& call) {

@@ -34,9 +34,9 @@ std::string declaration(const Parameter& parameter) {
     return parameter.type + " " + name;
 }
 
-Parameter record_parameter(const std::string& type, const std::string& name, bool used,
-                           bool stored) {
-    return {(stored ? "" : "const ") + type + "<L>&", name, used};
+Parameter record_parameter(ir::Storage storage, bool used, bool stored) {
+    const RecordWords words = words_of(storage);
+    return {(stored ? "" : "const ") + words.type + "<L>&", words.parameter, used};
 }
 
 Parameter context_parameter(const Uses& uses) {
@@ -46,11 +46,11 @@ Parameter context_parameter(const Uses& uses) {
 // All records that a function might take, in the order of every signature.
 std::vector<Parameter> record_parameters(const Uses& uses) {
     return {
-        record_parameter("State", "state", uses.state, false),
-        record_parameter("Action", "action", uses.action, false),
-        record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
-        record_parameter("State", "next", uses.next, uses.stores_next),
-        record_parameter("Observation", "observation", uses.observation, uses.stores_observation),
+        record_parameter(ir::Storage::State, uses.state, false),
+        record_parameter(ir::Storage::Action, uses.action, false),
+        record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+        record_parameter(ir::Storage::Next, uses.next, uses.stores_next),
+        record_parameter(ir::Storage::Observation, uses.observation, uses.stores_observation),
         context_parameter(uses)};
 }
 
@@ -58,12 +58,12 @@ std::vector<Parameter> record_parameters(const Uses& uses) {
 std::vector<Parameter> policy_parameters(const Unit& unit, const Uses& uses) {
     return {
         unit.program.partially_observed()
-            ? record_parameter("Observation", "observation", uses.observation, false)
-            : record_parameter("State", "state", uses.state, false),
-        record_parameter("PolicyMemory", "memory", uses.memory, false),
-        record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
-        record_parameter("Action", "action", uses.action, uses.stores_action),
-        record_parameter("PolicyMemory", "next_memory", uses.next_memory, uses.stores_next_memory),
+            ? record_parameter(ir::Storage::Observation, uses.observation, false)
+            : record_parameter(ir::Storage::State, uses.state, false),
+        record_parameter(ir::Storage::Memory, uses.memory, false),
+        record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+        record_parameter(ir::Storage::Action, uses.action, uses.stores_action),
+        record_parameter(ir::Storage::NextMemory, uses.next_memory, uses.stores_next_memory),
         context_parameter(uses)};
 }
 
@@ -211,11 +211,6 @@ CpfFunctions cpf_functions(const Unit& unit, const std::vector<ir::Definition>& 
     return result;
 }
 
-std::string count_constant(const std::string& word, std::size_t count) {
-    return indented(
-        "static constexpr rddl::Index " + word + "_count = " + std::to_string(count) + ";", level);
-}
-
 std::string condition_switch(const std::vector<std::string>& calls, const char* otherwise) {
     if (calls.empty()) return indented(std::string("return ") + otherwise + ";", level + 1);
     std::string text = indented("switch (k) {", level + 1);
@@ -236,8 +231,7 @@ struct ConditionKind {
 };
 
 std::string conditions(const Unit& unit, const ConditionKind& kind,
-                       const std::vector<ir::Computation>& computations,
-                       const std::vector<std::string>& names) {
+                       const std::vector<ir::Computation>& computations) {
     Uses all;
     std::vector<std::string> calls;
     std::string functions;
@@ -251,20 +245,20 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
         const bool has_scratch = std::exchange(uses.scratch, false);
         unite(all, uses);
         const std::vector<Parameter> parameters = only_used(record_parameters(uses));
-        calls.push_back(names[k] + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) +
-                        ")");
+        const std::string name = kind.word + "_" + std::to_string(k);
+        calls.push_back(name + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")");
         functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
                                     unit.where(computation.span));
-        functions += function("typename L::Bool", names[k], parameters,
+        functions += function("typename L::Bool", name, parameters,
                               body_text(unit, body, computation.span, has_scratch));
     }
     std::vector<Parameter> parameters = {{"rddl::Index", "k", !computations.empty()},
-                                         record_parameter("State", "state", all.state, false)};
+                                         record_parameter(ir::Storage::State, all.state, false)};
     if (kind.has_action) {
-        parameters.push_back(record_parameter("Action", "action", all.action, false));
+        parameters.push_back(record_parameter(ir::Storage::Action, all.action, false));
     }
     parameters.push_back(context_parameter(all));
-    return indented("// " + kind.comment, level) + count_constant(kind.word, computations.size()) +
+    return indented("// " + kind.comment, level) +
            function("typename L::Bool", kind.word, parameters,
                     condition_switch(calls, kind.otherwise)) +
            functions;
@@ -318,7 +312,7 @@ std::string reset_function(const Unit& unit) {
     const Uses& uses = body.uses();
     if (uses.scratch) text += own_scratch();
     return function("void", "reset",
-                    {record_parameter("State", "state", has_values || uses.state, true),
+                    {record_parameter(ir::Storage::State, has_values || uses.state, true),
                      context_parameter(uses)},
                     type_aliases(uses) + text + draws);
 }
@@ -330,10 +324,10 @@ std::string reward_function(const Unit& unit) {
     body.return_value(reward.value);
     const Uses& uses = body.uses();
     return function("typename L::Real", "reward",
-                    {record_parameter("State", "state", uses.state, false),
-                     record_parameter("Action", "action", uses.action, false),
-                     record_parameter("Scratch", "scratch", uses.scratch, uses.stores_scratch),
-                     record_parameter("State", "next", uses.next, false), context_parameter(uses)},
+                    {record_parameter(ir::Storage::State, uses.state, false),
+                     record_parameter(ir::Storage::Action, uses.action, false),
+                     record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+                     record_parameter(ir::Storage::Next, uses.next, false), context_parameter(uses)},
                     body_text(unit, body, reward.span));
 }
 
@@ -341,14 +335,14 @@ std::string condition_functions(const Unit& unit) {
     const ir::Program& program = unit.program;
     return conditions(unit,
                       {"termination", "An episode ends where one of these holds.", "false", false},
-                      program.terminations, unit.names.terminations) +
+                      program.terminations) +
            "\n" +
            conditions(unit, {"invariant", "Hold in every state that makes sense.", "true", false},
-                      program.invariants, unit.names.invariants) +
+                      program.invariants) +
            "\n" +
            conditions(unit,
                       {"precondition", "Hold for every action that is allowed.", "true", true},
-                      program.preconditions, unit.names.preconditions);
+                      program.preconditions);
 }
 
 StepFunctions step_functions(const Unit& unit) {
@@ -367,7 +361,7 @@ std::string policy(const Unit& unit) {
     uses.stores_scratch = uses.stores_action = uses.stores_next_memory = true;
     const std::string initial = assignments(unit, ir::Storage::Memory, "memory", level + 1);
     const std::vector<Parameter> memory = {
-        record_parameter("PolicyMemory", "memory", !initial.empty(), true)};
+        record_parameter(ir::Storage::Memory, !initial.empty(), true)};
     return fill_slots(templates::policy,
                       {{"name", comment_text(unit.program.policy->name)},
                        {"place", unit.where(unit.program.policy->span)},

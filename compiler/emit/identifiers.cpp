@@ -1,7 +1,5 @@
 #include "emit/identifiers.hpp"
 
-#include <algorithm>
-
 namespace rddlc::cpp {
 namespace {
 
@@ -9,9 +7,15 @@ bool is_word_character(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
+// No name of the user's has one at its end that does not come from here.
+std::string unreserved(std::string name) {
+    if (is_reserved(name)) name += '_';
+    return name;
+}
+
 }  // namespace
 
-std::string identifier(std::string_view name) {
+std::string plain_identifier(std::string_view name) {
     std::string result;
     for (char c : name) {
         if (is_word_character(c)) {
@@ -20,38 +24,49 @@ std::string identifier(std::string_view name) {
             result += '_';
         }
     }
+    if (result.ends_with('_')) result.pop_back();
     // A leading underscore or digit is not ours to use.
     if (result.empty() || !is_word_character(result.front()) || result.front() <= '9') {
         result.insert(0, "x");
     }
-    if (is_reserved(result)) result += '_';
     return result;
+}
+
+std::string identifier(std::string_view name) {
+    return unreserved(plain_identifier(name));
+}
+
+std::string external_identifier(std::string_view name) {
+    std::string result = plain_identifier(name);
+    return is_keyword(result) ? result + '_' : result;
 }
 
 Scope::Scope(const Scope* outer, const std::vector<std::string>& names)
     : outer_(outer), taken_(names.begin(), names.end()) {}
 
-std::string Scope::claim(std::string_view wish) {
-    const std::string first = identifier(wish);
+std::string Scope::claim(std::string_view wish, Mark mark) {
+    const std::string root = std::string(mark.before) + plain_identifier(wish);
+    const auto numbered = [&](const std::string& number) {
+        return unreserved(root + number + std::string(mark.after));
+    };
+    const std::string first = numbered("");
     std::string name = first;
     if (is_taken(name)) {
         int& number = last_number_.try_emplace(first, 1).first->second;
         do {
-            name = first + (first.back() == '_' ? "" : "_") + std::to_string(++number);
+            name = numbered("_" + std::to_string(++number));
         } while (is_taken(name));
     }
     taken_.insert(name);
-    claimed_.push_back(name);
+    claimed_.push_back({name, first});
     return name;
 }
 
 void Scope::release(std::size_t mark) {
     for (; claimed_.size() > mark; claimed_.pop_back()) {
-        taken_.erase(claimed_.back());
+        taken_.erase(claimed_.back().name);
         // "x_3" frees the number 3 again, so that sister blocks count alike.
-        const std::string& name = claimed_.back();
-        const std::size_t underscore = name.rfind('_');
-        if (underscore != std::string::npos) last_number_.erase(name.substr(0, underscore));
+        last_number_.erase(claimed_.back().unnumbered);
     }
 }
 

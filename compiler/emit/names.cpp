@@ -1,29 +1,18 @@
 #include "emit/names.hpp"
 
-#include "emit/tables.hpp"
-
 #include <algorithm>
+#include <stdexcept>
 
 namespace rddlc::cpp {
 namespace {
 
 using ir::Storage;
 
-// What emitted functions call their parameters and types: no table may hide them.
-const std::vector<std::string> file_words = {
-    "State", "Action", "Scratch", "Observation", "Simulator",   "Bool",    "Int",  "Real",
-    "state", "action", "scratch", "next",        "observation", "context", "about"};
-
-const std::vector<std::string> policy_file_words = {"Policy", "PolicyMemory", "memory",
-                                                    "next_memory"};
-
-// The members of Policy.
-const std::vector<std::string> policy_words = {"Memory", "reset", "act"};
-
-// The members of Simulator.
-const std::vector<std::string> simulator_words = {
-    "reset",     "step",         "reward",          "termination",        "termination_count",
-    "invariant", "precondition", "invariant_count", "precondition_count", "partially_observed"};
+// Of a program.
+constexpr Mark count{"", "_count"};
+constexpr Mark table{"", "_"};
+constexpr Mark initial{"initial_", ""};
+constexpr Mark function{"set_", ""};
 
 // Each record has a region of its own, except that Next is State again, and NextMemory Memory.
 struct RecordScopes {
@@ -76,24 +65,51 @@ void name_members(const ir::Program& program, const Scope& file, std::vector<std
 
 }  // namespace
 
+RecordWords words_of(Storage storage) {
+    switch (storage) {
+        case Storage::State:
+            return {"State", "state"};
+        case Storage::Action:
+            return {"Action", "action"};
+        case Storage::Scratch:
+            return {"Scratch", "scratch"};
+        case Storage::Next:
+            return {"State", "next"};
+        case Storage::Observation:
+            return {"Observation", "observation"};
+        case Storage::Memory:
+            return {"PolicyMemory", "memory"};
+        case Storage::NextMemory:
+            return {"PolicyMemory", "next_memory"};
+        case Storage::Constant:
+            break;
+    }
+    throw std::logic_error("a constant lies in no record");
+}
+
+std::vector<std::string> function_words() {
+    std::vector<std::string> words = {"context", "k", "Bool", "Int", "Real"};
+    for (const Storage storage :
+         {Storage::State, Storage::Action, Storage::Scratch, Storage::Next, Storage::Observation,
+          Storage::Memory, Storage::NextMemory})
+        words.push_back(words_of(storage).parameter);
+    return words;
+}
+
 Names names_of(const ir::Program& program) {
     Names names;
     const std::string problem = program.domain_name + "_" + program.instance_name;
     names.space = identifier(problem);
-    names.entry = "rddl_simulator_" + names.space;
-    std::vector<std::string> words = file_words;
-    if (program.policy)
-        words.insert(words.end(), policy_file_words.begin(), policy_file_words.end());
-    names.file = Scope(nullptr, words);
+    names.entry = "rddl_simulator_" + plain_identifier(problem);
 
     for (const ir::ObjectType& type : program.types) {
-        names.counts.push_back(names.file.claim(type.name + "_count"));
+        names.counts.push_back(names.file.claim(type.name, count));
     }
     names.buffers.resize(program.buffers.size());
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
         if (buffer.storage == Storage::Constant)
-            names.buffers[index] = names.file.claim(buffer.name);
+            names.buffers[index] = names.file.claim(buffer.name, table);
     }
     name_members(program, names.file, names.buffers);
 
@@ -103,29 +119,20 @@ Names names_of(const ir::Program& program) {
         const ir::Buffer& buffer = program.buffers[index];
         const bool starts = buffer.storage == Storage::State || buffer.storage == Storage::Action;
         if (!starts || buffer.values.empty() || buffer.values.is_uniform()) continue;
-        names.initial[index] = names.file.claim("initial_" + buffer.name);
+        names.initial[index] = names.file.claim(buffer.name, initial);
     }
 
-    Scope simulator(&names.file, simulator_words);
+    Scope simulator(&names.file);
     for (const ir::Definition& definition : program.step) {
-        names.functions.push_back(simulator.claim(program[definition.target].name));
+        names.functions.push_back(simulator.claim(program[definition.target].name, function));
     }
     if (program.policy) {
-        Scope policy(&names.file, policy_words);
+        Scope policy(&names.file);
         for (const ir::Definition& definition : program.policy->act) {
-            names.policy_functions.push_back(policy.claim(program[definition.target].name));
+            names.policy_functions.push_back(
+                policy.claim(program[definition.target].name, function));
         }
     }
-    const auto claim_all = [&](std::size_t count, const std::string& word) {
-        std::vector<std::string> claimed;
-        for (std::size_t k = 0; k < count; ++k) {
-            claimed.push_back(simulator.claim(word + "_" + std::to_string(k)));
-        }
-        return claimed;
-    };
-    names.preconditions = claim_all(program.preconditions.size(), "precondition");
-    names.invariants = claim_all(program.invariants.size(), "invariant");
-    names.terminations = claim_all(program.terminations.size(), "termination");
     return names;
 }
 

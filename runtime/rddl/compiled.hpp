@@ -73,7 +73,7 @@ struct Compiled {
     // All are evaluated: one of them may fault.
     static typename L::Bool terminal(const std::byte* state, Context<L>& context) {
         typename L::Bool holds{false};
-        for_each_index<Simulator::termination_count>([&](Index k) RDDL_INLINE_LAMBDA {
+        for_each_index<problem.termination_count>([&](Index k) RDDL_INLINE_LAMBDA {
             holds = Simulator::termination(k, as<State>(state), context) || holds;
         });
         return holds;
@@ -81,7 +81,7 @@ struct Compiled {
 
     static typename L::Bool violates_invariant(const std::byte* state, Context<L>& context) {
         typename L::Bool violated{false};
-        for_each_index<Simulator::invariant_count>([&](Index k) RDDL_INLINE_LAMBDA {
+        for_each_index<problem.invariant_count>([&](Index k) RDDL_INLINE_LAMBDA {
             evaluate_where(!violated, context, [&]() RDDL_INLINE_LAMBDA {
                 const typename L::Bool holds = Simulator::invariant(k, as<State>(state), context);
                 violated = violated || !holds || context.faulted();
@@ -92,7 +92,7 @@ struct Compiled {
 
     static typename L::Int violated_precondition(const std::byte* state, const std::byte* action,
                                                  Context<L>& context) {
-        return first_violated(Simulator::precondition_count, context, [&](Index k) {
+        return first_violated(problem.precondition_count, context, [&](Index k) {
             return Simulator::precondition(k, as<State>(state), as<Action>(action), context);
         });
     }

@@ -3,4 +3,4 @@
 
 #include "episode.hpp"
 
-int main() { return print_episode(tank_one::simulator()); }
+int main() { return print_episode(rddl_simulators::tank_one::simulator()); }

@@ -62,9 +62,6 @@ struct Simulator {
     using Observation = tiny::Observation<L>;
 
     static constexpr bool partially_observed = false;
-    static constexpr Index termination_count = 1;
-    static constexpr Index invariant_count = 1;
-    static constexpr Index precondition_count = 1;
 
     template <class L>
     static void reset(State<L>& state, Context<L>& /*context*/) {
