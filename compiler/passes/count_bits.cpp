@@ -96,7 +96,43 @@ class Counting {
             if (places_ && rows != *places_) return false;
             places_ = std::move(rows);
         }
-        return nest.op != Reduction::Sum || are_different(*places_);
+        if (are_different(*places_)) return true;
+        return nest.op != Reduction::Sum && known_parts_agree(nest);
+    }
+
+    // Entries of a row that share a place share its bit, so each known part of the condition must
+    // have one value for all of them.
+    bool known_parts_agree(const Nest& nest) {
+        std::vector<ir::NodeId> known;
+        collect_known(nest.condition, known);
+        return std::ranges::all_of(known, [&](ir::NodeId part) {
+            const std::vector<Row> where = places_of(nest, part, true);
+            const std::vector<Row> where_not = places_of(nest, part, false);
+            return std::ranges::equal(where, where_not, are_disjoint);
+        });
+    }
+
+    void collect_known(ir::NodeId id, std::vector<ir::NodeId>& known) const {
+        if (builder_.facts(id).uniform) return known.push_back(id);
+        if (std::holds_alternative<ir::Load>(program_[id].form)) return;
+        for (const ir::NodeId operand : ir::operands_of(program_[id]))
+            collect_known(operand, known);
+    }
+
+    // By row: the places, sorted, of the entries for which a known condition has the value.
+    std::vector<Row> places_of(const Nest& nest, ir::NodeId condition, bool value) {
+        std::vector<Row> places(row_count());
+        for_each_place(nest, [&](ir::Evaluator::Frame& frame, std::size_t row, std::int64_t place) {
+            if (evaluator_.value<bool>(condition, frame) == value) places[row].push_back(place);
+        });
+        for (Row& row : places) std::ranges::sort(row);
+        return places;
+    }
+
+    static bool are_disjoint(const Row& a, const Row& b) {
+        Row both;
+        std::ranges::set_intersection(a, b, std::back_inserter(both));
+        return both.empty();
     }
 
     double size_of(ir::VariableId variable) const {
@@ -165,6 +201,16 @@ class Counting {
             }
         };
         over_rows(over_rows, 0);
+    }
+
+    // Calls visit(frame, row, place) for every entry of every row, once places_ are known.
+    template <class Visit>
+    void for_each_place(const Nest& nest, const Visit& visit) {
+        std::vector<std::size_t> entries(row_count());
+        for_each_entry(nest, [&](ir::Evaluator::Frame& frame, std::int64_t index) {
+            const auto row = static_cast<std::size_t>(index);
+            visit(frame, row, (*places_)[row][entries[row]++]);
+        });
     }
 
     std::int64_t int_of(ir::NodeId id, ir::Evaluator::Frame& frame) const {
@@ -312,13 +358,11 @@ class Counting {
     // Of a condition that the compiler knows: by row; 0 for elements that do not count.
     ir::NodeId known_word(const Nest& nest, ir::NodeId condition, bool value, std::int64_t word) {
         std::vector<std::uint64_t> words(row_count());
-        std::vector<std::size_t> entries(row_count());
-        for_each_entry(nest, [&](ir::Evaluator::Frame& frame, std::int64_t index) {
-            const auto row = static_cast<std::size_t>(index);
-            const std::int64_t place = (*places_)[row][entries[row]++] - word * bits_in_an_int;
-            if (place < 0 || place >= bits_in_an_int) return;
+        for_each_place(nest, [&](ir::Evaluator::Frame& frame, std::size_t row, std::int64_t place) {
+            const std::int64_t bit = place - word * bits_in_an_int;
+            if (bit < 0 || bit >= bits_in_an_int) return;
             if (evaluator_.value<bool>(condition, frame) == value)
-                words[row] |= std::uint64_t{1} << place;
+                words[row] |= std::uint64_t{1} << bit;
         });
         return element(nest, words);
     }

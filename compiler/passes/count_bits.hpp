@@ -8,8 +8,10 @@
 //                                       =>
 //     bit_and(bits(state.running, 0), bits(action.reboot, 0)) != 0
 //
-// Which elements count must be known, and all tables must be read at the same place. An int holds
-// 64 of them, so this is for tables of a few hundred elements; what is larger has sparse rows.
+// Which elements count must be known, and all tables must be read at the same place. A place has one
+// bit: where several entries of a row look at it, a sum does not count it once for each of them, so
+// it stays; and so does a test if what is known differs between these entries. An int holds 64
+// bits, so this is for tables of a few hundred elements; what is larger has sparse rows.
 #pragma once
 
 #include "ir/ir.hpp"
