@@ -312,20 +312,24 @@ class Collector {
     Facts facts_;
 };
 
+void append_roots(const Block& block, std::vector<NodeId>& roots);
+
+void append_roots(const Statement& statement, std::vector<NodeId>& roots) {
+    match(
+        statement.form, [&](const Let& let) { roots.push_back(let.value); },
+        [&](const Store& store) {
+            roots.insert(roots.end(), store.indices.begin(), store.indices.end());
+            roots.push_back(store.value);
+        },
+        [&](const Loop& loop) { append_roots(loop.body, roots); },
+        [&](const Call& call) {
+            const std::vector<NodeId> operands = operands_of(call);
+            roots.insert(roots.end(), operands.begin(), operands.end());
+        });
+}
+
 void append_roots(const Block& block, std::vector<NodeId>& roots) {
-    for (const Statement& statement : block) {
-        match(
-            statement.form, [&](const Let& let) { roots.push_back(let.value); },
-            [&](const Store& store) {
-                roots.insert(roots.end(), store.indices.begin(), store.indices.end());
-                roots.push_back(store.value);
-            },
-            [&](const Loop& loop) { append_roots(loop.body, roots); },
-            [&](const Call& call) {
-                const std::vector<NodeId> operands = operands_of(call);
-                roots.insert(roots.end(), operands.begin(), operands.end());
-            });
-    }
+    for (const Statement& statement : block) append_roots(statement, roots);
 }
 
 void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
@@ -546,6 +550,12 @@ std::optional<VariableId> bound_variable(const Node& node) {
     if (const auto* reduce = std::get_if<Reduce>(&node.form)) return reduce->variable;
     if (const auto* discrete = std::get_if<DiscreteOver>(&node.form)) return discrete->variable;
     return std::nullopt;
+}
+
+std::vector<NodeId> roots_of(const Statement& statement) {
+    std::vector<NodeId> roots;
+    append_roots(statement, roots);
+    return roots;
 }
 
 std::vector<NodeId> roots_of(const Block& block) {

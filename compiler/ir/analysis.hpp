@@ -95,6 +95,7 @@ bool calls_functions(const Block& block);
 std::vector<NodeId> operands_of(const Call& call);
 
 // Every value and index that the statements evaluate, in order, those of nested loops included.
+std::vector<NodeId> roots_of(const Statement& statement);
 std::vector<NodeId> roots_of(const Block& block);
 std::vector<NodeId> roots_of(const Computation& computation);
 // All of the program: the step, the reward, the conditions and the policy.

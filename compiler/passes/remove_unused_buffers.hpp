@@ -1,4 +1,5 @@
-// Forgets what nobody reads: constant tables, and interm- and derived-fluents with their CPFs.
+// Forgets what nobody reads: constant tables, and interm- and derived-fluents with the statements
+// that fill them.
 //
 //     scratch.seen[c] = running[c] && noisy[c]
 //     next.running[c] = running[c]                =>   next.running[c] = running[c]

@@ -4,6 +4,7 @@
 #include "ir/print.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
+#include "passes/hoist_aggregations.hpp"
 #include "passes/remove_unused_buffers.hpp"
 #include "texts.hpp"
 
@@ -86,6 +87,28 @@ TEST(RemoveUnusedBuffers, DropsIntermFluentsThatNobodyReads) {
               "next.x = scratch.used\n");
 }
 
+// Such as what hoist_aggregations puts before the first of two CPFs that need it.
+TEST(RemoveUnusedBuffers, KeepsTablesOfDefinitionsThatNobodyReads) {
+    const std::string sum = "(sum_{?u : obj} [exp[v(?u)] * near(?o, ?u)])";
+    ir::Program program =
+        grounded({.pvariables = "v(obj) : { state-fluent, real, default = 1.0 };\n"
+                                "near(obj, obj) : { state-fluent, bool, default = true };\n"
+                                "unread(obj) : { interm-fluent, real };",
+                  .cpfs = "unread(?p) = max_{?o : obj} [" + sum +
+                          " * v(?p)];\n"
+                          "v'(?p) = max_{?o : obj} [" +
+                          sum + " - v(?p)];\nnear'(?o, ?u) = near(?o, ?u);"});
+    passes::Report report;
+    program = valid(passes::hoist_aggregations(std::move(program), report));
+    EXPECT_EQ(report["tables filled before loops"], 2);  // one in the other
+    EXPECT_EQ(names(program, ir::Storage::Scratch), "unread unread-by-obj unread-by-obj-2");
+    program = valid(passes::remove_unused_buffers(std::move(program), report));
+    EXPECT_EQ(names(program, ir::Storage::Scratch), "unread-by-obj unread-by-obj-2");
+    EXPECT_TRUE(std::ranges::any_of(program.step, [&](const ir::Definition& definition) {
+        return program[definition.target].name == "unread-by-obj";
+    })) << "a definition is named after what it still fills";
+}
+
 TEST(Optimise, RunsAllPasses) {
     const ir::Program program =
         valid(optimise(grounded(with_tables("sum_{?o : obj} [v(?o) * SAME(?o)]"))));
@@ -94,7 +117,7 @@ TEST(Optimise, RunsAllPasses) {
 
 TEST(Externals, KeepTheTablesThatTheyGet) {
     const ir::Program program =
-        valid(optimise(grounded(with_tables("$f[](SAME(_), NONE(_, _)) + 0 * $g[](W(_))"))));
+        valid(optimise(grounded(with_tables("$f[](SAME(_), NONE(_, _)) + $g[](W(_))"))));
     EXPECT_EQ(names(program, ir::Storage::Constant), "SAME NONE W") << "although two are uniform";
     EXPECT_NE(ir::print(program).find("fill scratch.f = $f(SAME, NONE)"), std::string::npos);
 }
