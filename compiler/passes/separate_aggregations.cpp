@@ -55,7 +55,7 @@ class Separation {
         auto* const store = ir::only_statement<ir::Store>(ir::innermost_body(loop));
         if (!store) return;
         std::vector<ir::NodeId> aggregations;
-        const bool all_found = find_aggregations(store->value, aggregations);
+        const bool all_found = find_aggregations(store->value, nest.variables, aggregations);
         if (!all_found || aggregations.empty() || reads(store->value, store->target)) return;
         const auto is_one = [&](ir::NodeId id) {
             return std::ranges::find(aggregations, id) != aggregations.end();
@@ -73,19 +73,22 @@ class Separation {
     }
 
     // The outermost ones; false if there is one that must stay where it is.
-    bool find_aggregations(ir::NodeId id, std::vector<ir::NodeId>& found) const {
+    bool find_aggregations(ir::NodeId id, const Variables& variables,
+                           std::vector<ir::NodeId>& found) const {
         const ir::Node& node = program_[id];
         if (std::holds_alternative<ir::Reduce>(node.form)) {
             const ir::Facts& facts = builder_.facts(id);
-            if (facts.may_fault || facts.random || node.type == ir::Scalar::Int) return false;
+            if (facts.may_fault || facts.random || node.type == ir::Scalar::Int ||
+                !is_over(facts, variables))
+                return false;
             if (std::ranges::find(found, id) == found.end()) found.push_back(id);
             return true;
         }
         if (const auto* select = std::get_if<ir::Select>(&node.form))
-            return find_aggregations(select->condition, found) && has_none(select->then_value) &&
-                   has_none(select->else_value);
+            return find_aggregations(select->condition, variables, found) &&
+                   has_none(select->then_value) && has_none(select->else_value);
         return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
-            return find_aggregations(operand, found);
+            return find_aggregations(operand, variables, found);
         });
     }
     bool reads(ir::NodeId id, ir::BufferId buffer) const {
@@ -95,7 +98,15 @@ class Separation {
     }
     bool has_none(ir::NodeId id) const {
         std::vector<ir::NodeId> found;
-        return find_aggregations(id, found) && found.empty();
+        return find_aggregations(id, {}, found) && found.empty();
+    }
+
+    // A table of these variables can hold it: nothing else around it, such as the draw of an object
+    // (DiscreteOver), binds what it depends on.
+    static bool is_over(const ir::Facts& facts, const Variables& variables) {
+        return std::ranges::all_of(facts.free_variables, [&](ir::VariableId variable) {
+            return std::ranges::find(variables, variable) != variables.end();
+        });
     }
 
     // ---------------------------------------------------------------------------- terms of sums
@@ -139,7 +150,8 @@ class Separation {
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
         const ir::Facts& facts = builder_.facts(term);
-        if (variables.empty() || facts.may_fault || facts.random || facts.cost < worth_a_table)
+        if (variables.empty() || facts.may_fault || facts.random || facts.cost < worth_a_table ||
+            !is_over(facts, variables))
             return false;
         const SeveralObjects several = several_of({variables, nullptr}, nullptr);
         return several.are_enough() && several.can_evaluate(term);

@@ -9,14 +9,16 @@ namespace {
 
 // Nine pairs of objects, some of which are linked; the CPF of `depth` is given, and the reward.
 Problem with_pairs(const std::string& cpf_of_level, const std::string& reward = "0") {
-    return {.pvariables =
-                "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
-                "COST(obj, obj) : { non-fluent, real, default = 0.5 };\n"
-                "depth(obj, obj) : { state-fluent, real, default = 0.0 };\n"
-                "up : { state-fluent, bool, default = true };",
-            .cpfs = "depth'(?x, ?y) = " + cpf_of_level + ";\nup' = up;",
-            .reward = reward,
-            .non_fluents = "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); COST(b2, b2) = 2.0;"};
+    return {
+        .pvariables =
+            "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
+            "COST(obj, obj) : { non-fluent, real, default = 0.5 };\n"
+            "depth(obj, obj) : { state-fluent, real, default = 0.0 };\n"
+            "OTHER : { non-fluent, obj };\n"
+            "up : { state-fluent, bool, default = true };",
+        .cpfs = "depth'(?x, ?y) = " + cpf_of_level + ";\nup' = up;",
+        .reward = reward,
+        .non_fluents = "LINK(b1, b2); LINK(b2, b3); LINK(b3, b1); COST(b2, b2) = 2.0; OTHER = b2;"};
 }
 
 ir::Program separated(const Problem& problem, passes::Report& report) {
@@ -76,6 +78,18 @@ TEST(SeparateAggregations, LeavesCheapTermsAndThoseThatAreNotAlwaysAdded) {
         separated(with_pairs("0.0", reward), report);
         EXPECT_TRUE(report.empty()) << reward;
     }
+}
+
+// A draw of an object binds what its weights depend on.
+TEST(SeparateAggregations, LeavesWeightsInTheirDraw) {
+    const std::string drawn = "((Discrete_{?w : obj} [sum_{?z : obj} [exp[depth(?z, ?w)]]]) == ?y)";
+    const std::string reward =
+        "(Discrete_{?w : obj} [sum_{?x : obj, ?y : obj} [exp[depth(?y, ?w) * depth(?x, ?y)]]]) == "
+        "OTHER";
+    passes::Report report;
+    const Problem problem = with_pairs("Normal(0, 1) + exp[depth(?x, ?y)] + " + drawn, reward);
+    EXPECT_EQ(step_text(separated(problem, report)), step_text(grounded(problem)));
+    EXPECT_EQ(report["sums whose terms are computed before"], 0);
 }
 
 }  // namespace
