@@ -64,6 +64,41 @@ std::optional<ir::NodeId> merged_with_constant(ir::Builder& builder, const ir::S
     return builder.sample(ir::Scalar::Bool, Distribution::Bernoulli, place, {chosen});
 }
 
+// How often the program names each node, by NodeId::index.
+std::vector<int> count_uses(const ir::Program& program) {
+    std::vector<int> uses(program.nodes.size());
+    const std::vector<bool> reachable = ir::reachable_nodes(program);
+    for (const ir::NodeId root : ir::roots_of(program)) ++uses[root.index];
+    for (std::size_t index = 0; index < uses.size(); ++index) {
+        if (!reachable[index]) continue;
+        for (const ir::NodeId operand : ir::operands_of(program.nodes[index]))
+            ++uses[operand.index];
+    }
+    return uses;
+}
+
+// Both branches, or the one that is no constant, are named by this Select alone. What somebody else
+// needs, too, stays a draw of its own, and then the merged one would draw from its site once more.
+bool are_only_here(const ir::Program& program, const ir::Select& select,
+                   const std::vector<int>& uses) {
+    const auto is_only_here = [&](ir::NodeId branch) {
+        return std::holds_alternative<ir::Constant>(program[branch].form) ||
+               uses[branch.index] == 1;
+    };
+    return is_only_here(select.then_value) && is_only_here(select.else_value);
+}
+
+// By NodeId::index: Selects whose branches may become one.
+std::vector<bool> candidates(const ir::Program& program) {
+    const std::vector<int> uses = count_uses(program);
+    std::vector<bool> found;
+    for (const ir::Node& node : program.nodes) {
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        found.push_back(select && are_only_here(program, *select, uses));
+    }
+    return found;
+}
+
 std::optional<ir::NodeId> merged(ir::Builder& builder, const ir::Select& select) {
     const ir::Program& program = builder.program();
     const ir::Sample* then_draw = draw(program, select.then_value);
@@ -87,19 +122,20 @@ std::optional<ir::NodeId> merged(ir::Builder& builder, const ir::Select& select)
 }  // namespace
 
 ir::Program merge_draws(ir::Program program, Report& report) {
-    return ir::rewrite(
-        std::move(program),
-        [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
-            const auto* select = std::get_if<ir::Select>(&node.form);
-            if (!select) return std::nullopt;
-            if (const auto draw = merged(builder, *select)) {
-                ++report["pairs of draws made one"];
-                return draw;
-            }
-            const auto draw = merged_with_constant(builder, *select);
-            if (draw) ++report["draws made to include constants"];
-            return draw;
-        });
+    const std::vector<bool> is_candidate = candidates(program);
+    return ir::rewrite(std::move(program),
+                       [&](ir::Builder& builder, ir::NodeId id,
+                           const ir::Node& node) -> std::optional<ir::NodeId> {
+                           if (!is_candidate[id.index]) return std::nullopt;
+                           const auto* select = std::get_if<ir::Select>(&node.form);
+                           if (const auto draw = merged(builder, *select)) {
+                               ++report["pairs of draws made one"];
+                               return draw;
+                           }
+                           const auto draw = merged_with_constant(builder, *select);
+                           if (draw) ++report["draws made to include constants"];
+                           return draw;
+                       });
 }
 
 }  // namespace rddlc::passes
