@@ -5,8 +5,8 @@
 //     real(sum[c in computer](int(state.running[c])))
 //         - 0.75 * real(sum[c in computer](int(action.reboot[c])))
 //
-// Ints can be added in any order and all at once. Only where no sum of the terms is ever rounded,
-// so that the result is the same bit for bit.
+// Ints can be added in any order and all at once. Only where no product inside of a term and no sum
+// of the terms is ever rounded, so that the result is the same bit for bit.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -37,7 +37,9 @@ TEST(CountBools, LeavesOtherSums) {
     for (const char* cpf :
          {"sum_{?o : obj} [v(?o)]", "sum_{?o : obj} [x * p(?o)]", "sum_{?o : obj} [W(?o) * p(?o)]",
           "sum_{?o : obj} [1.0 + p(?o)]", "sum_{?o : obj} [0.1 * p(?o)]",
-          "sum_{?o : obj} [10000000000.0 * p(?o)]", "prod_{?o : obj} [2.5 * p(?o)]"}) {
+          "sum_{?o : obj} [10000000000.0 * p(?o)]", "sum_{?o : obj} [10.0 * (0.1 * p(?o))]",
+          "sum_{?o : obj} [8.0 * (0.125 * p(?o) * 10000000000.0) / 10000000000.0]",
+          "prod_{?o : obj} [2.5 * p(?o)]"}) {
         const Texts x = of_x(cpf, passes::count_bools);
         EXPECT_EQ(x.before, x.after);
     }
