@@ -2,10 +2,12 @@
 
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
+#include "passes/readers.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -46,12 +48,17 @@ class Proof {
                 is_bounded(*upper, Side::AtLeast, *lower));
     }
 
-    // What an element of the state, or a constant, is after a step.
+    // What an element of the state, or a constant, is after a step. Which element it is must not
+    // depend on the state, since that is another one after the step.
     std::optional<ir::NodeId> in_next_state(ir::NodeId id) {
         if (builder_.facts(id).uniform) return id;
         const auto form = program_[id].form;
         const auto* load = std::get_if<ir::Load>(&form);
         if (!load || program_[load->buffer].storage != ir::Storage::State) return std::nullopt;
+        const auto is_fixed = [&](ir::NodeId index) {
+            return builder_.facts(index).uniform;
+        };
+        if (!std::ranges::all_of(load->indices, is_fixed)) return std::nullopt;
         const ir::Definition* definition = definition_of_next(load->buffer);
         return definition ? element(*definition, load->indices) : std::nullopt;
     }
@@ -75,9 +82,15 @@ class Proof {
         }
         const auto* store = ir::only_statement<ir::Store>(*body);
         if (!store || variables.size() != indices.size()) return std::nullopt;
+        const std::set<ir::VariableId> bound = bound_variables(program_, store->value);
+        const auto is_bound_there = [&](ir::VariableId variable) {
+            return bound.contains(variable);
+        };
         std::map<ir::NodeId, ir::NodeId> known;
         for (std::size_t k = 0; k < indices.size(); ++k) {
             if (store->indices[k] != builder_.index(variables[k])) return std::nullopt;
+            if (std::ranges::any_of(builder_.facts(indices[k]).free_variables, is_bound_there))
+                return std::nullopt;
             known[store->indices[k]] = indices[k];
         }
         return ir::replace_in(builder_, store->value, known);

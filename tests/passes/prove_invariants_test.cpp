@@ -13,10 +13,14 @@ bool is_proved(const std::string& invariant, const std::string& cpf_of_speed,
     const Problem problem{.pvariables =
                               "FASTEST(obj) : { non-fluent, real, default = 2.0 };\n"
                               "speed(obj) : { state-fluent, real, default = 0.0 };\n"
+                              "OTHER : { non-fluent, obj };\n"
+                              "car : { state-fluent, obj };\n"
                               "x : { state-fluent, real, default = 0.0 };",
-                          .cpfs = "speed'(?o) = " + cpf_of_speed + ";\nx' = " + cpf_of_x + ";",
+                          .cpfs = "speed'(?o) = " + cpf_of_speed + ";\nx' = " + cpf_of_x +
+                                  ";\ncar' = if (x > 1.0) then OTHER else car;",
                           .blocks = "state-invariants { " + invariant + "; };",
-                          .non_fluents = "FASTEST(b2) = 4.0;"};
+                          .non_fluents = "FASTEST(b2) = 4.0; OTHER = b2;",
+                          .init_state = "car = b1;"};
     passes::Report report;
     const ir::Program program = valid(passes::prove_invariants(grounded(problem), report));
     const auto* known = std::get_if<ir::Constant>(&program[program.invariants[0].value].form);
@@ -48,6 +52,9 @@ TEST(ProveInvariants, NotWhatAStepMayViolate) {
     EXPECT_FALSE(is_proved("x >= -1.0 | x <= 3.0", "0.0", "x + 1.0"));
     EXPECT_FALSE(is_proved("exists_{?o : obj} [speed(?o) <= FASTEST(?o)]", "speed(?o) + x"));
     EXPECT_FALSE(is_proved("forall_{?o : obj} [speed(?o) <= 2.0]", "min[FASTEST(?o), x]"));
+    EXPECT_FALSE(is_proved("speed(car) <= FASTEST(car)", "min[FASTEST(car), x]"))
+        << "the car is another one after the step";
+    EXPECT_FALSE(is_proved("speed(car) <= 4.0 ^ speed(car) >= x", "min[4.0, speed(car)]"));
     EXPECT_FALSE(is_proved("forall_{?o : obj, ?p : obj} [speed(?o) <= FASTEST(?p)]",
                            "min[FASTEST(?o), speed(?o) + x]"));
 }
