@@ -3,6 +3,7 @@
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -51,7 +52,7 @@ class Unrolling {
     const ir::Store* sums_over_rows(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
         const auto* store = ir::only_statement<ir::Store>(*nest.body);
-        if (!store) return nullptr;
+        if (!store || has_place(store->value)) return nullptr;
         double cost = builder_.facts(store->value).cost;
         for (ir::VariableId variable : nest.variables)
             cost *= static_cast<double>(program_[variable].size);
@@ -59,6 +60,13 @@ class Unrolling {
         const bool is_worth_it = sums > 0 && cost <= most_operations &&
                                  builder_.facts(store->value).cost - sums <= most_beside_sums;
         return is_worth_it ? store : nullptr;
+    }
+
+    // It draws or may fault at a site, which belongs to one node.
+    bool has_place(ir::NodeId id) const {
+        return ir::place_of(program_[id]) ||
+               std::ranges::any_of(ir::operands_of(program_[id]),
+                                   [&](ir::NodeId operand) { return has_place(operand); });
     }
 
     // Of the sums over rows that are evaluated in any case.

@@ -9,7 +9,7 @@
 //     part[1] = x[0]
 //     part[2] = 0.0
 //
-// Values stay the same, except that a sum of reals may be -0.0.
+// What draws or may fault stays in its loop. Values stay the same, except that a sum of reals may be -0.0.
 #pragma once
 
 #include "ir/ir.hpp"

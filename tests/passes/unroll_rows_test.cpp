@@ -13,8 +13,9 @@ Problem with_links(const std::string& cpf_of_depth) {
                 "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
                 "SHARE(obj, obj) : { non-fluent, real, default = 0.5 };\n"
                 "depth(obj) : { state-fluent, real, default = 1.0 };\n"
+                "n(obj) : { state-fluent, int, default = 2 };\n"
                 "shift : { state-fluent, real, default = 0.0 };",
-            .cpfs = "depth'(?x) = " + cpf_of_depth + ";\nshift' = shift;",
+            .cpfs = "depth'(?x) = " + cpf_of_depth + ";\nn'(?x) = n(?x);\nshift' = shift;",
             .non_fluents = "LINK(b1, b2); LINK(b1, b3); LINK(b3, b1); SHARE(b1, b3) = 0.25;"};
 }
 
@@ -35,6 +36,8 @@ TEST(UnrollRows, WritesTheTermsOfEachElement) {
               "next.depth[0] = 0.5 * state.depth[1] + 0.25 * state.depth[2]\n"
               "next.depth[1] = 0.0\n"
               "next.depth[2] = 0.5 * state.depth[0]\n"
+              "for x in obj\n"
+              "    next.n[x] = state.n[x]\n"
               "next.shift = state.shift\n");
 }
 
@@ -43,6 +46,8 @@ TEST(UnrollRows, TakesAFewOperationsBesideTheSum) {
               "next.depth[0] = 0.5 * state.depth[1] + 0.25 * state.depth[2] - state.shift\n"
               "next.depth[1] = 0.0 - state.shift\n"
               "next.depth[2] = 0.5 * state.depth[0] - state.shift\n"
+              "for x in obj\n"
+              "    next.n[x] = state.n[x]\n"
               "next.shift = state.shift\n");
 }
 
@@ -77,6 +82,18 @@ TEST(UnrollRows, LeavesLargeTables) {
     passes::Report report;
     unrolled(problem, report);
     EXPECT_TRUE(report.empty());
+}
+
+// A site belongs to one node.
+TEST(UnrollRows, LeavesWhatDrawsOrMayFault) {
+    for (const char* cpf : {"sum_{?y : obj} [LINK(?x, ?y) * pow[2, n(?y)]]",
+                            "sum_{?y : obj} [LINK(?x, ?y) * lngamma[depth(?y)]]",
+                            "sum_{?y : obj} [LINK(?x, ?y) * Bernoulli(0.5)]"}) {
+        const Problem problem = with_links(cpf);
+        passes::Report report;
+        EXPECT_EQ(unrolled(problem, report).find("next.depth[0]"), std::string::npos);
+        EXPECT_EQ(report["loops over rows unrolled"], 0);
+    }
 }
 
 }  // namespace
