@@ -34,6 +34,8 @@ class Hoisting {
         hoist_in(program_.reward);
         if (program_.policy) {
             elements_.clear();  // the step has tables of its own
+            replaced_.clear();
+            visited_.clear();
             hoist_in(program_.policy->act);
         }
         return ir::collect_garbage(std::move(program_));
