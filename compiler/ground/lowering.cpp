@@ -248,16 +248,18 @@ ir::NodeId Lowering::connective(const model::Apply& form) {
     return builder_.apply(form.op, {left, right});
 }
 
-// Outside of any scope, 0 * x is 0 whatever x is, and x is not evaluated. In a scope that depends
-// on the other objects in pyRDDLGym; there it is an ordinary product here.
+// 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
+// in scope. Where it is not, that depends on the other objects in pyRDDLGym; there it is an
+// ordinary product here.
 ir::NodeId Lowering::product(const model::Apply& form) {
     const bool right_first = is_simple(form.operands.back());
     const model::Expr& first_expr = right_first ? form.operands.back() : form.operands.front();
     const model::Expr& other_expr = right_first ? form.operands.front() : form.operands.back();
     const ir::NodeId first = lower(first_expr);
-    const ir::NodeId other = scope_.empty() ? lower_lazily(other_expr) : lower(other_expr);
+    const bool is_scalar = is_fixed_in_scope(first);
+    const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
     const bool is_plain =
-        !scope_.empty() || (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault);
+        !is_scalar || (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
@@ -293,7 +295,15 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
 // that bounds and passes can evaluate.
 bool Lowering::may_be_named(ir::NodeId value) const {
     const ir::Facts& facts = builder_.facts(value);
-    return !facts.uniform && (!facts.may_fault || branches_ == 0);
+    return scope_.empty() && !facts.uniform && (!facts.may_fault || branches_ == 0);
+}
+
+// It has one value for all objects of the variables in scope.
+bool Lowering::is_fixed_in_scope(ir::NodeId value) const {
+    const auto& free = builder_.facts(value).free_variables;
+    return std::ranges::none_of(scope_, [&](ir::VariableId variable) {
+        return std::ranges::binary_search(free, variable);
+    });
 }
 
 // A local for a value, outside of any scope.

@@ -63,6 +63,7 @@ class Lowering {
     ir::NodeId product(const model::Apply& form);
     ir::NodeId product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first);
     bool may_be_named(ir::NodeId value) const;
+    bool is_fixed_in_scope(ir::NodeId value) const;
     ir::NodeId named(ir::NodeId value);
     ir::NodeId loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body);
     ir::NodeId row_major_index(std::span<const ir::VariableId> variables);
