@@ -1,7 +1,7 @@
 // Owning a batch of a simulator.
 #pragma once
 
-#include "failure.hpp"
+#include "support/failure.hpp"
 
 #include <rddl/simulator.h>
 

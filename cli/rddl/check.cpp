@@ -5,6 +5,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "parallel.hpp"
+#include "support/program.hpp"
 #include "support/render.hpp"
 #include "table.hpp"
 
@@ -116,7 +117,7 @@ ExitStatus check_problems(const std::vector<RepositoryProblem>& problems, bool v
             files.push_back(find_instance(problem, instance));
     const std::vector<Outcome> outcomes = check_many(files);
     for (const Outcome& outcome : outcomes)
-        if (outcome.errors > 0 || verbose) fmt::print(stderr, "{}", outcome.text);
+        if (outcome.errors > 0 || verbose) tell(outcome.text);
     return summarise(problems, outcomes);
 }
 

@@ -1,7 +1,7 @@
 // The subcommands of `rddl`, one file each.
 #pragma once
 
-#include "failure.hpp"
+#include "support/failure.hpp"
 
 #include <CLI/CLI.hpp>
 

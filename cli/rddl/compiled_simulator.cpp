@@ -1,6 +1,6 @@
 #include "compiled_simulator.hpp"
 
-#include "failure.hpp"
+#include "support/failure.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

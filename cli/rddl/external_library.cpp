@@ -1,10 +1,10 @@
 #include "external_library.hpp"
 
 #include "emit/emit.hpp"
-#include "failure.hpp"
 #include "ir/analysis.hpp"
 #include "ir/call.hpp"
 #include "object_cache.hpp"
+#include "support/failure.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

@@ -1,20 +1,19 @@
 // rddl fmt: the canonical layout of RDDL files.
 #include "commands.hpp"
-#include "driver/files.hpp"
 #include "format/format.hpp"
 #include "options.hpp"
 #include "progress.hpp"
+#include "support/files.hpp"
+#include "support/program.hpp"
 #include "support/render.hpp"
 #include "unified_diff.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
-#include <iterator>
 #include <memory>
 
 namespace rddlc::cli {
@@ -44,25 +43,22 @@ void require_consistent(const FormatOptions& options) {
 
 std::optional<FileId> read(const std::string& path, Sources& sources) {
     if (path != "-") return sources.load(path);
-    return sources.add("<stdin>", {std::istreambuf_iterator<char>(std::cin), {}});
+    return sources.add("<stdin>", read_descriptor(STDIN_FILENO, "standard input"));
 }
 
-void write(const fs::path& path, const std::string& text) {
-    TemporaryFile file(path, "");
-    if (!file.write(text))
-        throw Failure(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    if (fs::exists(status)) fs::permissions(file.path(), status.permissions(), ignored);
-    if (!file.rename_to_final())
-        throw Failure(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+// A file is read as a whole before it is written.
+void rewrite(const std::string& path, const std::string& text) {
+    if (!fs::is_regular_file(path))
+        throw Failure(fmt::format("'{}' is no regular file, so it cannot be rewritten", path),
+                      "--stdout or -o FILE says where the text shall go");
+    UsedFiles none;
+    write_file(path, text, none);
 }
 
-// A link stays one: what it leads to is written.
-void replace(const fs::path& path, const std::string& text) {
-    std::error_code ignored;
-    const fs::path target = fs::canonical(path, ignored);
-    write(target.empty() ? path : target, text);
+void write_to_other(const std::string& output, const std::string& input, const std::string& text) {
+    UsedFiles used;
+    used.add(input);
+    write_file(output, text, used);
 }
 
 struct Formatted {
@@ -80,25 +76,25 @@ void deliver(const FormatOptions& options, const Formatted& file) {
     else if (options.check)
         fmt::print("{}", file.changes() ? file.path + "\n" : "");
     else if (!options.output.empty())
-        write(options.output, file.after);
+        write_to_other(options.output, file.path, file.after);
     else if (options.to_stdout || file.path == "-")
         fmt::print("{}", file.after);
     else if (file.changes())
-        replace(file.path, file.after);
+        rewrite(file.path, file.after);
 }
 
 ExitStatus format_one(const FormatOptions& options, const std::string& path) {
     Sources sources;
     const std::optional<FileId> file = read(path, sources);
     if (!file) {
-        fmt::print(stderr, "rddl: error: cannot read '{}': {}\n", path, std::strerror(errno));
+        tell("rddl: error: cannot read '{}': {}\n", path, std::strerror(errno));
         return diagnosed;
     }
     Diagnostics diagnostics;
     const std::optional<std::string> text =
         format_file(sources, *file, diagnostics, options.standard);
     if (!text) {
-        fmt::print(stderr, "{}", render(diagnostics, sources, {.color = is_terminal(2)}));
+        tell(render(diagnostics, sources, {.color = is_terminal(2)}));
         return diagnosed;
     }
     const Formatted formatted{path, sources[*file].text(), *text};

@@ -1,7 +1,8 @@
 #include "front_end.hpp"
 
-#include "failure.hpp"
 #include "progress.hpp"
+#include "support/failure.hpp"
+#include "support/program.hpp"
 #include "support/render.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
 void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = is_terminal(2);
-    fmt::print(stderr, "{}", render(compilation.diagnostics, compilation.sources, options));
+    tell(render(compilation.diagnostics, compilation.sources, options));
 }
 
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,

@@ -1,6 +1,6 @@
 #include "interrupt.hpp"
 
-#include "failure.hpp"
+#include "support/failure.hpp"
 
 #include <unistd.h>
 

@@ -1,11 +1,9 @@
 #include "line_stream.hpp"
 
-#include "failure.hpp"
 #include "interrupt.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,22 +16,23 @@ namespace {
 
 constexpr std::size_t chunk = std::size_t{1} << 18;
 
-int open_or_fail(const std::string& path, int flags, const char* verb) {
-    const int descriptor = open(path.c_str(), flags | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        throw Failure(fmt::format("cannot {} '{}': {}", verb, path, std::strerror(errno)));
-    return descriptor;
+Failure unreadable(const std::string& path) {
+    return Failure(fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
 }
 
-bool is_regular_file(int descriptor) {
-    struct stat status {};
-    return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+int open_input(const std::string& path) {
+    if (path == "-") return STDIN_FILENO;
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throw unreadable(path);
+    return descriptor;
 }
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path)
-    : descriptor_(path == "-" ? STDIN_FILENO : open_or_fail(path, O_RDONLY, "read")) {}
+LineReader::LineReader(const std::string& path, UsedFiles& used)
+    : path_(path == "-" ? "standard input" : path), descriptor_(open_input(path)) {
+    used.add(descriptor_);
+}
 
 LineReader::~LineReader() {
     if (descriptor_ != STDIN_FILENO) close(descriptor_);
@@ -64,19 +63,16 @@ bool LineReader::fill() {
     do {
         count = is_interrupted() ? 0 : read(descriptor_, buffer_.data() + old_size, chunk);
     } while (count < 0 && errno == EINTR);
+    const int error = errno;
     buffer_.resize(old_size + static_cast<std::size_t>(count > 0 ? count : 0));
+    errno = error;
+    if (count < 0) throw unreadable(path_);
     return count > 0;
 }
 
-LineWriter::LineWriter(const std::string& path)
-    : path_(path),
-      descriptor_(path == "-" ? STDOUT_FILENO
-                              : open_or_fail(path, O_WRONLY | O_CREAT | O_TRUNC, "write")),
-      prompt_(!is_regular_file(descriptor_)) {}
-
-LineWriter::~LineWriter() {
-    if (descriptor_ != STDOUT_FILENO) close(descriptor_);
-}
+LineWriter::LineWriter(const std::string& path, const UsedFiles& used)
+    : file_(path == "-" ? OutputFile::standard_output(used) : OutputFile(path, used)),
+      prompt_(file_.is_stream()) {}
 
 void LineWriter::write(const std::string& lines) {
     buffer_ += lines;
@@ -84,16 +80,13 @@ void LineWriter::write(const std::string& lines) {
 }
 
 void LineWriter::flush() {
-    std::size_t written = 0;
-    while (written < buffer_.size()) {
-        const ssize_t count =
-            ::write(descriptor_, buffer_.data() + written, buffer_.size() - written);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0)
-            throw Failure(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
-        written += static_cast<std::size_t>(count);
-    }
+    file_.write(buffer_);
     buffer_.clear();
+}
+
+void LineWriter::finish() {
+    flush();
+    file_.finish();
 }
 
 }  // namespace rddlc::cli

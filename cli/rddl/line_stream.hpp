@@ -2,6 +2,8 @@
 // writing a line and waiting for the answer.
 #pragma once
 
+#include "support/files.hpp"
+
 #include <optional>
 #include <string>
 
@@ -9,8 +11,9 @@ namespace rddlc::cli {
 
 class LineReader {
   public:
-    // "-" is standard input. Fails if the file cannot be opened.
-    explicit LineReader(const std::string& path);
+    // "-" is standard input. Fails if the file cannot be opened, and later if it cannot be read, as
+    // a folder. `used` gets the file.
+    LineReader(const std::string& path, UsedFiles& used);
     ~LineReader();
     LineReader(const LineReader&) = delete;
     LineReader& operator=(const LineReader&) = delete;
@@ -21,6 +24,7 @@ class LineReader {
   private:
     bool fill();
 
+    std::string path_;
     int descriptor_;
     std::string buffer_;
     std::size_t begin_ = 0;  // of what is not yet given out
@@ -28,19 +32,19 @@ class LineReader {
 
 class LineWriter {
   public:
-    // "-" is standard output. Fails if the file cannot be opened.
-    explicit LineWriter(const std::string& path);
-    ~LineWriter();  // closes; call flush() before to learn of errors
-    LineWriter(const LineWriter&) = delete;
-    LineWriter& operator=(const LineWriter&) = delete;
+    // "-" is standard output. Fails, as the functions below, if the file cannot be written or is
+    // one of those that are used.
+    LineWriter(const std::string& path, const UsedFiles& used);
 
     // Text of whole lines. Reaches a reader at once unless it goes to a regular file.
     void write(const std::string& lines);
-    void flush();
+    // A file has its name from here on; without this nothing is left of it.
+    void finish();
 
   private:
-    std::string path_;
-    int descriptor_;
+    void flush();
+
+    OutputFile file_;
     bool prompt_;
     std::string buffer_;
 };

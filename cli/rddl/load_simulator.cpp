@@ -3,9 +3,9 @@
 #include "compiled_simulator.hpp"
 #include "driver/extern_headers.hpp"
 #include "external_library.hpp"
-#include "failure.hpp"
 #include "front_end.hpp"
 #include "interpreted_simulator.hpp"
+#include "support/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -75,11 +75,22 @@ LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
     return {files, compiled.simulator, costs};
 }
 
+UsedFiles used_files(const ProblemFiles& files, const LoadOptions& options) {
+    const ExternFiles externs = extern_files(options.externs);
+    UsedFiles used;
+    for (const auto& all :
+         {files.all(), with_included_files(externs.headers), externs.shared_objects})
+        for (const std::filesystem::path& file : all) used.add(file);
+    return used;
+}
+
 }  // namespace
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
-    return options.engine == Engine::Interpreter ? interpreted(files, options)
-                                                 : compiled(files, options);
+    LoadedProblem problem = options.engine == Engine::Interpreter ? interpreted(files, options)
+                                                                  : compiled(files, options);
+    problem.used = used_files(files, options);
+    return problem;
 }
 
 }  // namespace rddlc::cli

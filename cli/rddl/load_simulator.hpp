@@ -4,6 +4,7 @@
 #include "emit/emit.hpp"
 #include "passes/passes.hpp"
 #include "problem_lookup.hpp"
+#include "support/files.hpp"
 
 #include <rddl/simulator.h>
 
@@ -46,6 +47,7 @@ struct LoadedProblem {
     ProblemFiles files;
     Simulator simulator;
     LoadCosts costs;
+    UsedFiles used = {};  // all that was read for it
 };
 
 // Prints the diagnostics and throws Diagnosed if there are errors; fails without a C++ compiler.

@@ -3,16 +3,13 @@
 #include "driver/version.hpp"
 #include "interrupt.hpp"
 #include "support/diagnostic.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace rddlc::cli {
@@ -81,8 +78,8 @@ ExitStatus report_usage(const CLI::App& program, const CLI::ParseError& error) {
     }
     const auto chosen = program.get_subcommands();
     const CLI::App* const command = chosen.empty() ? nullptr : chosen.front();
-    fmt::print(stderr, "rddl: error: {}\n'rddl{} --help' shows the usage\n",
-               usage_message(program, command, error), command ? " " + command->get_name() : "");
+    tell("rddl: error: {}\n'rddl{} --help' shows the usage\n",
+         usage_message(program, command, error), command ? " " + command->get_name() : "");
     return usage_error;
 }
 
@@ -103,38 +100,9 @@ ExitStatus run(int argc, char** argv) {
         return report_usage(program, error);
     }
     catch_interrupts();
-    for (const Command& command : commands) {
-        if (!command.app->parsed()) continue;
-        const ExitStatus status = command.run();
-        if (std::fflush(stdout) != 0) throw Failure("cannot write to standard output");
-        return status;
-    }
+    for (const Command& command : commands)
+        if (command.app->parsed()) return command.run();
     return usage_error;
-}
-
-ExitStatus run_and_report(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const Diagnosed&) {
-        return diagnosed;
-    } catch (const Failure& failure) {
-        fmt::print(stderr, "rddl: error: {}\n", failure.what());
-        if (!failure.hint.empty()) fmt::print(stderr, "  {}\n", failure.hint);
-        return failure.status;
-    } catch (const std::system_error& error) {
-        fmt::print(stderr, "rddl: error: {}\n", error.what());
-        return diagnosed;
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "rddl: error: not enough memory\n");
-        return diagnosed;
-    } catch (const std::exception& error) {
-        fmt::print(stderr,
-                   "rddl: internal error: {}\n"
-                   "This is a mistake in rddl, not in your problem: please report it with the "
-                   "command and the files.\n",
-                   error.what());
-        return internal_error;
-    }
 }
 
 }  // namespace
@@ -142,5 +110,6 @@ ExitStatus run_and_report(int argc, char** argv) {
 }  // namespace rddlc::cli
 
 int main(int argc, char** argv) {
-    return rddlc::cli::run_and_report(argc, argv);
+    using namespace rddlc;
+    return run_program("rddl", version, [&] { return cli::run(argc, argv); });
 }

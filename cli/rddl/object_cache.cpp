@@ -1,15 +1,18 @@
 #include "object_cache.hpp"
 
+#include "cache_folder.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/shared_object.hpp"
-#include "failure.hpp"
+#include "driver/work_folder.hpp"
 #include "interrupt.hpp"
 #include "prepared_runtime.hpp"
 #include "progress.hpp"
-#include "read_text.hpp"
+#include "sealed_files.hpp"
 #include "sha256.hpp"
+#include "support/failure.hpp"
+#include "support/files.hpp"
+#include "support/program.hpp"
 #include "support/render.hpp"
-#include "work_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +32,7 @@ namespace {
 std::string extern_text(const std::vector<fs::path>& headers) {
     std::string text;
     for (const fs::path& file : with_included_files(headers))
-        text += file.string() + '\0' + read_text(file) + '\0';
+        text += file.string() + '\0' + read_file(file) + '\0';
     return text;
 }
 
@@ -43,12 +46,12 @@ std::string content_key(const std::string& text, const std::string& toolchain,
 class CompilingMessage {
   public:
     CompilingMessage(const std::string& problem, bool shown) : shown_(shown && is_terminal(2)) {
-        if (shown_) fmt::print(stderr, "compiling {} ...", problem);
+        if (shown_) tell("compiling {} ...", problem);
     }
     // The seconds that it took.
     double done() const {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-        if (shown_) fmt::print(stderr, " ({})\n", duration_text(elapsed.count()));
+        if (shown_) tell(" ({})\n", duration_text(elapsed.count()));
         return elapsed.count();
     }
 
@@ -57,27 +60,13 @@ class CompilingMessage {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-// A shared object in the cache ends with the hash of what stands before it (the loader does not
-// mind), since loading a file that is cut off may kill the process.
-constexpr std::size_t seal_size = 64;
-
-void seal(const fs::path& object) {
-    const std::string digest = sha256_of_file(object);
-    std::ofstream(object, std::ios::binary | std::ios::app) << digest;
-}
-
-bool is_sealed(const fs::path& object) {
-    const std::string content = read_text(object);
-    if (content.size() < seal_size) return false;
-    const std::size_t end = content.size() - seal_size;
-    return sha256(std::string_view(content).substr(0, end)) == content.substr(end);
-}
-
 void build(const std::string& text, const std::string& toolchain, const fs::path& target,
            const CacheOptions& options) {
-    const WorkFolder work(target.parent_path());
+    const WorkFolder work(target.parent_path(), "building-",
+                          "set XDG_CACHE_HOME to a folder that can be written");
     const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
-    std::ofstream(source, std::ios::binary) << text;
+    UsedFiles used;
+    write_file(source, text, used);
     const auto prepared = prepared_runtime(target.parent_path(), toolchain);
     if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
     Diagnostics diagnostics;
@@ -92,7 +81,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     }
     if (!built) {
         if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
-        fmt::print(stderr, "{}", render(diagnostics, {}, {}));
+        tell(render(diagnostics, {}, {}));
         if (!options.extern_headers.empty()) throw Diagnosed{};
         throw Failure("the simulator cannot be compiled", "--engine=interpreter needs no compiler");
     }
@@ -101,15 +90,6 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
 }
 
 }  // namespace
-
-fs::path cache_folder() {
-    if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-        return fs::path(cache) / "rddlc";
-    if (const char* const home = std::getenv("HOME"); home && *home)
-        return fs::path(home) / ".cache" / "rddlc";
-    throw Failure(
-        "there is no place for compiled simulators: neither XDG_CACHE_HOME nor HOME is set");
-}
 
 CachedObject cached_object(const std::string& text, const CacheOptions& options) {
     const std::string toolchain = toolchain_text();

@@ -22,9 +22,8 @@ struct CachedObject {
     std::optional<double> build_seconds;  // nothing if it was there already
 };
 
-// Fails if there is no C++ compiler; throws Diagnosed if it refuses the user's headers.
+// Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if it
+// refuses the user's headers.
 CachedObject cached_object(const std::string& text, const CacheOptions& options);
-
-std::filesystem::path cache_folder();
 
 }  // namespace rddlc::cli

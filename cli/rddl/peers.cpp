@@ -1,7 +1,7 @@
 #include "peers.hpp"
 
 #include "driver/process.hpp"
-#include "failure.hpp"
+#include "support/failure.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,10 @@
 
 #include "driver/process.hpp"
 #include "driver/shared_object.hpp"
-#include "read_text.hpp"
+#include "driver/work_folder.hpp"
+#include "sealed_files.hpp"
 #include "sha256.hpp"
-#include "work_folder.hpp"
+#include "support/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +31,7 @@ std::string runtime_text() {
     std::sort(headers.begin(), headers.end());
     std::string text;
     for (const fs::path& header : headers)
-        text += header.lexically_relative(*folder).string() + '\0' + read_text(header) + '\0';
+        text += header.lexically_relative(*folder).string() + '\0' + read_file(header) + '\0';
     return text;
 }
 
@@ -69,12 +70,14 @@ std::string toolchain_text() {
 
 std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::string& toolchain) {
     const fs::path target = cache / (sha256(toolchain) + extension);
-    if (fs::exists(target)) return target;
-    const WorkFolder work(cache);
+    if (is_sealed_folder(target)) return target;
+    const WorkFolder work(cache, "building-", "set XDG_CACHE_HOME to a folder that can be written");
     const fs::path made = work.path() / "runtime";
     fs::create_directory(made);
     if (!prepare_runtime(made)) return std::nullopt;
+    seal_folder(made);
     std::error_code exists_by_now;
+    fs::remove_all(target, exists_by_now);
     fs::rename(made, target, exists_by_now);
     remove_old(cache);
     return target;

@@ -13,8 +13,8 @@ namespace rddlc::cli {
 std::string toolchain_text();
 
 // The folder within `cache` that prepare_runtime (driver/shared_object.hpp) fills for that
-// toolchain, now or earlier; nothing if it cannot. Those of other toolchains are removed but for
-// the latest few.
+// toolchain, now or earlier, intact; nothing if it cannot. Those of other toolchains are removed
+// but for the latest few.
 std::optional<std::filesystem::path> prepared_runtime(const std::filesystem::path& cache,
                                                       const std::string& toolchain);
 

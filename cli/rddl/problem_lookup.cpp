@@ -1,9 +1,8 @@
 #include "problem_lookup.hpp"
 
-#include "failure.hpp"
 #include "python_info.hpp"
-#include "read_text.hpp"
 #include "support/diagnostic.hpp"
+#include "support/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,7 +60,8 @@ void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
 RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) {
     RepositoryProblem problem;
     problem.folder = folder;
-    auto info = read_python_info(read_text(folder / "__init__.py"));
+    const fs::path description = folder / "__init__.py";
+    auto info = read_python_info(fs::exists(description) ? read_file(description) : "");
     problem.name = info["name"];
     problem.context = info["context"];
     problem.description = info["description"];

@@ -1,5 +1,7 @@
 #include "progress.hpp"
 
+#include "support/program.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,7 +19,7 @@ Progress::Progress(std::string what, std::int64_t total, bool shown)
     : what_(std::move(what)), total_(std::max<std::int64_t>(total, 1)), shown_(shown) {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "\r\x1b[K");
+    if (drawn_) tell("\r\x1b[K");
 }
 
 void Progress::advance(std::int64_t amount) {
@@ -37,8 +39,8 @@ void Progress::draw(Clock::time_point now) {
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
     const std::string remaining =
         part > 0 ? duration_text(elapsed * (1 - part) / part) + " left" : "";
-    fmt::print(stderr, "\r\x1b[K{} [{}{}] {:3.0f} %  {}", what_, std::string(filled, '='),
-               std::string(bar_width - filled, ' '), 100 * part, remaining);
+    tell("\r\x1b[K{} [{}{}] {:3.0f} %  {}", what_, std::string(filled, '='),
+         std::string(bar_width - filled, ' '), 100 * part, remaining);
     std::fflush(stderr);
     drawn_ = true;
 }

@@ -4,6 +4,7 @@
 #include "line_stream.hpp"
 #include "options.hpp"
 #include "replay_session.hpp"
+#include "support/program.hpp"
 #include "violations.hpp"
 
 #include <fmt/format.h>
@@ -32,14 +33,14 @@ class ViolationLog {
     std::string add(const Violation& violation) {
         const ViolationText text = explainer_.precondition(violation);
         const char* const severity = preconditions_ == Preconditions::Error ? "error" : "warning";
-        if (count_++ == 0) fmt::print(stderr, "{}", text.diagnostic(severity, ""));
+        if (count_++ == 0) tell(text.diagnostic(severity, ""));
         return text.line();
     }
 
     void print_total() const {
         if (count_ == 0) return;
-        fmt::print(stderr, "rddl: {} action{} violated a precondition: {}\n", count_,
-                   count_ == 1 ? "" : "s", fate_of_illegal_actions(preconditions_));
+        tell("rddl: {} action{} violated a precondition: {}\n", count_, count_ == 1 ? "" : "s",
+             fate_of_illegal_actions(preconditions_));
     }
 
   private:
@@ -50,8 +51,9 @@ class ViolationLog {
 
 ExitStatus replay(const ReplayCommandOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
-    LineReader input(options.input);
-    LineWriter output(options.output);
+    UsedFiles used = problem.used;
+    LineReader input(options.input, used);
+    LineWriter output(options.output, used);
     ViolationLog log(problem.files, options.load, options.session.preconditions);
     ReplayOptions session_options = options.session;
     session_options.explain = [&](const Violation& violation) {
@@ -59,7 +61,7 @@ ExitStatus replay(const ReplayCommandOptions& options) {
     };
     ReplaySession session(*problem.simulator, session_options);
     while (const auto line = input.next()) output.write(session.answer(*line));
-    output.flush();
+    output.finish();
     log.print_total();
     return is_interrupted() ? interrupted : success;
 }

@@ -5,6 +5,7 @@
 #include "options.hpp"
 #include "rollouts.hpp"
 #include "statistics.hpp"
+#include "support/program.hpp"
 #include "table.hpp"
 #include "trace.hpp"
 
@@ -99,7 +100,7 @@ void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
     const std::string place =
         count == 1 ? fmt::format(" in {}", when(first))
                    : fmt::format(" in {} (first of {} violations)", when(first), grouped(count));
-    fmt::print(stderr, "{}", explainer.precondition(first.violation).diagnostic(severity, place));
+    tell(explainer.precondition(first.violation).diagnostic(severity, place));
 }
 
 std::string fault_line(const EpisodeFault& fault) {
@@ -234,7 +235,7 @@ ExitStatus run(const RunOptions& options) {
     std::optional<LineWriter> trace;
     TraceSink sink;
     if (!options.trace.empty()) {
-        trace.emplace(options.trace);
+        trace.emplace(options.trace, problem.used);
         trace->write(header_line(options, problem, horizon));
         sink = [&](const std::string& lines) {
             trace->write(lines);
@@ -242,7 +243,7 @@ ExitStatus run(const RunOptions& options) {
     }
     const Rollouts rollouts =
         run_episodes(*problem.simulator, options.rollouts, sink, !options.quiet);
-    if (trace) trace->flush();
+    if (trace) trace->finish();
 
     const Summary summary = summarise(rollouts);
     ViolationExplainer explainer(problem.files, options.load);
@@ -254,8 +255,8 @@ ExitStatus run(const RunOptions& options) {
     else if (!options.quiet && options.trace != "-")
         print_summary(options, summary, rollouts, problem, explainer);
     if (!is_interrupted()) return summary.refused > 0 ? diagnosed : success;
-    fmt::print(stderr, "rddl: interrupted after {} of {} episodes\n", summary.episodes,
-               options.rollouts.episodes);
+    tell("rddl: interrupted after {} of {} episodes\n", summary.episodes,
+         options.rollouts.episodes);
     return interrupted;
 }
 

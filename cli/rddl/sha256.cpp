@@ -1,14 +1,12 @@
 #include "sha256.hpp"
 
-#include "failure.hpp"
+#include "support/files.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 namespace rddlc::cli {
 
@@ -75,9 +73,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw Failure(fmt::format("cannot read '{}'", path.string()));
-    return sha256(std::string(std::istreambuf_iterator<char>(file), {}));
+    return sha256(read_file(path));
 }
 
 }  // namespace rddlc::cli

@@ -2,9 +2,9 @@
 
 #include "explain_condition.hpp"
 #include "external_library.hpp"
-#include "failure.hpp"
 #include "front_end.hpp"
 #include "ir/layout.hpp"
+#include "support/failure.hpp"
 #include "support/render.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "driver/explain.hpp"
 #include "driver/version.hpp"
+#include "support/program.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -338,7 +339,7 @@ CommandLine parse_command_line(int argc, char** argv) {
             program.exit(error);
             return {std::nullopt, success};
         }
-        fmt::print(stderr, "rddlc: error: {}\n'rddlc --help' shows the usage\n", error.what());
+        tell("rddlc: error: {}\n'rddlc --help' shows the usage\n", error.what());
         return {std::nullopt, usage_error};
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "driver/driver.hpp"
+#include "support/failure.hpp"
 #include "support/render.hpp"
 
 #include <filesystem>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace rddlc::cli {
-
-enum ExitStatus { success = 0, diagnosed = 1, usage_error = 2, internal_error = 70 };
 
 enum class Statistics { None, Text, Json };  // --stats
 

@@ -103,8 +103,9 @@ void run_stages(Run& run) {
     Diagnostics& diagnostics = result.diagnostics;
 
     // The text of the files; the output must be a place to write to.
-    const auto files = run.measure(
-        Stage::Read, [&] { return read_inputs(run.options, result.sources, diagnostics); });
+    const auto files = run.measure(Stage::Read, [&] {
+        return read_inputs(run.options, result.sources, result.used, diagnostics);
+    });
     if (run.ends_after(Stage::Read)) return;
 
     // Text -> what was written.
@@ -154,7 +155,7 @@ void run_stages(Run& run) {
 
     // C++ -> the output file, through the C++ compiler if it is a shared object.
     run.measure(Stage::Write, [&] {
-        write_outputs(run.options, result.text, diagnostics);
+        write_outputs(run.options, result.text, result.used, diagnostics);
         return 0;
     });
 }

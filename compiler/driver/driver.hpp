@@ -6,6 +6,7 @@
 #include "model/model.hpp"
 #include "passes/passes.hpp"
 #include "support/diagnostic.hpp"
+#include "support/files.hpp"
 #include "support/source.hpp"
 #include "support/standard.hpp"
 
@@ -58,6 +59,7 @@ struct Compilation {
     explicit Compilation(const DiagnosticOptions& options) : diagnostics(options) {}
 
     Sources sources;
+    UsedFiles used;  // inputs, and outputs that are written
     Diagnostics diagnostics;
     std::optional<model::Model> model;
     std::optional<ir::Program> program;  // optimised, if it came so far

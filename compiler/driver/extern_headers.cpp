@@ -1,6 +1,7 @@
 #include "driver/extern_headers.hpp"
 
 #include "driver/codes.hpp"
+#include "driver/files.hpp"
 #include "ir/analysis.hpp"
 
 #include <fmt/format.h>
@@ -82,11 +83,14 @@ std::vector<std::string> include_paths(const CompileOptions& options) {
     std::vector<std::string> paths;
     for (const fs::path& header : options.extern_headers) {
         std::error_code ignored;
-        const fs::path relative =
-            options.output
-                ? fs::relative(header, fs::absolute(*options.output).parent_path(), ignored)
-                : header;
-        paths.push_back((relative.empty() ? fs::absolute(header) : relative).generic_string());
+        fs::path path = header;
+        if (options.output)
+            path = fs::relative(header, fs::absolute(*options.output).parent_path(), ignored);
+        // The text of a shared object is compiled elsewhere.
+        const bool elsewhere =
+            options.output && output_kind(*options.output) == OutputKind::SharedObject;
+        if (elsewhere || path.empty()) path = fs::absolute(header);
+        paths.push_back(path.generic_string());
     }
     return paths;
 }

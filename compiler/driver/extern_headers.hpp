@@ -18,7 +18,8 @@ void check_extern_headers(const CompileOptions& options, Diagnostics& diagnostic
 void report_undefined_externals(const ir::Program& program, const CompileOptions& options,
                                 Diagnostics& diagnostics);
 
-// The headers as #include finds them from the folder of the output; as given without one.
+// The headers as #include finds them from the folder of the output; as given without one,
+// and in full for a shared object.
 std::vector<std::string> include_paths(const CompileOptions& options);
 
 // The headers and the files that they #include by "name", as far as these exist: what an emitted

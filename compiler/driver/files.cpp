@@ -4,37 +4,26 @@
 #include "driver/extern_headers.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <system_error>
 
 namespace rddlc {
 namespace {
 
 namespace fs = std::filesystem;
 
-void check_output(const fs::path& output, const CompileOptions& options, Diagnostics& diagnostics) {
-    std::vector<fs::path> inputs = options.inputs;
-    inputs.insert(inputs.end(), options.extern_headers.begin(), options.extern_headers.end());
-    for (const fs::path& input : inputs) {
-        std::error_code ignored;
-        if (!fs::equivalent(input, output, ignored)) continue;
-        const std::string message =
-            fmt::format("the output '{}' would overwrite an input", output.string());
-        return diagnostics.report({.code = output_is_input, .span = {}, .message = message});
+// Before any work is done, so that nobody waits for it.
+void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
+    for (const auto& output : {options.output, options.dependency_file}) {
+        if (!output) continue;
+        try {
+            require_writable(*output, used);
+        } catch (const UnwritableFile& failure) {
+            diagnostics.report(diagnostic_of(failure));
+        }
+        used.add(*output);
     }
-    // /dev/null and pipes are fine, folders are not; all else shows when it is written.
-    std::error_code ignored;
-    if (fs::is_directory(output, ignored)) {
-        return diagnostics.report(cannot_write(output, EISDIR));
-    }
-    const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
-    if (!fs::is_directory(folder, ignored)) diagnostics.report(cannot_write(output, ENOENT));
 }
 
 void check_kind(const fs::path& output, Diagnostics& diagnostics) {
@@ -60,11 +49,12 @@ std::optional<OutputKind> output_kind(const fs::path& path) {
     return std::nullopt;
 }
 
-std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
+std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources, UsedFiles& used,
                                 Diagnostics& diagnostics) {
     std::vector<FileId> files;
     for (const fs::path& input : options.inputs) {
         const auto file = sources.load(input);
+        used.add(input);
         if (file) {
             files.push_back(*file);
         } else {
@@ -75,56 +65,17 @@ std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources,
     }
     check_extern_headers(options, diagnostics);
     if (options.output) check_kind(*options.output, diagnostics);
-    if (options.output) check_output(*options.output, options, diagnostics);
-    if (options.dependency_file) check_output(*options.dependency_file, options, diagnostics);
+    for (const fs::path& header : with_included_files(options.extern_headers)) used.add(header);
+    check_outputs(options, used, diagnostics);
     return files;
 }
 
-TemporaryFile::TemporaryFile(const fs::path& path, std::string_view extension) : final_(path) {
-    static std::atomic<int> count = 0;
-    const std::string name =
-        fmt::format(".{}.{}-{}{}", path.filename().string(), ::getpid(), ++count, extension);
-    temporary_ = path.parent_path() / name;
-}
-
-TemporaryFile::~TemporaryFile() {
-    std::error_code ignored;
-    if (!keeps_) fs::remove(temporary_, ignored);
-}
-
-bool TemporaryFile::write(std::string_view text) {
-    std::ofstream stream(temporary_, std::ios::binary);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    return !stream.fail();
-}
-
-bool TemporaryFile::rename_to_final() {
-    std::error_code error;
-    fs::rename(temporary_, final_, error);
-    if (error) errno = error.value();
-    keeps_ = !error;
-    return keeps_;
-}
-
-bool write_file(const fs::path& path, std::string_view text, Diagnostics& diagnostics) {
-    std::error_code ignored;
-    // What is no regular file (/dev/stdout) is written to, not replaced.
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        std::ofstream stream(path, std::ios::binary);
-        if (stream << text << std::flush) return true;
-    } else {
-        TemporaryFile file(path, "");
-        if (file.write(text) && file.rename_to_final()) return true;
-    }
-    diagnostics.report(cannot_write(path, errno));
-    return false;
-}
-
-Diagnostic cannot_write(const fs::path& path, int error) {
-    return {.code = unwritable_file,
+Diagnostic diagnostic_of(const UnwritableFile& failure) {
+    const bool in_use = failure.reason == UnwritableFile::Reason::InUse;
+    return {.code = in_use ? output_is_input : unwritable_file,
             .span = {},
-            .message = fmt::format("cannot write '{}': {}", path.string(), std::strerror(error))};
+            .message = failure.what(),
+            .hint = failure.hint};
 }
 
 }  // namespace rddlc

@@ -3,8 +3,7 @@
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
 #include "driver/shared_object.hpp"
-
-#include <cerrno>
+#include "driver/work_folder.hpp"
 
 namespace rddlc {
 namespace {
@@ -29,30 +28,33 @@ std::string dependency_rule(const CompileOptions& options) {
     return rule + "\n";
 }
 
+// Made in a folder of its own, so that nobody reads what is not complete.
 void write_shared_object(const std::filesystem::path& output, const std::string& text,
-                         const CompileOptions& options, Diagnostics& diagnostics) {
-    TemporaryFile source(output, ".cpp");
-    TemporaryFile object(output, ".so");
-    if (!source.write(text)) return diagnostics.report(cannot_write(output, errno));
-    if (!build_shared_object(source.path(), object.path(), Processors::Any, options.extern_headers,
-                             diagnostics)) {
+                         const CompileOptions& options, UsedFiles& used, Diagnostics& diagnostics) {
+    const TemporaryFolder work;
+    const auto source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
+    write_file(source, text, used);
+    if (!build_shared_object(source, object, Processors::Any, options.extern_headers, diagnostics))
         return;
-    }
-    if (!object.rename_to_final()) diagnostics.report(cannot_write(output, errno));
+    constexpr mode_t executable = 0777;
+    write_file(output, read_file(object), used, executable);
 }
 
 }  // namespace
 
-void write_outputs(const CompileOptions& options, const std::string& text,
+void write_outputs(const CompileOptions& options, const std::string& text, UsedFiles& used,
                    Diagnostics& diagnostics) {
     if (!options.output) return;
-    if (output_kind(*options.output) == OutputKind::SharedObject) {
-        write_shared_object(*options.output, text, options, diagnostics);
-    } else {
-        write_file(*options.output, text, diagnostics);
+    try {
+        if (output_kind(*options.output) == OutputKind::SharedObject)
+            write_shared_object(*options.output, text, options, used, diagnostics);
+        else
+            write_file(*options.output, text, used);
+        if (diagnostics.has_errors() || !options.dependency_file) return;
+        write_file(*options.dependency_file, dependency_rule(options), used);
+    } catch (const UnwritableFile& failure) {
+        diagnostics.report(diagnostic_of(failure));
     }
-    if (diagnostics.has_errors() || !options.dependency_file) return;
-    write_file(*options.dependency_file, dependency_rule(options), diagnostics);
 }
 
 }  // namespace rddlc

@@ -1,7 +1,7 @@
 #include "problem_lookup.hpp"
 
-#include "failure.hpp"
 #include "python_info.hpp"
+#include "support/failure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,6 +17,7 @@ RDDL = os.environ.get("RDDL", ROOT / "build/bin/rddl")
 LOOKING = [[RDDLC, "--stop-after=emit"], [RDDL, "check"]]
 
 SUCCESS, DIAGNOSED, USAGE = 0, 1, 2
+NOBODY = 65534
 SECONDS = 30  # A run takes a fraction of one; sanitizers and a busy machine are slow.
 
 
@@ -48,6 +49,13 @@ class CommandTest(unittest.TestCase):
         path = self.folder / name
         path.write_bytes(content.encode() if isinstance(content, str) else content)
         return path
+
+    def as_nobody(self) -> dict:
+        """For run_command: as somebody who may not read or write everything."""
+        if os.geteuid() != 0:
+            return {}
+        os.chown(self.folder, NOBODY, NOBODY)
+        return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
 
     def run_command(self, *words, environment=None, **options) -> Result:
         """Ends by itself and soon, with a status of its own, and finds no mistake in itself."""

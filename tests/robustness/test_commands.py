@@ -26,14 +26,29 @@ class Output(CommandTest):
             self.assertEqual(os.listdir(self.folder / name), [])
         self.assertEqual(self.names(), ["sim.cpp", "sim.so"])
 
-    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
     def test_forbidden(self):
+        nobody = self.as_nobody()
         self.folder.chmod(0o500)
         self.addCleanup(self.folder.chmod, 0o700)
         for name in "sim.cpp", "sim.so":
-            result = self.run_command(RDDLC, *PROBLEM, "-o", name)
+            result = self.run_command(RDDLC, *PROBLEM, "-o", name, **nobody)
             self.assert_refused(result, "Permission denied [E0902]")
         self.assertEqual(self.names(), [])
+
+    def test_write_protected(self):
+        """Not even by a new file of the same name."""
+        nobody = self.as_nobody()
+        self.write("sim.cpp", "mine").chmod(0o444)
+        result = self.run_command(RDDLC, *PROBLEM, "-o", "sim.cpp", **nobody)
+        self.assert_refused(result, "Permission denied [E0902]")
+        self.assertEqual((self.folder / "sim.cpp").read_text(), "mine")
+
+    def test_names_like_options(self):
+        (self.folder / "-d").mkdir()
+        for name in "-d/sim.so", "./-sim.cpp":
+            result = self.run_command(RDDLC, *PROBLEM, f"-o{name}")
+            self.assertEqual(result.status, SUCCESS, result)
+            self.assertTrue((self.folder / name).exists())
 
     def test_full_disk(self):
         """An older file stays as it was; a new one does not appear."""

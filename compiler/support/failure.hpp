@@ -1,11 +1,13 @@
-// How a command gives up: thrown anywhere below main, which prints it and picks the exit status.
+// How a run of either program ends before its work is done. Whose fault that is, is told by the
+// type of what is thrown; support/program.hpp alone makes a message and an exit status of it.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-namespace rddlc::cli {
+namespace rddlc {
 
+// 70 is for mistakes of our own alone.
 enum ExitStatus {
     success = 0,
     diagnosed = 1,
@@ -14,6 +16,7 @@ enum ExitStatus {
     interrupted = 130
 };
 
+// The user's command, files or machine do not allow it: no such file, a full disk, no memory.
 struct Failure : std::runtime_error {
     explicit Failure(std::string message, std::string advice = {}, ExitStatus exit = diagnosed)
         : std::runtime_error(std::move(message)), hint(std::move(advice)), status(exit) {}
@@ -25,4 +28,4 @@ struct Failure : std::runtime_error {
 // The diagnostics are printed already; nothing is left to say.
 struct Diagnosed {};
 
-}  // namespace rddlc::cli
+}  // namespace rddlc

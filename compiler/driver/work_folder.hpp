@@ -1,0 +1,34 @@
+// A folder of our own in which something is made, which nobody sees before it is complete.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace rddlc {
+
+// Removed at the end. What a process that was killed has left is removed by the next one that makes
+// a folder at the same place: each holds a lock on its own, which the system takes from the dead.
+class WorkFolder {
+  public:
+    // In `parent`, which exists, with a name that begins with `prefix`; nobody else may enter it.
+    // Throws UnwritableFile with the advice `hint`.
+    WorkFolder(const std::filesystem::path& parent, const std::string& prefix,
+               const std::string& hint);
+    ~WorkFolder();
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+
+// In $TMPDIR or /tmp.
+class TemporaryFolder : public WorkFolder {
+  public:
+    TemporaryFolder();
+};
+
+}  // namespace rddlc

@@ -1,0 +1,75 @@
+#include "support/program.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <system_error>
+
+namespace rddlc {
+namespace {
+
+// A file that is opened may not become what others take for standard output. Such a descriptor
+// cannot be used; it only holds the place.
+void occupy_standard_descriptors() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) != -1) continue;
+        const int wrong_way = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        static_cast<void>(::open("/dev/null", wrong_way));
+    }
+}
+
+void flush_standard_output() {
+    std::cout.flush();
+    errno = 0;
+    const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (flushed && std::cout) return;
+    const char* const why = errno != 0 ? std::strerror(errno) : "it was refused before";
+    throw Failure(fmt::format("cannot write to standard output: {}", why));
+}
+
+ExitStatus tell_own_mistake(std::string_view name, std::string_view version, const char* what) {
+    tell(
+        "{0}: internal error: {1}\n"
+        "This is a mistake in {0} {2}, not in your problem: please report it with the command and "
+        "the files.\n",
+        name, what, version);
+    return internal_error;
+}
+
+}  // namespace
+
+int run_program(std::string_view name, std::string_view version,
+                const std::function<ExitStatus()>& work) {
+    const auto failed = [&](const char* what, const std::string& hint, ExitStatus status) {
+        tell("{}: error: {}\n", name, what);
+        if (!hint.empty()) tell("  {}\n", hint);
+        return status;
+    };
+    occupy_standard_descriptors();
+    try {
+        const ExitStatus status = work();
+        flush_standard_output();
+        return status;
+    } catch (const Diagnosed&) {
+        return diagnosed;
+    } catch (const Failure& failure) {
+        return failed(failure.what(), failure.hint, failure.status);
+    } catch (const std::system_error& error) {
+        return failed(error.what(), "", diagnosed);
+    } catch (const std::bad_alloc&) {
+        return failed("not enough memory", "", diagnosed);
+    } catch (const std::exception& error) {
+        return tell_own_mistake(name, version, error.what());
+    }
+}
+
+void tell(std::string_view text) {
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+}  // namespace rddlc

@@ -1,0 +1,32 @@
+// What both programs do around their work.
+#pragma once
+
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rddlc {
+
+// Runs `work` and gives the exit status of the program `name`. Whatever is thrown is told here, in
+// one place, as the fault of who made it: a Failure is the user's or the machine's, as are a lack
+// of memory and what the system refuses; all else is a mistake of our own. What could not be
+// written to standard output is a failure, too.
+int run_program(std::string_view name, std::string_view version,
+                const std::function<ExitStatus()>& work);
+
+// Writes to standard error. If nobody can read that there is nobody to tell, so it never fails.
+void tell(std::string_view text);
+
+template <class... Arguments>
+void tell(fmt::format_string<Arguments...> form,
+          Arguments&&... arguments) requires(sizeof...(Arguments) > 0) {
+    tell(std::string_view(fmt::format(form, std::forward<Arguments>(arguments)...)));
+}
+
+}  // namespace rddlc
