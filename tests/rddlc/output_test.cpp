@@ -139,7 +139,7 @@ TEST_F(Output, ThatTheCompilerRefusesIsAnInternalError) {
     const Result result =
         rddlc_with({"CXX=false"}, {"domain.rddl", "instance.rddl", "-o", "sim.so"});
     EXPECT_EQ(result.status, 70);
-    EXPECT_TRUE(mentions(result, "Please report it")) << result.output;
+    EXPECT_TRUE(mentions(result, "please report it")) << result.output;
     EXPECT_EQ(files().size(), 2u);
 }
 
