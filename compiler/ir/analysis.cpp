@@ -11,6 +11,8 @@ namespace rddlc::ir {
 namespace {
 
 constexpr double cheap_cost = 6;
+// Ints of a smaller size, and their neighbours, are doubles, too: ranges are of doubles.
+constexpr double exact_ints = 0x1p53;
 
 // In units of an addition.
 double cost_of(Operator op) {
@@ -48,12 +50,16 @@ double as_real(const Value& value) {
     return match(value, [](auto v) { return static_cast<double>(v); });
 }
 
+bool is_too_large(const Value& value) {
+    return std::holds_alternative<std::int64_t>(value) && std::abs(as_real(value)) >= exact_ints;
+}
+
 std::optional<Range> range_of(const std::vector<Value>& values) {
     if (values.empty()) return std::nullopt;
     Range range{HUGE_VAL, -HUGE_VAL};
     for (const Value& value : values) {
         const double v = as_real(value);
-        if (std::isnan(v)) return std::nullopt;
+        if (std::isnan(v) || is_too_large(value)) return std::nullopt;
         range = join(range, {v, v});
     }
     return range;
@@ -168,7 +174,7 @@ class Collector {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
         if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
         const auto range = ir::range_of(apply.op, operands);
-        const bool is_exact = range && range->lower >= -0x1p53 && range->upper <= 0x1p53;
+        const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;
     }
 
@@ -221,7 +227,7 @@ class Collector {
     std::optional<Range> range_of_sum(const Reduce& sum) const {
         const auto term = range(sum.body);
         const auto count = static_cast<double>(program_[sum.variable].size);
-        if (!term || count * std::max(-term->lower, term->upper) > 0x1p53) return std::nullopt;
+        if (!term || count * std::max(-term->lower, term->upper) >= exact_ints) return std::nullopt;
         const double most = sum.bounds ? std::min(longest(*sum.bounds), count) : count;
         return Range{std::min(0.0, term->lower * most), std::max(0.0, term->upper * most)};
     }

@@ -110,7 +110,10 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
     if (different.size() != entries.size()) return std::nullopt;
     const std::int64_t first = *different.begin(), last = *different.rbegin();
     const auto count = static_cast<std::int64_t>(entries.size());
-    if (last - first < 0 || last - first >= most_entries_an_object * count) return std::nullopt;
+    std::int64_t distance = 0;
+    if (__builtin_sub_overflow(last, first, &distance) ||
+        distance >= most_entries_an_object * count)
+        return std::nullopt;
 
     const auto extent = static_cast<std::size_t>(last - first + 1);
     std::vector<ir::Value> objects(extent, std::int64_t{0}), exists(extent, false);

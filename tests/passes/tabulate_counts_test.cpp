@@ -117,6 +117,12 @@ TEST(TabulateCounts, LeavesWhatDependsOnMore) {
     }
 }
 
+// Not every int beyond 2^53 is a double, which ranges are of.
+TEST(TabulateCounts, LeavesCountsThatAreTooLarge) {
+    EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740991]"),
+              "x-by-count[int(exists[o in obj](state.p[o]))]");
+}
+
 TEST(TabulateCounts, KeepsFaults) {
     const Texts x = of_x("1.0 + (0 - 3) * 1.5 + exp[0.0 + pow[2, 1 - sum_{?o : obj} p(?o)]]",
                          passes::tabulate_counts);
