@@ -119,7 +119,7 @@ TEST(TabulateCounts, LeavesWhatDependsOnMore) {
 
 // Not every int beyond 2^53 is a double, which ranges are of.
 TEST(TabulateCounts, LeavesCountsThatAreTooLarge) {
-    EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740991]"),
+    EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740993]"),
               "x-by-count[int(exists[o in obj](state.p[o]))]");
 }
 
