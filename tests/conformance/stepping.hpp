@@ -1,0 +1,162 @@
+// Batches of a simulator that take the same random actions, and what they tell.
+#pragma once
+
+#include <rddl/simulator.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace stepping {
+
+using Bytes = std::vector<std::uint8_t>;
+
+[[noreturn]] inline void give_up(const std::string& why) {
+    std::fprintf(stderr, "error: %s\n", why.c_str());
+    std::exit(2);
+}
+
+// What a step tells, and the state after it.
+struct Told {
+    Bytes observations, final_observations, states, terminated, truncated, causes;
+    std::vector<double> rewards;
+
+    Told(const rddl_problem& problem, std::size_t count)
+        : observations(count * static_cast<std::size_t>(problem.observation_size)),
+          final_observations(observations.size()),
+          states(count * static_cast<std::size_t>(problem.state_size)),
+          terminated(count),
+          truncated(count),
+          causes(count),
+          rewards(count) {}
+};
+
+// The name of what differs first, or nothing. Rewards are compared as bits.
+inline const char* difference(const Told& one, const Told& other) {
+    if (one.causes != other.causes) return "causes";
+    if (one.terminated != other.terminated) return "terminated";
+    if (one.truncated != other.truncated) return "truncated";
+    if (one.states != other.states) return "states";
+    if (one.observations != other.observations) return "observations";
+    if (one.final_observations != other.final_observations) return "final observations";
+    const std::size_t size = one.rewards.size() * sizeof(double);
+    return std::memcmp(one.rewards.data(), other.rewards.data(), size) == 0 ? nullptr : "rewards";
+}
+
+class Batch {
+  public:
+    Batch(const rddl_simulator& simulator, std::int64_t count, int lanes, int threads)
+        : told(*simulator.problem, static_cast<std::size_t>(count)),
+          simulator_(simulator),
+          count_(count) {
+        const rddl_batch_options options{count, 3,    42, threads, RDDL_AUTORESET_SAME_STEP,
+                                         -1,    lanes};
+        batch_ = simulator.create(&simulator, &options);
+        if (!batch_) give_up("no batch");
+    }
+    Batch(const Batch&) = delete;
+    Batch& operator=(const Batch&) = delete;
+    ~Batch() { simulator_.destroy(batch_); }
+
+    rddl_batch* get() { return batch_; }
+    const rddl_simulator& simulator() const { return simulator_; }
+
+    void step(const Bytes& actions) {
+        const rddl_transition out{told.observations.data(), told.rewards.data(),
+                                  told.terminated.data(),   told.truncated.data(),
+                                  told.causes.data(),       told.final_observations.data()};
+        if (simulator_.step(batch_, actions.data(), &out) != RDDL_OK) give_up("refused actions");
+        if (simulator_.get_state(batch_, 0, count_, told.states.data()) != RDDL_OK)
+            give_up("refused to tell states");
+    }
+
+    Told told;
+
+  private:
+    const rddl_simulator& simulator_;
+    std::int64_t count_;
+    rddl_batch* batch_;
+};
+
+// Random records of actions or states.
+class Records {
+  public:
+    Records(const rddl_simulator& simulator, std::size_t count, rddl_role role)
+        : size_(static_cast<std::size_t>(role == RDDL_ACTION ? simulator.problem->action_size
+                                                             : simulator.problem->state_size)),
+          records(count * size_ + 1),
+          simulator_(simulator),
+          count_(count),
+          role_(role),
+          choices_(simulator.action_choice_count(&simulator)) {}
+
+    // Every second action is a choice: one value that is not the default.
+    void draw() {
+        for (std::size_t i = 0; i < count_; ++i) {
+            std::uint8_t* const record = records.data() + i * size_;
+            if (role_ == RDDL_ACTION)
+                simulator_.action_choice(&simulator_, i % 2 ? 0 : within(0, choices_ - 1), record);
+            if (i % 2 || role_ != RDDL_ACTION) draw_all(record);
+        }
+    }
+
+  private:
+    const std::size_t size_;
+
+  public:
+    Bytes records;
+
+  private:
+    std::int64_t within(std::int64_t lowest, std::int64_t highest) {
+        return std::uniform_int_distribution<std::int64_t>(lowest, highest)(random_);
+    }
+
+    // Every third value stays as it is.
+    void draw_all(std::uint8_t* record) {
+        const rddl_problem& problem = *simulator_.problem;
+        for (int f = 0; f < problem.fluent_count; ++f) {
+            const rddl_fluent& fluent = problem.fluents[f];
+            if (fluent.role != role_) continue;
+            const std::size_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
+            for (std::int64_t i = 0; i < fluent.count; ++i)
+                if (within(0, 2) != 0)
+                    draw_value(fluent, i,
+                               record + fluent.offset + static_cast<std::size_t>(i) * size);
+        }
+    }
+
+    // Where nothing bounds a number, from -10 to 10.
+    void draw_value(const rddl_fluent& fluent, std::int64_t i, std::uint8_t* at) {
+        const double lower = fluent.lower ? std::max(fluent.lower[i], -10.0) : -10.0;
+        const double upper = fluent.upper ? std::min(fluent.upper[i], 10.0) : 10.0;
+        if (fluent.scalar == RDDL_BOOL) {
+            *at = within(0, 1) != 0;
+        } else if (fluent.range_type >= 0) {
+            write(at, within(0, simulator_.problem->types[fluent.range_type].object_count - 1));
+        } else if (fluent.scalar == RDDL_INT) {
+            write(at, within(static_cast<std::int64_t>(lower),
+                             static_cast<std::int64_t>(std::max(lower, upper))));
+        } else {
+            write(at, lower + (upper - lower) * static_cast<double>(within(0, 1000)) / 1000);
+        }
+    }
+
+    template <class T>
+    static void write(std::uint8_t* at, T value) {
+        std::memcpy(at, &value, sizeof value);
+    }
+
+    const rddl_simulator& simulator_;
+    std::size_t count_;
+    rddl_role role_;
+    std::int64_t choices_;
+    std::mt19937_64 random_;
+};
+
+}  // namespace stepping
