@@ -12,7 +12,6 @@
 #include "parse/parse.hpp"
 #include "passes/passes.hpp"
 #include "support/render.hpp"
-#include "twins.hpp"
 
 #include <array>
 #include <optional>
@@ -47,42 +46,56 @@ void require_valid(const ir::Program& program, const std::string& stage) {
 }
 
 // Nothing after an error, which has a message.
-std::optional<ir::Program> grounded(std::string_view text, Sources& sources,
+std::optional<ir::Program> grounded(std::string_view text, bool prints, Sources& sources,
                                     Diagnostics& diagnostics) {
     const ast::Program tree = parsed(std::string(text), sources, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
-    expect_same_when_printed(tree);
+    if (prints) expect_same_when_printed(tree);
     const std::optional<model::Model> model = check(tree, sources, diagnostics, Standard::Rddlc);
     if (diagnostics.has_errors()) return std::nullopt;
     if (!model) throw Contradiction("no model and no error");
-    model::print(*model);
+    if (prints) model::print(*model);
     std::optional<ir::Program> program = ground(*model, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
     if (!program) throw Contradiction("no IR and no error");
     return program;
 }
 
+[[noreturn]] void contradict(const std::vector<Breach>& breaches) {
+    std::string text;
+    for (const Breach& breach : breaches) text += breach.pass + ": " + breach.text + "\n";
+    throw Contradiction(text);
+}
+
 }  // namespace
 
-Outcome exercise(std::string_view text, std::uint64_t seed, int steps) {
+Exercised exercise(std::string_view text, const Exercise& how) {
     Sources sources;
     Diagnostics diagnostics;
-    std::optional<ir::Program> program = grounded(text, sources, diagnostics);
-    render(diagnostics, sources, {});
-    if (!program) return Outcome::Rejected;
+    const std::optional<ir::Program> program = grounded(text, how.all_stages, sources, diagnostics);
+    Exercised result{.outcome = Outcome::Rejected};
+    result.complaints = render(diagnostics, sources, {});
+    if (!program) return result;
     require_valid(*program, "ground");
     report_large_constant_tables(*program, diagnostics);
-    if (diagnostics.has_errors()) return Outcome::TooLarge;
-    ir::print(*program);
-    ir::Program optimised = optimise(*program);
-    require_valid(optimised, "optimise");
-    emit(optimised, sources, {});
-    if (!program->externals.empty()) return Outcome::Accepted;  // nobody has the functions
-    if (step_cost(*program) > 1e5) return Outcome::TooLarge;
-    if (const auto difference = compare(*std::move(program), std::move(optimised), seed, steps)) {
-        throw Contradiction("optimising changes " + *difference);
-    }
-    return Outcome::Accepted;
+    result.outcome = Outcome::TooLarge;
+    if (diagnostics.has_errors()) return result;
+    result.operations = step_cost(*program);
+    const bool has_functions = program->externals.empty();
+    const bool is_small = result.operations <= how.most_operations;
+    if (is_small) result.outcome = Outcome::Accepted;
+    Contracts contracts = check_contracts(*program, how.passes, how.values, how.seed,
+                                          is_small && has_functions ? how.steps : 0);
+    result.changed = std::move(contracts.changed);
+    result.breaches = std::move(contracts.breaches);
+    if (how.all_stages && result.breaches.empty()) emit(contracts.optimised, sources, {});
+    return result;
+}
+
+Outcome exercise(std::string_view text, std::uint64_t seed, int steps) {
+    const Exercised result = exercise(text, Exercise{.seed = seed, .steps = steps});
+    if (!result.breaches.empty()) contradict(result.breaches);
+    return result.outcome;
 }
 
 }  // namespace rddlc::fuzzing

@@ -1,10 +1,14 @@
-// A text through the whole compiler and some steps of what comes out: what both fuzzers run.
+// A text through the whole compiler and some steps of what comes out: what all fuzzers run.
 #pragma once
 
+#include "contracts.hpp"
+
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rddlc::fuzzing {
 
@@ -14,13 +18,32 @@ class Contradiction : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
+struct Exercise {
+    PassOptions passes = {};
+    Values values = Values::Tame;
+    std::uint64_t seed = 1;
+    int steps = 4;                 // at most; fewer where they are expensive
+    double most_operations = 1e5;  // of a step; what costs more is compiled and not run
+    bool all_stages = true;        // else no C++, and no syntax printed, for half of the time
+};
+
 enum class Outcome { Rejected, Accepted, TooLarge };
 
-// Parses, checks, grounds, optimises and emits; steps the interpreter before and after optimisation
-// under random actions. Expects that printed syntax reads back as the same, that the IR is valid,
-// and that optimising changes no bit. Throws Contradiction; what else it throws or stops at is a
-// bug, too. Problems of which a step costs too much to be worth it, or that call external
-// functions, are compiled and not run; those with tables too large for a file are only grounded.
+struct Exercised {
+    Outcome outcome;
+    std::string complaints = {};              // of what is rejected
+    double operations = 0;                    // of one step
+    std::map<std::string, int> changed = {};  // Contracts
+    std::vector<Breach> breaches = {};
+};
+
+// Parses, checks, grounds, optimises and emits; holds every pass to its contract. Expects also that
+// printed syntax reads back as the same tree. Throws Contradiction; what else it throws or stops at
+// is a bug, too. Problems that call external functions are compiled and not run; those with tables
+// too large for a file are only grounded.
+Exercised exercise(std::string_view text, const Exercise& how);
+
+// The same; breaches are thrown.
 Outcome exercise(std::string_view text, std::uint64_t seed, int steps);
 
 }  // namespace rddlc::fuzzing

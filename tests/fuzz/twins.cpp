@@ -6,17 +6,231 @@
 
 #include <rddl/random.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
+#include <limits>
 #include <random>
+#include <set>
 #include <utility>
-#include <vector>
 
 namespace rddlc::fuzzing {
 namespace {
 
-using Record = std::vector<std::byte>;
+template <class T>
+void write(std::byte* at, T value) {
+    std::memcpy(at, &value, sizeof value);
+}
+template <class T>
+T read(const std::byte* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+}
+
+ir::Context context_of(std::uint64_t seed, std::uint32_t step) {
+    return {.key = rddl::stream_key(seed, 0, 0), .step = step, .fault = {}};
+}
+
+// ------------------------------------------------------------------------------ random values
+
+class RandomValues {
+  public:
+    RandomValues(const ir::Program& program, const ir::Program& optimised, Values values,
+                 std::uint64_t seed)
+        : program_(program), values_(values), random_(seed) {
+        for (const ir::Buffer& buffer : optimised.buffers) {
+            if (buffer.storage == ir::Storage::State && !buffer.finite)
+                may_be_infinite_.insert(buffer.name);
+        }
+    }
+
+    // Leaves one value of `keep` as it is, if that is more than 0.
+    void fill(ir::Storage storage, Record& record, std::uint64_t keep) {
+        for (const ir::Field& field : ir::record_layout(program_, storage).fields) {
+            const ir::Buffer& buffer = program_[field.buffer];
+            const std::size_t size = ir::size_of(buffer.scalar);
+            for (std::int64_t i = 0; i < buffer.count(); ++i) {
+                std::byte* at = record.data() + field.offset + static_cast<std::size_t>(i) * size;
+                if (keep == 0 || below(keep) == 0) write_value(at, buffer);
+            }
+        }
+    }
+
+    bool one_of(std::uint64_t count) { return below(count) == 0; }
+
+  private:
+    std::uint64_t below(std::uint64_t count) { return random_() % count; }
+
+    void write_value(std::byte* at, const ir::Buffer& buffer) {
+        if (buffer.scalar == ir::Scalar::Bool) return write(at, one_of(2));
+        if (buffer.scalar == ir::Scalar::Real) return write(at, real(buffer));
+        if (const auto type = object_type(buffer)) {
+            const std::size_t objects = program_.types[*type].objects.size();
+            if (objects > 0) write(at, static_cast<std::int64_t>(below(objects)));
+            return;
+        }
+        write(at, integer());
+    }
+
+    std::optional<std::uint32_t> object_type(const ir::Buffer& buffer) const {
+        return buffer.fluent ? program_.fluents[*buffer.fluent].object_type : std::nullopt;
+    }
+
+    std::int64_t integer() {
+        constexpr std::array large = {
+            std::int64_t{1} << 53, (std::int64_t{1} << 53) + 1, -(std::int64_t{1} << 53) - 1,
+            std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
+        if (values_ == Values::Wild && one_of(40)) return large[below(large.size())];
+        return static_cast<std::int64_t>(below(21)) - 10;
+    }
+
+    // Multiples of a quarter, and now and then what they are not.
+    double real(const ir::Buffer& buffer) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        constexpr std::array other = {-0.0, 0.1, 0.30000000000000004, 1.0 / 3.0, -2.4, 1e15, 1e-12};
+        constexpr std::array edges = {infinity, -infinity,
+                                      std::numeric_limits<double>::quiet_NaN()};
+        const double quarters = static_cast<double>(below(81)) / 4 - 10;
+        if (values_ == Values::Tame || one_of(2)) return quarters;
+        const bool is_state = buffer.storage == ir::Storage::State;
+        if (is_state && may_be_infinite_.contains(buffer.name) && one_of(6))
+            return edges[below(edges.size())];
+        return one_of(3) ? other[below(other.size())] : quarters * 0.1;
+    }
+
+    const ir::Program& program_;
+    Values values_;
+    std::set<std::string> may_be_infinite_;  // states, by name
+    std::mt19937_64 random_;
+};
+
+// --------------------------------------------------------------------------------- programs
+
+Record observed(const ir::Interpreter& engine, const Situation& at) {
+    return engine.program().partially_observed() ? at.observation : at.state;
+}
+
+Shown shown(const ir::Interpreter& engine, const Situation& at, Record& scratch,
+            std::uint64_t seed) {
+    Shown result;
+    result.next.resize(engine.state_size());
+    result.observation.resize(engine.observation_size());
+    result.action.resize(engine.action_size());
+    result.memory.resize(engine.memory_size());
+    if (engine.has_policy()) {
+        ir::Context context = context_of(seed, at.step);
+        engine.act(observed(engine, at).data(), at.memory.data(), scratch.data(),
+                   result.action.data(), result.memory.data(), context);
+        result.of_policy = context.fault;
+    }
+    ir::Context conditions = context_of(seed, at.step);
+    const std::byte* state = at.state.data();
+    result.violated_precondition =
+        engine.violated_precondition(state, at.action.data(), conditions);
+    result.violates_invariant = engine.violates_invariant(state, conditions);
+    result.terminal = engine.terminal(state, conditions);
+    result.of_conditions = conditions.fault;
+    ir::Context context = context_of(seed, at.step);
+    result.reward = engine.step(state, at.action.data(), scratch.data(), result.next.data(),
+                                result.observation.data(), context);
+    result.of_step = context.fault;
+    return result;
+}
+
+// ------------------------------------------------------------------------------ differences
+
+// The first difference, in the order in which they are looked for.
+class Comparison {
+  public:
+    Comparison(const ir::Program& program, const Tolerance& tolerance)
+        : program_(program), tolerance_(tolerance) {}
+
+    bool found_none() const { return text_.empty(); }
+    const std::string& text() const { return text_; }
+
+    void expect(const std::string& what, bool expected, bool found) {
+        if (found_none() && expected != found) text_ = told(what, expected, found);
+    }
+    void expect(const std::string& what, int expected, int found) {
+        if (found_none() && expected != found) text_ = told(what, expected, found);
+    }
+    void expect(const std::string& what, double expected, double found) {
+        if (found_none() && !same(expected, found)) text_ = told(what, expected, found);
+    }
+    void expect(const std::string& what, ir::Storage storage, const Record& expected,
+                const Record& found) {
+        if (!found_none() || expected == found) return;
+        if (expected.size() != found.size()) {
+            text_ = told(what + " in bytes", expected.size(), found.size());
+            return;
+        }
+        for (const ir::Field& field : ir::record_layout(program_, storage).fields) {
+            const ir::Buffer& buffer = program_[field.buffer];
+            for (std::int64_t i = 0; i < buffer.count() && found_none(); ++i) {
+                const std::size_t at =
+                    field.offset + static_cast<std::size_t>(i) * ir::size_of(buffer.scalar);
+                const std::string name = fmt::format("{} of {}[{}]", what, buffer.name, i);
+                expect_element(name, buffer.scalar, expected.data() + at, found.data() + at);
+            }
+        }
+    }
+
+  private:
+    template <class T>
+    static std::string told(const std::string& what, const T& expected, const T& found) {
+        return fmt::format("{}: {} before, {} after", what, expected, found);
+    }
+
+    void expect_element(const std::string& what, ir::Scalar scalar, const std::byte* expected,
+                        const std::byte* found) {
+        if (scalar == ir::Scalar::Real)
+            return expect(what, read<double>(expected), read<double>(found));
+        if (scalar == ir::Scalar::Bool)
+            return expect(what, read<bool>(expected), read<bool>(found));
+        const auto first = read<std::int64_t>(expected), second = read<std::int64_t>(found);
+        if (first != second) text_ = told(what, first, second);
+    }
+
+    bool same(double expected, double found) const {
+        if (std::isnan(expected) && std::isnan(found)) return true;
+        if (expected == found)
+            return tolerance_.signs_of_zero || std::signbit(expected) == std::signbit(found);
+        if (!std::isfinite(expected) || !std::isfinite(found)) return tolerance_.not_finite;
+        const double size = std::max({1.0, std::abs(expected), std::abs(found)});
+        return std::abs(expected - found) <= tolerance_.relative * size;
+    }
+
+    const ir::Program& program_;
+    const Tolerance& tolerance_;
+    std::string text_;
+};
+
+void expect_step(Comparison& comparison, const Shown& expected, const Shown& found) {
+    comparison.expect("whether the policy faults", expected.of_policy.kind != rddl::FaultKind::None,
+                      static_cast<bool>(found.of_policy));
+    if (!expected.of_policy) {
+        comparison.expect("the action", ir::Storage::Action, expected.action, found.action);
+        comparison.expect("the memory", ir::Storage::Memory, expected.memory, found.memory);
+    }
+    comparison.expect("the first precondition violated", expected.violated_precondition,
+                      found.violated_precondition);
+    comparison.expect("whether an invariant is violated", expected.violates_invariant,
+                      found.violates_invariant);
+    comparison.expect("whether the state is terminal", expected.terminal, found.terminal);
+    comparison.expect("whether a condition faults", static_cast<bool>(expected.of_conditions),
+                      static_cast<bool>(found.of_conditions));
+    comparison.expect("whether the step faults", static_cast<bool>(expected.of_step),
+                      static_cast<bool>(found.of_step));
+    if (expected.of_step) return;
+    comparison.expect("the next state", ir::Storage::State, expected.next, found.next);
+    comparison.expect("the observation", ir::Storage::Observation, expected.observation,
+                      found.observation);
+    comparison.expect("the reward", expected.reward, found.reward);
+}
 
 double cost_of(const ir::Computation& computation, const std::vector<ir::Facts>& facts) {
     double cost = 0;
@@ -24,131 +238,70 @@ double cost_of(const ir::Computation& computation, const std::vector<ir::Facts>&
     return cost;
 }
 
-// Calls visit(address, scalar, buffer) for every element of a record.
-template <class Visit>
-void for_each_element(const ir::Program& program, ir::Storage storage, Record& record,
-                      const Visit& visit) {
-    for (const ir::Field& field : ir::record_layout(program, storage).fields) {
-        const ir::Buffer& buffer = program[field.buffer];
-        const std::size_t size = ir::size_of(buffer.scalar);
-        const auto count = static_cast<std::size_t>(buffer.count());
-        for (std::size_t i = 0; i < count; ++i)
-            visit(record.data() + field.offset + i * size, buffer);
-    }
-}
-
-template <class T>
-void write(std::byte* at, T value) {
-    std::memcpy(at, &value, sizeof value);
-}
-
-// Objects stay within their type: the number of objects, or none for a number.
-std::optional<std::int64_t> object_count(const ir::Program& program, const ir::Buffer& buffer) {
-    if (!buffer.fluent) return std::nullopt;
-    const auto type = program.fluents[*buffer.fluent].object_type;
-    if (!type) return std::nullopt;
-    return static_cast<std::int64_t>(program.types[*type].objects.size());
-}
-
-class Engine {
-  public:
-    Engine(ir::Program program, std::uint64_t seed)
-        : interpreter_(std::move(program)),
-          state_(interpreter_.state_size()),
-          next_(interpreter_.state_size()),
-          action_(interpreter_.action_size()),
-          scratch_(interpreter_.scratch_size()),
-          observation_(interpreter_.observation_size()),
-          memory_(interpreter_.memory_size()),
-          next_memory_(interpreter_.memory_size()),
-          context_{.key = rddl::stream_key(seed, 0, 0), .step = 0, .fault = {}} {
-        interpreter_.reset(state_.data(), context_);
-        if (interpreter_.has_policy()) interpreter_.reset_policy(memory_.data());
-    }
-
-    // Every third value is not the default.
-    void act(std::mt19937_64& random) {
-        interpreter_.default_action(action_.data());
-        const ir::Program& program = interpreter_.program();
-        for_each_element(program, ir::Storage::Action, action_,
-                         [&](std::byte* at, const ir::Buffer& buffer) {
-                             const std::uint64_t draw = random();
-                             if (draw % 3 == 0) write_value(at, buffer, draw / 3);
-                         });
-    }
-
-    // The policy block instead, if there is one.
-    void decide() {
-        if (!interpreter_.has_policy()) return;
-        const Record& seen = interpreter_.program().partially_observed() ? observation_ : state_;
-        interpreter_.act(seen.data(), memory_.data(), scratch_.data(), action_.data(),
-                         next_memory_.data(), context_);
-        memory_.swap(next_memory_);
-    }
-
-    void step() {
-        context_.go_to_next_step();
-        reward_ = interpreter_.step(state_.data(), action_.data(), scratch_.data(), next_.data(),
-                                    observation_.data(), context_);
-        state_.swap(next_);
-    }
-
-    bool terminal() { return interpreter_.terminal(state_.data(), context_); }
-    bool violates_invariant() { return interpreter_.violates_invariant(state_.data(), context_); }
-    int violated_precondition() {
-        return interpreter_.violated_precondition(state_.data(), action_.data(), context_);
-    }
-    bool faulty() const { return static_cast<bool>(context_.fault); }
-
-    // Everything that the last step shows, in a form that can be compared.
-    std::string seen() {
-        const ir::Program& program = interpreter_.program();
-        std::string text;
-        const auto add = [&](std::byte* at, const ir::Buffer& buffer) {
-            if (buffer.scalar == ir::Scalar::Real) make_nan_unique(at);
-            text.append(reinterpret_cast<const char*>(at), ir::size_of(buffer.scalar));
-        };
-        for_each_element(program, ir::Storage::State, state_, add);
-        if (program.partially_observed())
-            for_each_element(program, ir::Storage::Observation, observation_, add);
-        for_each_element(program, ir::Storage::Action, action_, add);
-        for_each_element(program, ir::Storage::Memory, memory_, add);
-        const double reward = std::isnan(reward_) ? std::nan("") : reward_;
-        text.append(reinterpret_cast<const char*>(&reward), sizeof reward);
-        return text;
-    }
-
-    std::string fault() const {
-        const rddl::FaultRecord& fault = context_.fault;
-        if (!fault) return "";
-        const Span span = interpreter_.program().sites[fault.place.site].span;
-        return "fault " + std::to_string(static_cast<int>(fault.kind)) + " at byte " +
-               std::to_string(span.begin) + ", element " + std::to_string(fault.place.index);
-    }
-
-  private:
-    void write_value(std::byte* at, const ir::Buffer& buffer, std::uint64_t draw) const {
-        const auto whole = static_cast<std::int64_t>(draw % 21) - 10;
-        if (buffer.scalar == ir::Scalar::Bool) return write(at, draw % 2 == 0);
-        if (buffer.scalar == ir::Scalar::Real) return write(at, static_cast<double>(whole) / 4);
-        const auto objects = object_count(interpreter_.program(), buffer);
-        if (!objects) return write(at, whole);
-        if (*objects > 0) write(at, static_cast<std::int64_t>(draw % 1009) % *objects);
-    }
-
-    static void make_nan_unique(std::byte* at) {
-        double value;
-        std::memcpy(&value, at, sizeof value);
-        if (std::isnan(value)) write(at, std::nan(""));
-    }
-
-    ir::Interpreter interpreter_;
-    Record state_, next_, action_, scratch_, observation_, memory_, next_memory_;
-    ir::Context context_;
-    double reward_ = 0;
-};
-
 }  // namespace
+
+std::vector<Situation> situations(const ir::Program& program, const ir::Program& optimised,
+                                  Values values, std::uint64_t seed, int count) {
+    const ir::Interpreter engine(program);
+    RandomValues random(program, optimised, values, seed);
+    Record scratch(engine.scratch_size());
+    Situation now{.state = Record(engine.state_size()),
+                  .observation = Record(engine.observation_size()),
+                  .memory = Record(engine.memory_size()),
+                  .action = Record(engine.action_size()),
+                  .step = 0};
+    ir::Context reset = context_of(seed, 0);
+    engine.reset(now.state.data(), reset);
+    if (engine.has_policy()) engine.reset_policy(now.memory.data());
+    std::vector<Situation> result;
+    while (std::ssize(result) < count) {
+        ++now.step;
+        engine.default_action(now.action.data());
+        random.fill(ir::Storage::Action, now.action, 3);
+        Shown follows = shown(engine, now, scratch, seed);
+        if (engine.has_policy() && !follows.of_policy && random.one_of(2)) {
+            now.action = follows.action;
+            follows = shown(engine, now, scratch, seed);
+        }
+        result.push_back(now);
+        if (!follows.of_step && !follows.of_policy) {
+            now.state = std::move(follows.next);
+            now.observation = std::move(follows.observation);
+            now.memory = std::move(follows.memory);
+        }
+        if (random.one_of(2)) random.fill(ir::Storage::State, now.state, random.one_of(2) ? 0 : 4);
+    }
+    return result;
+}
+
+Story story(const ir::Program& program, const std::vector<Situation>& situations,
+            std::uint64_t seed) {
+    const ir::Interpreter engine(program);
+    Story result;
+    result.initial.resize(engine.state_size());
+    ir::Context reset = context_of(seed, 0);
+    engine.reset(result.initial.data(), reset);
+    result.of_reset = reset.fault;
+    Record scratch(engine.scratch_size());
+    for (const Situation& at : situations) result.steps.push_back(shown(engine, at, scratch, seed));
+    return result;
+}
+
+std::optional<std::string> difference(const ir::Program& program, const Story& expected,
+                                      const Story& found, const Tolerance& tolerance) {
+    Comparison comparison(program, tolerance);
+    comparison.expect("whether the reset faults", static_cast<bool>(expected.of_reset),
+                      static_cast<bool>(found.of_reset));
+    if (!expected.of_reset) {
+        comparison.expect("the initial state", ir::Storage::State, expected.initial, found.initial);
+    }
+    for (std::size_t i = 0; i < expected.steps.size(); ++i) {
+        expect_step(comparison, expected.steps[i], found.steps[i]);
+        if (!comparison.found_none()) return fmt::format("step {}: {}", i, comparison.text());
+    }
+    if (comparison.found_none()) return std::nullopt;
+    return comparison.text();
+}
 
 double step_cost(const ir::Program& program) {
     const std::vector<ir::Facts> facts = ir::all_facts(program);
@@ -163,34 +316,6 @@ double step_cost(const ir::Program& program) {
         for (const ir::Computation& condition : *conditions) cost += cost_of(condition, facts);
     }
     return cost;
-}
-
-std::optional<std::string> compare(ir::Program plain, ir::Program optimised, std::uint64_t seed,
-                                   int steps) {
-    Engine first(std::move(plain), seed), second(std::move(optimised), seed);
-    std::mt19937_64 random(seed);
-    for (int step = 0; step < steps; ++step) {
-        const std::string when = " in step " + std::to_string(step);
-        std::mt19937_64 same = random;
-        first.act(random);
-        second.act(same);
-        first.decide();
-        second.decide();
-        if (first.violated_precondition() != second.violated_precondition())
-            return "the preconditions" + when;
-        first.step();
-        second.step();
-        if (first.fault() != second.fault())
-            return "the fault" + when + ": '" + first.fault() + "', '" + second.fault() + "'";
-        if (first.faulty()) return std::nullopt;
-        if (first.seen() != second.seen()) return "the outcome" + when;
-        if (first.violates_invariant() != second.violates_invariant())
-            return "the invariants" + when;
-        const bool terminal = first.terminal();
-        if (terminal != second.terminal()) return "the terminations" + when;
-        if (terminal || first.faulty()) return std::nullopt;
-    }
-    return std::nullopt;
 }
 
 }  // namespace rddlc::fuzzing

@@ -1,22 +1,69 @@
-// The same problem before and after optimisation, step by step.
+// Two programs of one problem side by side: what each shows in the same situations.
 #pragma once
 
 #include "ir/ir.hpp"
 
+#include <rddl/context.hpp>
+
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rddlc::fuzzing {
 
+using Record = std::vector<std::byte>;
+
+// What one step starts from.
+struct Situation {
+    Record state, observation, memory, action;
+    std::uint32_t step;  // decides the draws
+};
+
+// What a program makes of a situation.
+struct Shown {
+    Record next, observation, action, memory;  // the last two by the policy block
+    double reward = 0;
+    int violated_precondition = -1;
+    bool terminal = false, violates_invariant = false;
+    rddl::FaultRecord of_step, of_conditions, of_policy;
+};
+
+// An initial state, and what is made of each situation.
+struct Story {
+    Record initial;
+    rddl::FaultRecord of_reset;
+    std::vector<Shown> steps;
+};
+
+// Which values states and actions have that nobody computed.
+enum class Values : std::uint8_t {
+    Tame,  // small ints, and reals of few bits, so that sums are not rounded
+    Wild,  // also ints beyond 2^53, tenths, -0, and nan and infinities where a fluent may have them
+};
+
+// Situations that the program comes into under random actions (or those of its policy block), from
+// its initial state and from random ones. What the optimised program takes to be finite is.
+std::vector<Situation> situations(const ir::Program& program, const ir::Program& optimised,
+                                  Values values, std::uint64_t seed, int count);
+
+// The random numbers are those of the seed.
+Story story(const ir::Program& program, const std::vector<Situation>& situations,
+            std::uint64_t seed);
+
+// In how far two stories may differ. Bools, ints and objects must be equal in any case.
+struct Tolerance {
+    bool signs_of_zero = false;
+    double relative = 0;      // of reals, or absolute of those below 1
+    bool not_finite = false;  // what is nan or infinite in either may be anything
+};
+
+// What differs first, in words. Any nan is like another.
+std::optional<std::string> difference(const ir::Program& program, const Story& expected,
+                                      const Story& found, const Tolerance& tolerance);
+
 // Roughly the number of simple operations of one step.
 double step_cost(const ir::Program& program);
-
-// One episode of both under the same random actions (or the policy block, if there is one) and
-// random numbers, at most that many steps.
-// Says what differs first, if anything: states, observations, rewards and faults bit for bit (one
-// nan is like another), and the conditions.
-std::optional<std::string> compare(ir::Program plain, ir::Program optimised, std::uint64_t seed,
-                                   int steps);
 
 }  // namespace rddlc::fuzzing

@@ -1,0 +1,132 @@
+#include "contracts.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/interpreter.hpp"
+#include "ir/print.hpp"
+#include "ir/verify.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rddlc::fuzzing {
+namespace {
+
+constexpr double roughly = 1e-9;
+constexpr double most_operations = 2e5;  // of all steps of one program
+
+// A pass, and the program that it has made where that differs from the one before.
+struct Made {
+    std::string pass;
+    ir::Program program;
+    std::string text = ir::print(program);
+};
+
+bool is_sum_of_reals(const ir::Node& node) {
+    const auto* reduce = std::get_if<ir::Reduce>(&node.form);
+    return reduce && node.type == ir::Scalar::Real &&
+           (reduce->op == Reduction::Sum || reduce->op == Reduction::Product);
+}
+
+// Does a sum or product of reals stand in another one?
+bool has_nested_sums(const ir::Program& program) {
+    std::vector<bool> inside(program.nodes.size());  // is or contains such a sum
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+        const bool below = std::ranges::any_of(ir::operands_of(program.nodes[i]),
+                                               [&](ir::NodeId id) { return inside[id.index]; });
+        if (is_sum_of_reals(program.nodes[i])) {
+            if (below) return true;
+            inside[i] = true;
+        }
+        inside[i] = inside[i] || below;
+    }
+    return false;
+}
+
+// The text does not show all of a table.
+bool same_program(const Made& a, const Made& b) {
+    const auto same_buffer = [](const ir::Buffer& x, const ir::Buffer& y) {
+        return identical(x.values, y.values);
+    };
+    return a.text == b.text &&
+           std::ranges::equal(a.program.buffers, b.program.buffers, same_buffer);
+}
+
+// Only what the pass may change where it had what it may change.
+Tolerance tolerance_between(std::string_view pass, const ir::Program& before) {
+    Tolerance tolerance = tolerance_of(pass);
+    if (pass == "make_aggregations_sparse" && !has_nested_sums(before)) tolerance.relative = 0;
+    return tolerance;
+}
+
+std::optional<std::string> complaints_about(const ir::Program& program) {
+    const std::vector<std::string> complaints = ir::verify(program);
+    if (complaints.empty()) return std::nullopt;
+    return fmt::format("the IR is not valid: {}", fmt::join(complaints, "; "));
+}
+
+// Fewer where they are expensive.
+int affordable_steps(const ir::Program& program, int most) {
+    const double steps = most_operations / std::max(1.0, step_cost(program));
+    return std::clamp(static_cast<int>(std::min(steps, 1e3)), 3, std::max(3, most));
+}
+
+// With --fast-math a step starts where the invariants hold: there they have been tested before.
+void drop_states_out_of_bounds(const ir::Program& program, std::vector<Situation>& tried) {
+    const ir::Interpreter engine(program);
+    std::erase_if(tried, [&](const Situation& at) {
+        ir::Context context;
+        return engine.violates_invariant(at.state.data(), context);
+    });
+}
+
+}  // namespace
+
+Tolerance tolerance_of(std::string_view pass) {
+    constexpr std::array of_zero = {"index_directly", "search_intervals", "skip_zero_terms",
+                                    "unroll_rows"};
+    if (pass == "make_aggregations_sparse") return {.signs_of_zero = true, .relative = roughly};
+    if (pass == "fast_math" || pass == "straighten_rows" || pass == "prove_invariants")
+        return {.signs_of_zero = true, .relative = roughly, .not_finite = true};
+    return {.signs_of_zero = std::ranges::find(of_zero, pass) != of_zero.end()};
+}
+
+Contracts check_contracts(const ir::Program& program, const PassOptions& options, Values values,
+                          std::uint64_t seed, int steps) {
+    Contracts result;
+    std::vector<Made> history = {{"ground", program}};
+    PassOptions watched = options;
+    watched.observe = [&](const PassRun& run, const ir::Program& made) {
+        const bool reports =
+            std::ranges::any_of(run.report, [](const auto& row) { return row.second != 0; });
+        Made now = {std::string(run.name), made};
+        const bool differs = !same_program(history.back(), now);
+        if (reports || differs) ++result.changed[std::string(run.name)];
+        if (!differs) return;
+        history.push_back(std::move(now));
+        if (const auto complaints = complaints_about(made)) {
+            result.breaches.push_back({std::string(run.name), *complaints});
+        }
+    };
+    result.optimised = optimise(program, watched);
+    if (!result.breaches.empty() || steps == 0) return result;  // nobody runs what is not valid
+    std::vector<Situation> tried =
+        situations(program, result.optimised, values, seed, affordable_steps(program, steps));
+    if (options.fast_math) drop_states_out_of_bounds(program, tried);
+    Story before = story(program, tried, seed);
+    for (std::size_t i = 1; i < history.size(); ++i) {
+        Story after = story(history[i].program, tried, seed);
+        const ir::Program& previous = history[i - 1].program;
+        const Tolerance tolerance = tolerance_between(history[i].pass, previous);
+        if (const auto text = difference(program, before, after, tolerance)) {
+            result.breaches.push_back({history[i].pass, *text});
+        }
+        before = std::move(after);
+    }
+    return result;
+}
+
+}  // namespace rddlc::fuzzing
