@@ -1,4 +1,4 @@
-"""What one problem does in the engines: the same, or where they differ."""
+"""What one problem does in pyRDDLGym and in rddlc: the same, or where they differ."""
 
 import contextlib
 import io
@@ -24,12 +24,6 @@ REFUSED = (ValueError, ArithmeticError, TypeError, IndexError, SyntaxError, Runt
 
 
 @dataclass
-class Programs:
-    rddl: Path
-    exercise: Path | None  # compares the interpreter before and after optimisation
-
-
-@dataclass
 class Verdict:
     """What was compared, and the first difference: its kind, stable while reduced, and its text."""
 
@@ -45,43 +39,8 @@ class Verdict:
         return self
 
 
-def compare(problem: Problem, folder: Path, programs: Programs, engines: list[str]) -> Verdict:
-    """Interpreter before and after optimisation; then the engines among one another."""
-    verdict = Verdict()
-    case = write(problem, folder)
-    files = [str(case.domain_path), str(case.instance_path)]
-    checked = execute([programs.rddl, "check", *files])
-    if checked.returncode != 0:
-        return verdict.fail("rejected", checked.stdout + checked.stderr)
-    if programs.exercise:
-        exercised = execute([programs.exercise, "--steps", "30", *files])
-        if exercised.returncode != 0:
-            return verdict.fail("optimisation", exercised.stdout + exercised.stderr)
-    traces = {}
-    for engine in engines:
-        command = [programs.rddl, "run", *files, f"--engine={engine}", "--quiet", "--no-cache"]
-        command += ["--episodes", "4", "--seed", "1", "--threads", "1", "--trace", "-"]
-        if engine == "interpreter":
-            command.remove("--no-cache")
-        traced = execute(command)
-        if traced.returncode != 0:
-            return verdict.fail(f"{engine} fails", traced.stderr)
-        traces[engine] = traced.stdout.splitlines()[1:]
-        verdict.steps += len(traces[engine])
-    for engine, trace in traces.items():
-        for number, (first, second) in enumerate(zip(traces[engines[0]], trace)):
-            if first != second:
-                text = f"line {number + 1} of the trace\n{engines[0]}: {first}\n{engine}: {second}"
-                return verdict.fail("bit for bit", text)
-        if len(trace) != len(traces[engines[0]]):
-            return verdict.fail("bit for bit", "traces of different length")
-    return verdict
-
-
-def compare_with_reference(
-    problem: Problem, folder: Path, programs: Programs, engine: str, seed: int, steps: int
-) -> Verdict:
-    """Steps from random states under random actions, in pyRDDLGym and in one engine of ours."""
+def compare_with_reference(problem: Problem, folder: Path, rddl: Path, seed: int, steps: int) -> Verdict:
+    """Steps from random states under random actions, in pyRDDLGym and in our interpreter."""
     verdict = Verdict()
     case = write(problem, folder)
     try:
@@ -95,7 +54,7 @@ def compare_with_reference(
         return verdict
     states, actions, outcomes, legal = zip(*rows)
     try:
-        answers = replay(programs.rddl, case, reference.problem, states, actions, engine)
+        answers = replay(rddl, case, reference.problem, states, actions)
         for number, answer in enumerate(answers):
             if "error" in answer and "precondition" in answer["error"]:
                 answer["legal"] = False
@@ -178,10 +137,10 @@ def random_values(fluent, random) -> np.ndarray:
     return random.integers(-4 * limit, 4 * limit + 1, size=count) / 4.0
 
 
-def replay(rddl: Path, case: Case, description, states, actions, engine: str) -> list[dict]:
+def replay(rddl: Path, case: Case, description, states, actions) -> list[dict]:
     lines = [request_line(description, s, a) for s, a in zip(states, actions)]
     command = [rddl, "replay", case.domain_path, case.instance_path, "--seed", "1", "--horizon", "0"]
-    command += ["--preconditions=error", f"--engine={engine}"]
+    command += ["--preconditions=error", "--engine=interpreter"]
     result = execute(command, "".join(lines))
     if result.returncode != 0:
         raise ReplayFailure(f"exit status {result.returncode}: {result.stderr}")

@@ -1,146 +1,262 @@
-"""Random problems, the same in every engine: docs/fuzzing.md says what is compared.
+"""Random problems, the same in every engine and before and after every pass: docs/fuzzing.md.
 
-    .venv/bin/python tests/fuzz/fuzz_models.py --models 120               a fixed set of problems
-    .venv/bin/python tests/fuzz/fuzz_models.py --hours 8 --first 1000000  until the time is over
-    .venv/bin/python tests/fuzz/fuzz_models.py --first 1234 --models 1    one of them again
+    .venv/bin/python tests/fuzz/fuzz_models.py passes --models 100000 --state build/fuzz-state
+        every pass held to its contract, by the plain interpreter; goes on where it was stopped
+    .venv/bin/python tests/fuzz/fuzz_models.py compiled --models 3000
+        compiled simulators, single and in packs, against the interpreter
+    .venv/bin/python tests/fuzz/fuzz_models.py reference --models 5000
+        against pyRDDLGym
+    .venv/bin/python tests/fuzz/fuzz_models.py sample
+        a little of each, with new seeds: what every test run does
+    .venv/bin/python tests/fuzz/fuzz_models.py passes --first 1234 --models 1
+        one of them again
 
 What differs is reduced and written to --failures, as a folder for tests/cases. Exit status: 0 if
 nothing differs, else 1.
 """
 
 import argparse
-import itertools
+import json
 import multiprocessing
-import os
+import random
 import shutil
+import signal
 import sys
 import tempfile
 import time
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from differential import ROOT, Programs, Verdict, compare, compare_with_reference, write
+from differential import ROOT, compare_with_reference
 from generate import generate
+from passes_check import Finding, PassChecker
 from rddl_problem import Problem
 from reduce import reduce
 
-STOCHASTIC_SHARE = 4  # one of so many problems draws; it is not compared with pyRDDLGym
-BATCH = 200
+FLAVOURS = ("plain", "random", "wild", "finite", "wild")  # by seed
+ONE_IN = 20  # problems that pass through all stages, printing and emitting included
+BATCHES = {"passes": 100, "compiled": 12, "reference": 10}
+KEPT = 3  # failures of one kind that are reduced
 
 
 @dataclass(frozen=True)
 class Task:
-    seed: int
+    mode: str
+    seeds: range
     options: argparse.Namespace
-
-    def is_stochastic(self) -> bool:
-        return self.seed % STOCHASTIC_SHARE == STOCHASTIC_SHARE - 1
-
-    def engines(self) -> list[str]:
-        """In turn: every problem takes the interpreter, few the C++ compiler."""
-        every = self.options.compiled_every
-        compiled = every > 0 and (self.seed + self.seed // every) % every == 0
-        return ["interpreter", "compiled"] if compiled else ["interpreter"]
+    known: tuple[str, ...]  # kinds of which there are enough
 
 
-def judge(task: Task, problem: Problem, folder: Path, engines: list[str]) -> Verdict:
-    options = task.options
-    programs = Programs(options.rddl, options.exercise)
-    verdict = compare(problem, folder, programs, engines)
-    if verdict.kind or task.is_stochastic():
-        return verdict
-    engine = engines[-1]
-    found = compare_with_reference(problem, folder, programs, engine, task.seed, options.steps)
-    found.steps += verdict.steps
-    return found
+@dataclass
+class Result:
+    counts: Counter = field(default_factory=Counter)
+    failures: list[dict] = field(default_factory=list)
+
+    def add(self, other: "Result") -> None:
+        self.counts += other.counts
+        self.failures += other.failures
 
 
-def run(task: Task) -> tuple[int, Verdict]:
-    problem = generate(task.seed, task.is_stochastic())
-    with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
-        verdict = judge(task, problem, Path(folder), task.engines())
-        if verdict.kind and task.options.reduce_seconds > 0:
-            problem, verdict = reduced(task, problem, verdict, Path(folder))
-    if verdict.kind:
-        keep(task, problem, verdict)
-    return task.seed, verdict
+def problem_of(mode: str, seed: int) -> Problem:
+    flavour = "plain" if mode == "reference" else FLAVOURS[seed % len(FLAVOURS)]
+    return generate(seed, flavour)
 
 
-def reduced(task: Task, problem: Problem, verdict: Verdict, folder: Path):
-    engines = task.engines() if verdict.kind in ("bit for bit", "compiled fails") else ["interpreter"]
-
-    def fails(smaller: Problem) -> bool:
-        return judge(task, smaller, folder, engines).kind == verdict.kind
-
-    smaller = reduce(problem, fails, task.options.reduce_seconds)
-    again = judge(task, smaller, folder, task.engines())
-    return (smaller, again) if again.kind == verdict.kind else (problem, verdict)
+# ------------------------------------------------------------------------------------- workers
 
 
-def keep(task: Task, problem: Problem, verdict: Verdict) -> None:
-    folder = task.options.failures / f"fuzz-{task.seed}"
+def check_passes(task: Task, result: Result) -> None:
+    checker = PassChecker(task.options.passes, tuple(task.options.without))
+    for seed in task.seeds:
+        problem = problem_of(task.mode, seed)
+        answer = checker.check(problem, seed, seed % ONE_IN == 0)
+        result.counts.update([answer.outcome, f"flavour {problem.flavour}"])
+        result.counts.update(f"changed {name}" for name in answer.changed)
+        for finding in answer.findings:
+
+            def fails(smaller: Problem) -> bool:
+                kinds = [f.kind for f in checker.check(smaller, seed, True).findings]
+                return finding.kind in kinds  # noqa: B023
+
+            keep(task, result, seed, problem, finding, fails)
+    checker.close()
+
+
+def check_reference(task: Task, result: Result) -> None:
+    def look(problem: Problem):
+        with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
+            return compare_with_reference(problem, Path(folder), task.options.rddl, seed, task.options.steps)
+
+    for seed in task.seeds:
+        problem = problem_of(task.mode, seed)
+        verdict = look(problem)
+        result.counts.update(accepted=1, steps=verdict.steps, values=verdict.values, refused=verdict.refused_steps)
+        if verdict.refused:
+            result.counts[f"refused: {verdict.refused[:80]}"] += 1
+        if verdict.kind:
+            finding = Finding(verdict.kind, verdict.text)
+            keep(task, result, seed, problem, finding, lambda p: look(p).kind == finding.kind)  # noqa: B023
+
+
+def check_compiled(task: Task, result: Result) -> None:
+    from compiled_check import CompiledChecker
+
+    checker = CompiledChecker(task.options, task.seeds[0])
+    problems = {seed: problem_of(task.mode, seed) for seed in task.seeds}
+    for seed, finding in checker.check(problems, result.counts).items():
+        one = CompiledChecker(task.options, task.seeds[0])
+        fails = lambda p: finding.kind in [f.kind for f in one.check({seed: p}, Counter()).values()]  # noqa: B023, E731
+        keep(task, result, seed, problems[seed], finding, fails)
+
+
+CHECKS = {"passes": check_passes, "compiled": check_compiled, "reference": check_reference}
+
+
+def keep(task: Task, result: Result, seed: int, problem: Problem, finding: Finding, fails) -> None:
+    """Reduced, unless there are enough of the kind."""
+    enough = (*task.known, *(f["kind"] for f in result.failures)).count(finding.kind) >= KEPT
+    if not enough and task.options.reduce_seconds > 0 and finding.kind != "rejected":
+        problem = reduce(problem, fails, task.options.reduce_seconds)
+    result.failures.append({"seed": seed, "flavour": problem.flavour, "kind": finding.kind, "text": finding.text})
+    if enough:
+        return
+    folder = task.options.failures / f"{task.mode}-{finding.kind.split(':')[0].replace(' ', '-')}-{seed}"
     write(problem, folder)
-    (folder / "difference.txt").write_text(f"{verdict.kind}\n{verdict.text}\n")
+    (folder / "difference.txt").write_text(f"seed {seed} ({problem.flavour})\n{finding.kind}\n{finding.text}\n")
 
 
-def verdicts(options: argparse.Namespace):
-    """Seed and verdict of each problem. In batches, since a pool takes all tasks at once."""
-    end = time.monotonic() + 3600 * options.hours
-    seeds = itertools.count(options.first) if options.hours > 0 else iter(
-        range(options.first, options.first + options.models)
-    )
-    with multiprocessing.get_context("spawn").Pool(options.workers) as pool:
-        while options.hours <= 0 or time.monotonic() < end:
-            batch = [Task(seed, options) for seed in itertools.islice(seeds, BATCH)]
-            if not batch:
-                return
-            yield from pool.imap_unordered(run, batch)
+def write(problem: Problem, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "domain.rddl").write_text(problem.domain_text())
+    (folder / "instance.rddl").write_text(problem.instance_text() + problem.policy_text())
+
+
+def work(task: Task) -> Result:
+    result = Result()
+    CHECKS[task.mode](task, result)
+    return result
+
+
+# --------------------------------------------------------------------------------------- a run
+
+
+class Run:
+    """Counts, failures and the next seed; kept in a file, so that a run can be interrupted."""
+
+    def __init__(self, mode: str, options: argparse.Namespace):
+        self.mode, self.options = mode, options
+        self.result = Result()
+        self.next = self.first = options.first
+        self.seconds = 0.0
+        self.file = options.state / f"{mode}.json" if options.state else None
+        if self.file and self.file.exists():
+            saved = json.loads(self.file.read_text())
+            self.first, self.next, self.seconds = saved["first"], saved["next"], saved["seconds"]
+            self.result = Result(Counter(saved["counts"]), saved["failures"])
+
+    def save(self) -> None:
+        if not self.file:
+            return
+        self.file.parent.mkdir(parents=True, exist_ok=True)
+        saved = {"first": self.first, "next": self.next, "seconds": self.seconds}
+        saved |= {"counts": self.result.counts, "failures": self.result.failures}
+        fresh = self.file.with_suffix(".new")
+        fresh.write_text(json.dumps(saved, indent=1))
+        fresh.rename(self.file)
+
+    def tasks(self):
+        end = self.first + self.options.models
+        while self.next < end:
+            yield self.tasks_of_round(end)
+
+    def tasks_of_round(self, end: int) -> list[Task]:
+        size = BATCHES[self.mode]
+        known = tuple(f["kind"] for f in self.result.failures)
+        starts = range(self.next, min(end, self.next + 2 * size * self.options.workers), size)
+        return [Task(self.mode, range(start, min(start + size, end)), self.options, known) for start in starts]
+
+    def run(self, pool) -> None:
+        for tasks in self.tasks():
+            begin = time.perf_counter()
+            for task, result in zip(tasks, pool.imap(work, tasks)):
+                self.result.add(result)
+                self.next = task.seeds[-1] + 1
+                for failure in result.failures:
+                    text = failure["text"][:300].replace("\n", " ")
+                    print(f"seed {failure['seed']} ({failure['flavour']}): {failure['kind']}: {text}", flush=True)
+            self.seconds += time.perf_counter() - begin
+            self.save()
+
+    def summary(self) -> str:
+        counts, models = self.result.counts, self.next - self.first
+        text = f"{self.mode}: {models} models, seeds {self.first} to {self.next - 1}, {self.seconds:.0f} s; "
+        if self.mode == "reference":
+            text += f"{counts['steps']} steps, {counts['values']} values, {counts['refused']} steps refused; "
+        else:
+            text += ", ".join(f"{counts[o]} {o}" for o in ("accepted", "too large", "rejected", "crashed") if counts[o]) + "; "
+        return text + f"{len(self.result.failures)} differ" + self.table()
+
+    def table(self) -> str:
+        """How many models of a hundred each pass changed."""
+        changed = {k.removeprefix("changed "): n for k, n in self.result.counts.items() if k.startswith("changed ")}
+        if not changed:
+            return ""
+        models = sum(n for k, n in self.result.counts.items() if k.startswith("flavour "))
+        rows = [f"\n    {name:28}{100 * n / models:6.2f} %" for name, n in sorted(changed.items(), key=lambda x: -x[1])]
+        return "\n  models that a pass changed:" + "".join(rows)
 
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--first", type=int, default=0, help="seed of the first problem")
-    parser.add_argument("--models", type=int, default=120, help="how many problems")
-    parser.add_argument("--hours", type=float, default=0, help="instead of --models")
+    parser.add_argument("mode", choices=[*CHECKS, "sample"])
+    parser.add_argument("--first", type=int, help="seed of the first problem (sample: a new one, which is printed)")
+    parser.add_argument("--models", type=int, default=1000, help="how many problems")
+    parser.add_argument("--state", type=Path, help="folder in which a run is kept, and from which it goes on")
     parser.add_argument("--steps", type=int, default=40, help="compared with pyRDDLGym, a problem")
-    parser.add_argument(
-        "--compiled-every", type=int, default=12, help="problems for one that is compiled; 0: none"
-    )
-    parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")
-    parser.add_argument("--exercise", type=Path, default=ROOT / "build/bin/fuzz_mutations")
+    parser.add_argument("--without", action="append", default=[], help="leave out a pass")
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/bin", help="where our programs are")
     parser.add_argument("--failures", type=Path, default=ROOT / "build/fuzz-failures")
     parser.add_argument("--reduce-seconds", type=float, default=60, help="for each failure")
-    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
-    for program in (options.rddl, options.exercise):
+    options.rddl, options.rddlc = options.bin / "rddl", options.bin / "rddlc"
+    options.passes, options.engines = options.bin / "fuzz_passes", options.bin / "fuzz_engines"
+    for program in (options.rddl, options.passes):
         if shutil.which(program) is None:
             parser.error(f"{program} is not there: build it, or give its place")
+    if options.first is None:
+        options.first = random.SystemRandom().randrange(10**9) * 1000 if options.mode == "sample" else 0
     return options
+
+
+SAMPLE = {"passes": 1000, "compiled": 24, "reference": 40}
+
+
+def runs_of(options: argparse.Namespace) -> list[Run]:
+    if options.mode != "sample":
+        return [Run(options.mode, options)]
+    print(f"seed {options.first}", flush=True)
+    return [
+        Run(mode, argparse.Namespace(**{**vars(options), "models": models, "state": None}))
+        for mode, models in SAMPLE.items()
+    ]
 
 
 def main() -> int:
     options = parse_arguments()
-    begin = time.perf_counter()
-    totals, refusals, failed = Counter(), Counter(), 0
-    for seed, verdict in verdicts(options):
-        totals.update(problems=1, steps=verdict.steps, values=verdict.values)
-        totals.update(refused=verdict.refused_steps)
-        if verdict.refused:
-            refusals[verdict.refused[:100]] += 1
-        if verdict.kind:
-            failed += 1
-            print(f"seed {seed}: {verdict.kind}: {verdict.text[:1000]}", flush=True)
-    print(
-        f"{totals['problems']} problems, {totals['steps']} steps, {totals['values']} values equal to"
-        f" pyRDDLGym's, which refused {totals['refused']} steps and {refusals.total()} problems;"
-        f" {failed} problems differ; {time.perf_counter() - begin:.0f} s"
-    )
-    for reason, count in refusals.most_common(10):
-        print(f"    {count} x {reason}")
-    if failed:
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    failures = 0
+    with multiprocessing.get_context("spawn").Pool(options.workers) as pool:
+        for run in runs_of(options):
+            try:
+                run.run(pool)
+            finally:
+                print(run.summary(), flush=True)
+            failures += len(run.result.failures)
+    if failures:
         print(f"see {options.failures}")
-    return 1 if failed or not totals["values"] else 0
+    return 1 if failures else 0
 
 
 if __name__ == "__main__":

@@ -1,61 +1,88 @@
 #!/usr/bin/env python3
-"""Random RDDL problems that are well-typed and mean the same in pyRDDLGym and in rddlc.
+"""Random RDDL problems that are well-typed and mean the same in every engine.
 
-    tests/fuzz/generate.py SEED            prints the problem of that seed
-    tests/fuzz/generate.py SEED --random   one with distributions
+    tests/fuzz/generate.py SEED                   prints the problem of that seed
+    tests/fuzz/generate.py SEED --flavour random  one with distributions
 
-What the two mean differently on purpose (docs/decisions.md) is avoided: values that do not fit on
-some path, products of zero and inf within loops over objects, errors in branches not taken. Where
-rounding may differ (sums in another order, exp of another library), the value is marked unsure,
-and nothing that jumps (comparisons, floor, argmax) is applied to it.
+| flavour | |
+|---|---|
+| plain   | means the same in pyRDDLGym and in rddlc, and draws nothing |
+| random  | the same with distributions |
+| wild    | for our own engines alone: values that are rounded decide comparisons, nan and infinities go anywhere, ints wrap around; random initial values and policies |
+| finite  | for --fast-math: no nan, no infinities |
+
+What pyRDDLGym and rddlc mean differently on purpose (docs/decisions.md) is avoided but in wild
+problems: values that do not fit on some path, products of zero and inf within loops over objects,
+errors in branches not taken. Where rounding may differ (sums in another order, exp of another
+library), the value is marked unsure, and nothing that jumps (comparisons, floor, argmax) is applied
+to it.
+
+What is drawn from stands beside this: tables.py (sizes and values), expressions.py,
+distributions.py, shapes.py (what passes look for).
 """
 
 import argparse
 import math
 import random
+import re
+from dataclasses import dataclass
 
-from rddl_problem import UNSURE, Expr, Fluent, Problem, Type
+from distributions import Distributions
+from expressions import Expressions
+from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem, Type, work_of
+from shapes import Shapes
+from tables import Tables
 
-LARGEST_SCOPE = 120  # elements
-LARGEST_WORK = 2000  # elements, aggregations within one another included
 NAMES = ("a", "b-2", "sum", "avg_x", "Max", "abs", "q1", "load", "pow", "z-z", "in", "t_1", "new", "int8")
-EDGE_REALS = (
-    "(1.0 / 0.0)", "(-1.0 / 0.0)", "(0.0 / 0.0)", "ln[0.0]", "sqrt[-1.0]", "(1.0 / 3.0 * 0.0)",
-)  # fmt: skip
-ROUGH_FUNCTIONS = (
-    "sin[%s]", "cos[%s]", "tanh[%s]", "atan[%s]", "exp[min[%s, 3.0]]", "sqrt[abs[%s]]",
-    "ln[abs[%s] + 0.5]", "lngamma[abs[%s] + 0.5]", "gamma[min[abs[%s], 9.0] + 0.5]",
-    "acos[max[-1.0, min[1.0, %s / 8.0]]]", "asin[max[-0.5, min[0.5, %s / 8.0]]]",
-    "sinh[max[-3.0, min[3.0, %s]]]", "cosh[max[-3.0, min[3.0, %s]]]", "tan[max[-1.0, min[1.0, %s]]]",
-)  # fmt: skip
-EDGE_FUNCTIONS = (
-    "ln[%s]", "sqrt[%s]", "acos[%s]", "asin[%s]", "exp[%s]", "cosh[%s]", "sinh[%s]", "tan[%s]",
-    "sin[%s]", "cos[%s]", "atan[%s]", "tanh[%s]", "hypot[%s, %s]", "log[%s, %s]", "lngamma[abs[%s] + 0.5]",
-    "gamma[abs[%s] + 0.5]", "pow[%s + 0.0, %s]",
-)  # fmt: skip
-LARGE_INTS = ("9223372036854775807", "4611686018427387904", "3037000500", "9007199254740993")
+MOST_WORK = 12000  # operations of one step, about
+LARGEST_SCOPE = 2500  # elements of a fluent that is computed
+LARGEST_TABLE = 17000
 
 
-class Generator:
-    def __init__(self, seed: int, stochastic: bool = False):
-        self.rng = random.Random(f"{seed} {stochastic}")
-        self.stochastic = stochastic
-        self.problem = Problem()
+@dataclass(frozen=True)
+class Flavour:
+    draws: bool = False
+    wild: bool = False
+    finite: bool = False
+
+
+FLAVOURS = {
+    "plain": Flavour(),
+    "random": Flavour(draws=True),
+    "wild": Flavour(draws=True, wild=True),
+    "finite": Flavour(draws=True, finite=True),
+}
+
+
+class Generator(Tables, Expressions, Distributions, Shapes):
+    def __init__(self, seed: int, flavour: str):
+        self.rng = random.Random(f"{seed} {flavour}")
+        self.flavour = FLAVOURS[flavour]
+        if self.flavour.wild or self.flavour.finite:  # half of them draw
+            self.flavour = Flavour(seed % 2 == 0, self.flavour.wild, self.flavour.finite)
+        self.problem = Problem(flavour=flavour)
         self.visible: list[tuple[str, Fluent]] = []  # what expressions may mention now
         self.scope: list[tuple[str, str]] = []  # variable and type
-        self.work = 1
+        self.work = 1  # elements, of the aggregations around
+        self.work_left = MOST_WORK
+        self.elements_left = self.pick([100, 500, 500, LARGEST_SCOPE])
         self.variable_count = 0
         self.nested_terms = 0  # argmax or Discrete_ in arguments within one another
         self.likings: dict[tuple, float] = {}
+        self.said: list[tuple[Expr, set[str], set[str]]] = []  # expressions, their variables and names
 
     def generate(self) -> Problem:
         self.make_types()
         self.make_fluents()
         self.make_cpfs()
         self.make_conditions()
+        if self.flavour.wild and self.chance(0.15):
+            self.make_policy()
+        if self.flavour.wild and self.flavour.draws and self.chance(0.3):
+            self.make_initial_draws()
         self.problem.horizon = self.rng.choice([5, 20, 40])
         actions = sum(f.role == "action-fluent" for f in self.problem.fluents)
-        if actions and self.chance(0.3):
+        if actions and self.problem.policy is None and self.chance(0.3):
             self.problem.max_nondef_actions = str(self.rng.randint(1, 3))
         return self.problem
 
@@ -84,20 +111,39 @@ class Generator:
     def size(self, type_name: str) -> int:
         return len(self.problem.type(type_name).members)
 
+    def elements(self) -> int:
+        """Of the scope."""
+        return math.prod(self.size(of) for _, of in self.scope)
+
+    def affordable(self, make, depth: int) -> Expr:
+        """The deepest of which a step does not cost too much."""
+        elements = max(1, self.elements())
+        allowed = min(self.work_left / 2, MOST_WORK / 3)
+        while depth > 0:
+            value = make(depth)
+            work = elements * work_of(value, self.problem)
+            if work <= allowed:
+                break
+            depth -= 1
+        else:
+            value = make(0)
+            work = elements
+        self.work_left = max(500, self.work_left - work)
+        return value
+
     # -------------------------------------------------------------------------- declarations
 
     def make_types(self) -> None:
-        for name in ("thing", "place")[: self.rng.randint(1, 2)]:
-            members = [f"{name[0]}{i}" for i in range(self.rng.choice([1, 2, 2, 3, 3, 4]))]
-            self.problem.types.append(Type(name, False, members))
+        for name, size in list(zip(("thing", "place"), self.sizes()))[: self.rng.randint(1, 2)]:
+            self.problem.types.append(Type(name, False, [f"{name[0]}{i}" for i in range(size)]))
         for name in ("hue", "mode")[: self.rng.randint(1, 2)]:
-            members = [f"{name}{i}" for i in range(self.rng.choice([1, 2, 3, 3, 4]))]
+            members = [f"{name}{i}" for i in range(self.rng.choice([1, 2, 3, 3, 4, 6]))]
             if self.chance(0.2):
                 members[-1] = "7-" + members[-1]
             self.problem.types.append(Type(name, True, members))
 
     def make_fluents(self) -> None:
-        names = [*self.rng.sample(NAMES, 6), *(f"f{i}" for i in range(30))]
+        names = [*self.rng.sample(NAMES, 6), *(f"f{i}" for i in range(40))]
         counts = {
             "non-fluent": self.rng.randint(1, 4),
             "state-fluent": self.rng.randint(2, 6),
@@ -106,6 +152,7 @@ class Generator:
             "derived-fluent": self.rng.randint(0, 1),
             "observ-fluent": self.rng.choice([0, 0, 0, 2]),
         }
+        self.problem.fluents += self.tables_that_shapes_need()
         for role, count in counts.items():
             for _ in range(count):
                 self.problem.fluents.append(self.make_fluent(names.pop(0), role))
@@ -118,91 +165,101 @@ class Generator:
             ranges += objects
         arity = self.pick([0, 1, 1, 1, 2, 2, 3])
         parameters = tuple(self.pick(objects + objects + enumerated) for _ in range(arity))
-        while math.prod(map(self.size, parameters)) > 30:
+        return self.declared(name, role, self.pick(ranges), parameters)
+
+    def declared(self, name: str, role: str, kind: str, parameters: tuple[str, ...]) -> Fluent:
+        largest = LARGEST_TABLE if role == "non-fluent" and kind == "bool" else min(LARGEST_SCOPE, self.elements_left)
+        if role == "non-fluent":
+            largest = max(largest, 600)
+        while math.prod(map(self.size, parameters)) > largest:
             parameters = parameters[1:]
-        fluent = Fluent(name, role, self.pick(ranges), parameters)
-        if fluent.range == "bool":
+        if role != "non-fluent":
+            self.elements_left = max(20, self.elements_left - math.prod(map(self.size, parameters)))
+        fluent = Fluent(name, role, kind, parameters)
+        if kind == "bool":
             fluent.magnitude, fluent.fraction = 1, 0
-        elif fluent.range == "int":
-            fluent.magnitude, fluent.fraction = 10, 0
-        elif fluent.range == "real":
+        elif kind == "int":
+            is_large = self.flavour.wild and self.chance(0.3)
+            fluent.magnitude, fluent.fraction = 64 if is_large else 10, 0
+        elif kind == "real":
             fluent.magnitude, fluent.fraction = 10, 2
-            if role not in ("non-fluent", "action-fluent") and self.chance(0.35):
+            if role != "action-fluent" and self.chance(0.35):
                 fluent.fraction = UNSURE
         if role in ("non-fluent", "state-fluent", "action-fluent"):
             self.give_values(fluent)
         return fluent
 
-    def give_values(self, fluent: Fluent) -> None:
-        if fluent.range not in {t.name for t in self.problem.types if not t.enumerated}:
-            fluent.default = self.random_value(fluent.range)
-        if fluent.role != "action-fluent":
-            for objects in self.problem.groundings(fluent):
-                if fluent.default is None or self.chance(0.5):
-                    fluent.values[objects] = self.random_value(fluent.range)
-
-    def random_value(self, kind: str) -> str:
-        if kind == "bool":
-            return self.pick(["true", "false"])
-        if kind == "int":
-            return str(self.pick([0, 1, 1, 2, 3, -1, -2, 7, 100, -500]))
-        if kind == "real":
-            return str(self.pick([0.0, 1.0, 0.5, -0.5, 2.25, -3.75, 17.0, 250.5]))
-        type_ = self.problem.type(kind)
-        return type_.literal(self.pick(type_.members))
-
     # ------------------------------------------------------------------------- definitions
 
+    def of(self, *roles: str) -> list[tuple[str, Fluent]]:
+        return [(f.name, f) for f in self.problem.fluents if f.role in roles]
+
     def make_cpfs(self) -> None:
-        fluents = self.problem.fluents
-        of = lambda *roles: [f for f in fluents if f.role in roles]  # noqa: E731
-        constants = [(f.name, f) for f in of("non-fluent")]
-        states = [(f.name, f) for f in of("state-fluent")]
-        actions = [(f.name, f) for f in of("action-fluent")]
+        constants, states, actions = self.of("non-fluent"), self.of("state-fluent"), self.of("action-fluent")
         derived = []
-        for fluent in of("derived-fluent"):
-            self.visible = constants + states + derived
-            self.define(fluent.name, fluent)
-            derived.append((fluent.name, fluent))
+        for name, fluent in self.of("derived-fluent"):
+            self.visible = constants + ([] if self.chance(0.2) else states + derived)
+            self.define(name, fluent)
+            derived.append((name, fluent))
         interm = []
-        for fluent in of("interm-fluent"):
-            self.visible = constants + states + actions + derived + interm
-            self.define(fluent.name, fluent)
-            interm.append((fluent.name, fluent))
+        for name, fluent in self.of("interm-fluent"):
+            self.visible = constants + ([] if self.chance(0.2) else states + actions + derived + interm)
+            self.define(name, fluent)
+            interm.append((name, fluent))
         next_states = []
-        for fluent in self.rng.sample(of("state-fluent"), len(states)):
+        for name, fluent in self.rng.sample(states, len(states)):
             self.visible = constants + states + actions + derived + interm + next_states
-            self.define(fluent.name + "'", fluent)
-            next_states.append((fluent.name + "'", fluent))
-        for fluent in of("observ-fluent"):
+            self.define(name + "'", fluent)
+            next_states.append((name + "'", fluent))
+        for name, fluent in self.of("observ-fluent"):
             self.visible = constants + actions + derived + interm + next_states
-            self.define(fluent.name, fluent)
+            self.define(name, fluent)
         self.visible = constants + states + actions + derived + interm + next_states
-        self.problem.reward = self.number(4, rough=self.chance(0.5))
-        while not self.problem.reward.finite:
-            self.problem.reward = self.number(3)
+        rough = self.chance(0.5)
+        self.problem.reward = self.affordable(lambda depth: self.finite_number(depth, rough), 4)
+
+    def finite_number(self, depth: int, rough: bool) -> Expr:
+        value = self.number(depth, rough)
+        while not (value.finite or self.flavour.wild):
+            value = self.number(depth - 1, rough)
+        return value
 
     def define(self, name: str, fluent: Fluent) -> None:
+        parameters, body = self.definition(fluent)
+        self.problem.cpfs[name] = (parameters, body)
+        self.remember(body, parameters)
+
+    def definition(self, fluent: Fluent) -> tuple[tuple[str, ...], Expr]:
         parameters = tuple(f"?{parameter[0]}{i}" for i, parameter in enumerate(fluent.parameters))
         self.scope = list(zip(parameters, fluent.parameters))
         depth = self.pick([1, 2, 3, 4, 4, 5, 6])
-        if fluent.range == "bool":
-            body = self.delta(self.boolean(depth), "KronDelta(%s)")
+        shaped = self.shaped_definition(fluent) if self.chance(0.25) else None
+        if shaped is not None:
+            body = self.affordable(lambda _: shaped, 1)
+        elif fluent.range == "bool":
+            body = self.delta(self.affordable(self.boolean, depth), "KronDelta(%s)")
         elif fluent.range == "int":
-            body = self.delta(self.small_int(self.integer(depth)), "KronDelta(%s)")
+            value = self.affordable(self.integer, depth)
+            body = self.delta(self.small_int(fluent, value), "KronDelta(%s)")
         elif fluent.range == "real":
             body = self.delta(self.tame_real(fluent, depth), "DiracDelta(%s)")
         else:
-            body = self.member(fluent.range, depth)
+            body = self.affordable(lambda d: self.member(fluent.range, d), depth)
         self.scope = []
-        self.problem.cpfs[name] = (parameters, body)
+        return parameters, body
+
+    def remember(self, body: Expr, parameters: tuple[str, ...]) -> None:
+        """For later CPFs of the same parameters, which may say it again."""
+        parts = [part for part in body.all() if part.parts and is_closed(part)]
+        for part in self.rng.sample(parts, min(3, len(parts))):
+            self.said.append((part, part.free_variables(), part.names()))
 
     def delta(self, body: Expr, form: str) -> Expr:
         return Expr(body.kind, form, (body,)) if self.chance(0.15) else body
 
-    def small_int(self, value: Expr) -> Expr:
+    def small_int(self, fluent: Fluent, value: Expr) -> Expr:
         """Ints of fluents stay small."""
-        if value.magnitude <= 10:
+        if value.magnitude <= fluent.magnitude:
             return value
         form = self.pick(["max[-500, min[500, %s]]", "mod[%s, 50]", "mod[%s, -7]"])
         return Expr("int", form, (value,), 10)
@@ -210,9 +267,11 @@ class Generator:
     def tame_real(self, fluent: Fluent, depth: int) -> Expr:
         """A number for a real fluent. What may not be finite gets an interm-fluent of its own."""
         exact = fluent.is_exact()
-        value = self.number(depth, rough=not exact)
+        value = self.as_real(self.affordable(lambda d: self.number(d, rough=not exact), depth))
         if value.finite and value.magnitude <= 10 and (value.fraction <= 2 or not exact):
             return value
+        if self.flavour.wild:
+            return self.wild_real(fluent, value)
         if not value.finite and fluent.role != "observ-fluent" and "'" not in str(value):
             value = self.through_interm(fluent, value)
             form = "(if (%s >= -500.0 ^ %s <= 500.0) then %s + 0.0 else 0.25)"
@@ -221,11 +280,25 @@ class Generator:
                 return inside
             return Expr("real", "floor[4.0 * %s] / 4.0", (inside,), 10, 2)
         while not value.finite:
-            value = self.number(2, rough=not exact)
+            value = self.as_real(self.number(2, rough=not exact))
         bounded = Expr("real", "max[-500.0, min[500.0, %s]]", (value,), 10, value.fraction)
         if not exact or bounded.fraction <= 2:
             return bounded
         return Expr("real", "(round[4.0 * %s] / 4.0)", (bounded,), 10, 2)
+
+    def as_real(self, value: Expr) -> Expr:
+        """pyRDDLGym has an int where a later CPF of the step reads it, and computes with ints."""
+        if value.kind == "real" or self.flavour.wild or self.flavour.finite:
+            return value
+        return Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
+
+    def wild_real(self, fluent: Fluent, value: Expr) -> Expr:
+        """Within bounds, or nan; or infinite: what grows over steps would overflow."""
+        bounded = Expr("real", "max[-500.0, min[500.0, %s]]", (value,), 10, UNSURE, value.finite)
+        if not value.finite and self.chance(0.3):
+            condition = self.boolean(1)
+            return Expr("real", "(if (%s) then (1.0 / 0.0) else %s)", (condition, bounded), 10, UNSURE, False)
+        return bounded
 
     def through_interm(self, fluent: Fluent, value: Expr) -> Expr:
         name = f"raw-{fluent.name}"
@@ -238,577 +311,70 @@ class Generator:
         head = f"{name}({', '.join(variables)})" if variables else name
         return Expr("real", head, (), value.magnitude, value.fraction, False)
 
+    # ---------------------------------------------------------------- conditions and policies
+
     def make_conditions(self) -> None:
-        fluents = self.problem.fluents
-        self.visible = [
-            (f.name, f) for f in fluents if f.role in ("non-fluent", "state-fluent")
-        ]
+        self.visible = self.of("non-fluent", "state-fluent")
         for conditions, chance in (
             (self.problem.invariants, 0.3),
             (self.problem.terminations, 0.3),
         ):
             while self.chance(chance):
-                conditions.append(self.boolean(3))
-        self.visible += [(f.name, f) for f in fluents if f.role == "action-fluent"]
+                conditions.append(self.affordable(self.boolean, 3))
+        while self.chance(0.3):
+            self.problem.invariants += self.bounds_of_state()
+        self.visible = self.visible + self.of("action-fluent")
         while self.chance(0.4):
-            self.problem.preconditions.append(self.boolean(3))
-
-    # ------------------------------------------------------------------------------- leaves
-
-    def reference(self, kind: str, depth: int, exact: bool = True) -> Expr | None:
-        """A fluent of that range, its arguments from the scope, literals or nested."""
-        matching = [
-            (name, fluent)
-            for name, fluent in self.visible
-            if fluent.range == kind and (fluent.is_exact() or not exact)
-        ]
-        if not matching:
-            return None
-        name, fluent = self.pick(matching)
-        about = dict(magnitude=fluent.magnitude, fraction=fluent.fraction, finite=fluent.finite)
-        if not fluent.parameters:
-            return Expr(kind, name, **about)
-        arguments = []
-        for parameter in fluent.parameters:
-            argument = self.argument(parameter, depth)
-            if argument is None:
-                return None
-            arguments.append(argument)
-        return Expr(kind, f"{name}({', '.join(['%s'] * len(arguments))})", tuple(arguments), **about)
-
-    def argument(self, type_name: str, depth: int) -> Expr | None:
-        """A term: a variable, a literal, a fluent of that type, or argmax."""
-        variables = [variable for variable, of in self.scope if of == type_name]
-        type_ = self.problem.type(type_name)
-        options = []
-        if variables:
-            options.append((8, lambda: Expr(type_name, self.pick(variables))))
-        if type_.enumerated:
-            options.append((3, lambda: self.literal(type_)))
-        if depth > 0:
-            options.append((2, lambda: self.reference(type_name, depth - 1)))
-            options.append((1, lambda: self.arg_best(type_name, depth - 1)))
-            if self.stochastic:
-                options.append((1, lambda: self.discrete_over(type_name, depth - 1)))
-        if not options:
-            return self.arg_best(type_name, 0)
-        return self.pick_weighted(options)() or self.arg_best(type_name, 0)
-
-    def literal(self, type_: Type) -> Expr:
-        member = self.pick(type_.members)
-        bare = member[0].isalpha() and self.chance(0.2)
-        return Expr(type_.name, member if bare else type_.literal(member))
-
-    def constant(self, kind: str) -> Expr:
-        if kind == "bool":
-            return Expr("bool", self.pick(["true", "false"]))
-        if kind == "int":
-            return Expr("int", self.pick(["0", "1", "2", "3", "-1", "5", "10"]), (), 4)
-        texts = ["0.0", "1.0", "0.5", ".25", "2.5", "-1.5", "3.75", "-0.0"]
-        return Expr("real", self.pick(texts), (), 3, 2)
-
-    def leaf(self, kind: str, depth: int = 1, exact: bool = True) -> Expr:
-        found = None if self.chance(0.15) else self.reference(kind, depth, exact)
-        return found or self.constant(kind)
-
-    # ----------------------------------------------------------------------------- booleans
-
-    def boolean(self, depth: int) -> Expr:
-        if depth <= 0:
-            return self.leaf("bool")
-        options = [
-            (3, self.boolean_reference),
-            (3, self.logic),
-            (1, self.negation),
-            (4, self.comparison),
-            (1, self.number_comparison),
-            (1, lambda d: Expr("bool", "KronDelta(%s)", (self.boolean(d),))),
-            (2, self.object_equality),
-            (2, self.quantifier),
-            (1, lambda d: self.conditional("bool", self.boolean, d)),
-            (1, lambda d: self.switch("bool", self.boolean, d)),
-            (1, self.logic_chain),
-            (1, self.comparison_chain),
-        ]
-        if self.stochastic:
-            options.append((2, self.bernoulli))
-        return self.pick_weighted(options)(depth - 1) or self.leaf("bool")
-
-    def number_comparison(self, depth: int) -> Expr:
-        """Of two of the same few values, so that they are equal now and then."""
-        first, second = self.leaf(kind := self.pick(["int", "bool"]), depth), self.leaf(kind, depth)
-        return Expr("bool", f"(%s {self.pick(['==', '~=', '<=', '>'])} %s)", (first, second))
-
-    def boolean_reference(self, depth: int) -> Expr | None:
-        return self.reference("bool", depth)
-
-    def logic(self, depth: int) -> Expr:
-        op = self.pick(["^", "&", "|", "=>", "<=>"])
-        return Expr("bool", f"(%s {op} %s)", (self.boolean(depth), self.boolean(depth)))
-
-    def negation(self, depth: int) -> Expr:
-        return Expr("bool", "~%s", (self.grouped(self.boolean(depth)),))
-
-    def grouped(self, part: Expr) -> Expr:
-        return Expr(part.kind, self.pick(["(%s)", "[%s]"]), (part,), part.magnitude, part.fraction, part.finite)
-
-    def comparison(self, depth: int) -> Expr:
-        op = self.pick(["==", "~=", "<", "<=", ">", ">="])
-        return Expr("bool", f"(%s {op} %s)", (self.number(depth), self.number(depth)))
-
-    def object_equality(self, depth: int) -> Expr:
-        type_ = self.any_type()
-        first, second = self.member(type_.name, depth), self.member(type_.name, depth)
-        return Expr("bool", f"(%s {self.pick(['==', '~='])} %s)", (first, second))
-
-    def quantifier(self, depth: int) -> Expr | None:
-        return self.aggregation(
-            lambda: self.boolean(depth),
-            lambda binder, body, _n: Expr("bool", f"({self.pick(['forall', 'exists'])}_{binder} [%s])", (body,)),
-        )
-
-    def logic_chain(self, depth: int) -> Expr:
-        """No brackets: precedence and association decide."""
-        parts = [self.boolean(0) for _ in range(self.rng.randint(2, 5))]
-        parts = [Expr("bool", "~%s", (p,)) if self.chance(0.2) else p for p in parts]
-        if self.chance(0.3):
-            parts[-1] = self.open_quantifier(parts[-1])
-        return self.chain("bool", parts, ["^", "&", "|", "=>", "<=>"])
-
-    def open_quantifier(self, part: Expr) -> Expr:
-        variable, type_ = self.fresh_variable(), self.any_type()
-        form = f"{self.pick(['forall', 'exists'])}_{{{variable} : {type_.name}}} %s"
-        return Expr("bool", form, (part,))
-
-    def comparison_chain(self, depth: int) -> Expr:
-        parts = [self.leaf(self.pick(["int", "real", "bool"]), 0) for _ in range(3)]
-        ops = ["<", "<=", ">", ">=", "==", "~=", "+", "-"]
-        return self.chain("bool", parts, ops, first=self.pick(ops[:6]))
-
-    def chain(self, kind: str, parts, ops, first: str | None = None, **about) -> Expr:
-        forms = ["%s"]
-        for number in range(len(parts) - 1):
-            forms.append(first if first and number == 0 else self.pick(ops))
-            forms.append("%s")
-        return Expr(kind, f"({' '.join(forms)})", tuple(parts), **about)
-
-    # ------------------------------------------------------------------------------ numbers
-
-    def number(self, depth: int, rough: bool = False) -> Expr:
-        """A bool, int or real; exact unless rough will do."""
-        kind = self.pick_weighted([(1, "bool"), (3, "int"), (6, "real")])
-        if kind == "bool" and depth <= 2:
-            return self.boolean(min(depth, 2))
-        if kind == "int":
-            return self.exact_int(self.integer(depth))
-        return self.real(depth, rough)
-
-    def exact_int(self, value: Expr) -> Expr:
-        """Ints that become reals must fit there."""
-        return value if value.magnitude <= 40 else Expr("int", "mod[%s, 97]", (value,), 8)
-
-    def integer(self, depth: int) -> Expr:
-        if depth <= 0:
-            return self.leaf("int")
-        options = [
-            (2, lambda d: self.reference("int", d)),
-            (4, lambda d: self.arithmetic("int", self.integer, d)),
-            (3, self.rounding),
-            (2, self.division_of_ints),
-            (1, lambda d: self.minimum(self.integer, d)),
-            (2, lambda d: self.reduction(self.int_or_bool, d)),
-            (1, lambda d: self.conditional("int", self.integer, d)),
-            (1, lambda d: self.switch("int", self.integer, d)),
-            (1, self.power_of_ints),
-            (1, lambda d: self.unary(self.integer(d))),
-            (1, lambda d: Expr("int", "abs[%s]", (value := self.integer(d),), value.magnitude)),
-            (1, self.wild_int),
-            (1, lambda d: Expr("int", "KronDelta(%s)", (value := self.integer(d),), value.magnitude)),
-            (1, self.of_bools),
-            (1, self.of_nothing),
-        ]
-        if self.stochastic:
-            options.append((2, self.counting_draw))
-        return self.pick_weighted(options)(depth - 1) or self.leaf("int")
-
-    def int_or_bool(self, depth: int) -> Expr:
-        return self.boolean(depth) if self.chance(0.3) else self.integer(depth)
-
-    def real(self, depth: int, rough: bool = False) -> Expr:
-        if depth <= 0:
-            return self.leaf("real", exact=not rough)
-        part = lambda d: self.number(d, rough)  # noqa: E731
-        options = [
-            (3, lambda d: self.reference("real", d, exact=not rough)),
-            (5, lambda d: self.arithmetic("real", part, d)),
-            (1, lambda d: self.minimum(part, d)),
-            (2, lambda d: self.reduction(part, d)),
-            (2, lambda d: self.average(d, rough)),
-            (2, lambda d: self.conditional("real", part, d)),
-            (1, lambda d: self.switch("real", part, d)),
-            (2, self.exact_division),
-            (1, lambda d: self.unary(self.real(d, rough))),
-            (2, self.edge),
-            (1, lambda d: self.numeric_chain(d, rough)),
-            (1, lambda d: self.dirac(self.real(d, rough))),
-        ]
-        if rough:
-            options += [(5, self.rough_function), (2, self.rough_division), (2, self.edge_function)]
-        if self.stochastic:
-            options.append((3 if rough else 0, self.continuous_draw))
-        return self.pick_weighted(options)(depth - 1) or self.leaf("real", exact=not rough)
-
-    def dirac(self, part: Expr) -> Expr:
-        return Expr("real", "DiracDelta(%s)", (part,), part.magnitude, part.fraction, part.finite)
-
-    def arithmetic(self, kind: str, part, depth: int) -> Expr | None:
-        first, second = part(depth), part(depth)
-        op = self.pick(["+", "+", "-", "-", "*", "*"])
-        kind = "real" if "real" in (first.kind, second.kind) else "int"
-        magnitude = max(first.magnitude, second.magnitude) + 1
-        fraction = max(first.fraction, second.fraction)
-        finite = first.finite and second.finite
-        if op == "*":
-            if not finite and self.scope:
-                return None  # 0 * inf
-            magnitude = first.magnitude + second.magnitude
-            fraction = min(UNSURE, first.fraction + second.fraction)
-        return self.known(kind, f"(%s {op} %s)", (first, second), magnitude, fraction, finite)
-
-    def known(self, kind, form, parts, magnitude, fraction=0, finite=True) -> Expr | None:
-        """Nothing if an exact value would no longer be exact, or the int wraps around."""
-        if magnitude > 60:
-            return None
-        rough = any(p.kind not in self.type_names() and p.fraction >= UNSURE for p in parts)
-        if rough:
-            fraction = UNSURE
-        elif magnitude + fraction > 50 and (kind == "real" or magnitude > 60):
-            return None
-        return Expr(kind, form, parts, magnitude, fraction, finite)
-
-    def type_names(self) -> set[str]:
-        return {t.name for t in self.problem.types}
-
-    def minimum(self, part, depth: int) -> Expr:
-        first, second = part(depth), part(depth)
-        kind = "real" if "real" in (first.kind, second.kind) else "int"
-        return Expr(
-            kind,
-            f"{self.pick(['min', 'max'])}[%s, %s]",
-            (first, second),
-            max(first.magnitude, second.magnitude),
-            max(first.fraction, second.fraction),
-            first.finite and second.finite,
-        )
-
-    def unary(self, part: Expr) -> Expr:
-        # Unary plus is broken in pyRDDLGym within a scope.
-        sign = "+" if not self.scope and self.chance(0.3) else "-"
-        return Expr(part.kind, sign + "%s", (self.grouped(part),), part.magnitude, part.fraction, part.finite)
-
-    def rounding(self, depth: int) -> Expr:
-        value = self.number(depth)
-        name = self.pick(["round", "floor", "ceil", "sgn"])
-        if self.chance(0.1):
-            large = self.pick(["9223372036854775807.0", "10000000000000000000.0", "4503599627370497.5"])
-            value = Expr("real", f"({self.pick(['max', 'min'])}[%s, {large}])", (value,), 70)
-        magnitude = value.magnitude + 1 if value.finite else 64
-        return Expr("int", f"{name}[%s]", (value,), magnitude)
-
-    def division_of_ints(self, depth: int) -> Expr:
-        first, second = self.int_or_bool(depth), self.int_or_bool(depth)
-        name = self.pick(["div", "mod", "fmod"])
-        magnitude = max(first.magnitude, second.magnitude)
-        return Expr("int", f"{name}[%s, %s]", (first, second), magnitude)
-
-    def power_of_ints(self, depth: int) -> Expr:
-        base, exponent = self.int_or_bool(depth), self.integer(depth)
-        exponent = Expr("int", self.pick(["mod[%s, 4]", "abs[%s]"]), (exponent,), exponent.magnitude)
-        return Expr("int", "pow[%s, %s]", (base, exponent), 64)
-
-    def of_bools(self, depth: int) -> Expr:
-        """Bools count as 0 and 1."""
-        form = self.pick(["(%s + %s)", "(%s * %s)", "(%s - %s)", "max[%s, %s]", "min[%s, %s]"])
-        return Expr("int", form, (self.boolean(depth), self.boolean(depth)), 2)
-
-    def of_nothing(self, depth: int) -> Expr | None:
-        """An aggregation over a type without members."""
-        if self.problem.type("none") is None:
-            self.problem.types.append(Type("none", True, []))
-        variable = self.fresh_variable()
-        name = self.pick(["sum", "prod"])
-        return Expr("int", f"({name}_{{{variable} : none}} [%s])", (self.integer(depth),), 2)
-
-    def wild_int(self, depth: int) -> Expr | None:
-        """Wraps around. One operand is a fluent, since pyRDDLGym has big ints among literals."""
-        fluent = self.reference("int", 0)
-        if fluent is None:
-            return None
-        literal = Expr("int", self.pick(LARGE_INTS))
-        return Expr("int", f"(%s {self.pick(['+', '*', '-'])} %s)", (fluent, literal), 64)
-
-    def exact_division(self, depth: int) -> Expr | None:
-        value = self.number(depth)
-        divisor = self.pick(["2.0", "4", "-0.5", "8.0"])
-        return self.known(
-            "real", f"(%s / {divisor})", (value,), value.magnitude + 1, value.fraction + 3, value.finite
-        )
-
-    def edge(self, depth: int) -> Expr:
-        """Infinities and nan, and what makes them."""
-        if self.chance(0.4):
-            return Expr("real", self.pick(EDGE_REALS), (), 3, 2, False)
-        value = self.number(depth)
-        if self.chance(0.5):
-            divisor = self.boolean(depth - 1)
-            return Expr("real", "(%s / %s)", (value, divisor), value.magnitude, value.fraction, False)
-        divisor = self.number(depth - 1)
-        magnitude = max(value.magnitude, divisor.magnitude)
-        fraction = max(value.fraction, divisor.fraction)
-        if "real" not in (value.kind, divisor.kind):
-            value = Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
-        return Expr("real", "fmod[%s, %s]", (value, divisor), magnitude, fraction, False)
-
-    def numeric_chain(self, depth: int, rough: bool) -> Expr | None:
-        """No brackets: precedence, association, and open ends decide."""
-        parts = [self.leaf(self.pick(["int", "real", "bool"]), 0) for _ in range(self.rng.randint(2, 4))]
-        if not all(p.finite for p in parts):
-            return None
-        parts = [Expr(p.kind, "-%s", (p,), p.magnitude, p.fraction) if self.chance(0.15) else p for p in parts]
-        if self.chance(0.4):
-            variable, type_ = self.fresh_variable(), self.any_type()
-            name = self.pick(["sum", "min", "max"])
-            end = f"{name}_{{{variable} : {type_.name}}} %s"
-            if self.chance(0.3):
-                end = "if (%s) then 1 else %s"
-                parts[-1] = Expr("real", end, (self.boolean(0), parts[-1]), 10, 2)
-            else:
-                parts[-1] = Expr("real", end, (parts[-1],), 12, 2)
-        return self.chain("real", parts, ["+", "-", "*"], magnitude=36, fraction=8)
-
-    def rough_division(self, depth: int) -> Expr:
-        first, second = self.number(depth, True), self.number(depth, True)
-        return Expr(
-            "real", "(%s / (abs[%s] + 0.5))", (first, second), first.magnitude + 1, UNSURE,
-            first.finite and second.finite,
-        )  # fmt: skip
-
-    def rough_function(self, depth: int) -> Expr | None:
-        form = self.pick(ROUGH_FUNCTIONS + ("hypot[%s, %s]", "pow[%s, %s]", "log[%s, %s]"))
-        if form.startswith("hypot"):
-            parts = (self.number(depth, True), self.number(depth, True))
-            magnitude = max(p.magnitude for p in parts) + 1
-        elif form.startswith("pow"):
-            form = "pow[min[abs[%s], 9.0] + 0.5, max[-3.0, min[3.0, %s]]]"
-            parts, magnitude = (self.number(depth, True), self.number(depth, True)), 12
-        elif form.startswith("log"):
-            form = "log[abs[%s] + 0.5, 2.0 + abs[%s]]"
-            parts, magnitude = (self.number(depth, True), self.number(depth, True)), 5
-        else:
-            parts = (self.number(depth, True),)
-            magnitude = 40 if form.startswith(("lngamma", "gamma")) else max(12, parts[0].magnitude)
-        # sin of a large unsure number is anything.
-        if any(p.magnitude > 20 or not p.finite for p in parts):
-            return None
-        return Expr("real", form, parts, magnitude, UNSURE)
-
-    def edge_function(self, depth: int) -> Expr:
-        """Functions outside of their domain: of exact numbers, so that nan and inf are sure."""
-        form = self.pick(EDGE_FUNCTIONS)
-        parts = [self.number(depth) for _ in range(form.count("%s"))]
-        if form.startswith("pow") and parts[0].kind != "real":
-            first = parts[0]
-            parts[0] = Expr("real", "(%s + 0.0)", (first,), first.magnitude + 1, first.fraction, first.finite)
-        if form[:3] in ("tan", "sin", "cos") and parts[0].magnitude > 20:
-            form = "sqrt[%s]"
-        return Expr("real", form, tuple(parts), 30, UNSURE, False)
-
-    # ------------------------------------------------------------- aggregations and choices
-
-    def fresh_variable(self) -> str:
-        self.variable_count += 1
-        return f"?v{self.variable_count}"
-
-    def aggregation(self, make_body, make, most: int = 3):
-        """make(binder, body, number of elements) with 1 to `most` variables in the scope of the body."""
-        types = [self.any_type() for _ in range(self.rng.choice([1, 1, 1, 2, 3][: most + 2]))]
-        types = types[:most]
-        count = math.prod(len(t.members) for t in types)
-        scope = math.prod(self.size(t) for _, t in self.scope) * count
-        if scope > LARGEST_SCOPE or self.work * count > LARGEST_WORK:
-            return None
-        variables = [(self.fresh_variable(), t.name) for t in types]
-        self.scope += variables
-        self.work *= count
-        body = make_body()
-        del self.scope[-len(variables) :]
-        self.work //= count
-        binder = "{" + ", ".join(f"{variable} : {of}" for variable, of in variables) + "}"
-        return make(binder, body, count)
-
-    def reduction(self, part, depth: int) -> Expr | None:
-        name = self.pick(["sum", "sum", "prod", "min", "max"])
-
-        def make(binder, body, count):
-            kind = "real" if body.kind == "real" else "int"
-            magnitude, fraction = body.magnitude, body.fraction
-            if name == "sum":
-                magnitude += math.ceil(math.log2(count)) if count else 0
-            elif name == "prod":
-                magnitude, fraction = magnitude * max(count, 1), min(UNSURE, fraction * max(count, 1))
-            if name == "prod" and not body.finite and count > 1:
-                return None
-            form = f"({name}_{binder} [%s])"
-            return self.known(kind, form, (body,), magnitude, fraction, body.finite)
-
-        return self.aggregation(lambda: part(depth), make)
-
-    def average(self, depth: int, rough: bool) -> Expr | None:
-        def make(binder, body, count):
-            if body.magnitude > 40 or (count not in (1, 2, 4, 8) and not rough):
-                return None
-            fraction = body.fraction + int(math.log2(count)) if count in (1, 2, 4, 8) else UNSURE
-            form = f"(avg_{binder} [%s])"
-            return self.known("real", form, (body,), body.magnitude + 6, fraction, body.finite)
-
-        return self.aggregation(lambda: self.number(depth, rough), make)
-
-    def arg_best(self, type_name: str, depth: int) -> Expr:
-        variable = self.fresh_variable()
-        self.scope.append((variable, type_name))
-        self.nested_terms += 1
-        body = self.number(depth) if self.nested_terms <= 3 else self.constant("int")
-        self.nested_terms -= 1
-        self.scope.pop()
-        form = f"{self.pick(['argmax', 'argmin'])}_{{{variable} : {type_name}}} [%s]"
-        return Expr(type_name, form, (body,))
-
-    def conditional(self, kind: str, part, depth: int) -> Expr:
-        condition = self.boolean(depth)
-        return self.choice(kind, "(if (%s) then %s else %s)", (condition,), [part(depth), part(depth)])
-
-    def choice(self, kind: str, form: str, before: tuple[Expr, ...], values: list[Expr]) -> Expr:
-        if kind == "real" and all(v.kind != "real" for v in values):
-            values[0] = Expr("real", "(%s + 0.0)", (values[0],), values[0].magnitude, 0, values[0].finite)
-        return Expr(
-            kind,
-            form,
-            (*before, *values),
-            max(v.magnitude for v in values),
-            max(v.fraction for v in values),
-            all(v.finite for v in values),
-        )
-
-    def switch(self, kind: str, part, depth: int) -> Expr | None:
-        enumerated = [t for t in self.problem.types if t.enumerated and t.members]
-        type_ = self.pick(enumerated)
-        subject = self.reference(type_.name, min(depth, 1))
-        if subject is None:
-            return None
-        members = list(type_.members)
-        self.rng.shuffle(members)
-        labels = [f"case @{member}" for member in members]
-        if self.chance(0.5):
-            labels[self.rng.randrange(len(labels)) :] = ["default"]
-            self.rng.shuffle(labels)
-        form = "(switch (%s) { " + ", ".join(f"{label} : %s" for label in labels) + " })"
-        return self.choice(kind, form, (subject,), [part(depth) for _ in labels])
-
-    # ------------------------------------------------------------------------------ objects
-
-    def member(self, type_name: str, depth: int) -> Expr:
-        type_ = self.problem.type(type_name)
-        variables = [variable for variable, of in self.scope if of == type_name]
-        options = [(2, lambda d: self.reference(type_name, d)), (1, lambda d: self.arg_best(type_name, d))]
-        if variables:
-            options.append((2, lambda _d: Expr(type_name, self.pick(variables))))
-        if type_.enumerated:
-            options.append((2, lambda _d: self.literal(type_)))
-        if depth > 0:
-            part = lambda d: self.member(type_name, d)  # noqa: E731
-            options.append((2, lambda d: self.conditional(type_name, part, d)))
-            options.append((1, lambda d: self.switch(type_name, part, d)))
-            if self.stochastic:
-                options.append((2, lambda d: self.discrete_over(type_name, d)))
-                if type_.enumerated:
-                    options.append((2, lambda d: self.discrete(type_, d)))
-        found = self.pick_weighted(options)(max(0, depth - 1))
-        return self.grouped(found or self.arg_best(type_name, 0))
-
-    # ------------------------------------------------------------------------ distributions
-
-    def probability(self, depth: int) -> Expr:
-        if self.chance(0.5):
-            return Expr("real", self.pick(["0.5", "0.0", "1", "0.25", "true", "0.9"]))
-        value = self.number(depth, True)
-        # Faults now and then.
-        return Expr("real", "max[0.0, min[1.0, %s]]" if self.chance(0.9) else "%s", (value,))
-
-    def positive(self, depth: int) -> Expr:
-        value = self.number(depth, True)
-        return Expr("real", "(min[abs[%s], 20] + 0.5)" if self.chance(0.95) else "%s", (value,))
-
-    def bernoulli(self, depth: int) -> Expr:
-        return Expr("bool", "Bernoulli(%s)", (self.probability(depth),))
-
-    def counting_draw(self, depth: int) -> Expr:
-        form, parameters = self.pick(
-            [
-                ("Poisson(%s)", [self.positive]),
-                ("Geometric(max[0.01, %s])", [self.probability]),
-                ("Binomial(mod[%s, 20], %s)", [self.integer, self.probability]),
-                ("NegativeBinomial(%s, max[0.01, %s])", [self.positive, self.probability]),
-            ]
-        )
-        return Expr("int", form, tuple(make(depth) for make in parameters), 30)
-
-    def continuous_draw(self, depth: int) -> Expr:
-        two = self.pick(["Weibull", "Gamma", "Beta", "Pareto", "Gompertz", "Kumaraswamy"])
-        located = self.pick(["Normal", "Gumbel", "Laplace", "Cauchy"])
-        rough = lambda d: self.number(d, True)  # noqa: E731
-        form, parameters = self.pick(
-            [
-                (f"{two}(%s, %s)", [self.positive, self.positive]),
-                (f"{located}(%s, %s)", [rough, self.positive]),
-                (f"{self.pick(['Exponential', 'Student', 'ChiSquare'])}(%s)", [self.positive]),
-                ("Uniform(-1, %s)", [self.positive]),
-            ]
-        )
-        return Expr("real", form, tuple(make(depth) for make in parameters), 30, UNSURE, False)
-
-    def discrete(self, type_: Type, depth: int) -> Expr:
-        members = list(type_.members)
-        self.rng.shuffle(members)
-        if self.chance(0.5):
-            weights = ["0.0"] * len(members)
-            weights[0] = "0.75"
-            weights[-1] = "0.25" if len(members) > 1 else "1.0"
-            cases = ", ".join(f"@{m} : {w}" for m, w in zip(members, weights))
-            return Expr(type_.name, f"Discrete({type_.name}, {cases})")
-        cases = ", ".join(f"@{m} : %s" for m in members)
-        weights = tuple(self.positive(depth) for _ in members)
-        return Expr(type_.name, f"UnnormDiscrete({type_.name}, {cases})", weights)
-
-    def discrete_over(self, type_name: str, depth: int) -> Expr:
-        variable = self.fresh_variable()
-        self.scope.append((variable, type_name))
-        self.nested_terms += 1
-        weight = self.positive(depth) if self.nested_terms <= 3 else Expr("real", "0.5")
-        self.nested_terms -= 1
-        self.scope.pop()
-        return Expr(type_name, f"UnnormDiscrete_{{{variable} : {type_name}}} [%s]", (weight,))
-
-
-def generate(seed: int, stochastic: bool = False) -> Problem:
-    return Generator(seed, stochastic).generate()
+            self.problem.preconditions.append(self.affordable(self.boolean, 3))
+
+    def make_policy(self) -> None:
+        """Sees what is observed, remembers one or two things, and gives every action."""
+        own = [self.declared("memo", "state-fluent", self.pick(["bool", "int", "real"]), ())]
+        first = self.problem.types[0].name
+        own.append(self.declared("memos", "state-fluent", self.pick(["bool", "int"]), (first,)))
+        for fluent in own:
+            fluent.values.clear()  # the instance gives none
+        derived = self.declared("hint", "derived-fluent", self.pick(["bool", "real"]), (first,))
+        seen = self.of("observ-fluent") or self.of("state-fluent")
+        memory = [(f.name, f) for f in own]
+        policy = Policy([*own, derived])
+        self.visible = self.of("non-fluent") + seen + memory
+        policy.cpfs["hint"] = self.definition(derived)
+        self.visible = self.visible + [("hint", derived)]
+        for name, fluent in self.of("action-fluent"):
+            policy.cpfs[name] = self.definition(fluent)
+        self.visible = self.visible + self.of("action-fluent")
+        for name, fluent in memory:
+            policy.cpfs[name + "'"] = self.definition(fluent)
+        self.problem.policy = policy
+
+    def make_initial_draws(self) -> None:
+        forms = {
+            "bool": ["Bernoulli(0.5)", "Bernoulli(0.1)"],
+            "int": ["Poisson(2.0)", "Binomial(5, 0.5)", "Geometric(0.4)"],
+            "real": ["Uniform(-1, 2)", "Normal(0, 1)", "Exponential(2.0)"],
+        }
+        for _, fluent in self.of("state-fluent"):
+            for objects in self.problem.groundings(fluent):
+                if fluent.range in forms and self.chance(0.3):
+                    fluent.values[objects] = self.pick(forms[fluent.range])
+
+
+def is_closed(expr: Expr) -> bool:
+    """It stands in any place without brackets: no chain goes on in it."""
+    return expr.form.startswith("(") or re.match(r"[A-Za-z-]+[\[(]", expr.form) is not None
+
+
+def generate(seed: int, flavour: str = "plain") -> Problem:
+    return Generator(seed, flavour).generate()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("seed", type=int)
-    parser.add_argument("--random", action="store_true", help="with distributions")
+    parser.add_argument("--flavour", choices=FLAVOURS, default="plain")
     arguments = parser.parse_args()
-    print(generate(arguments.seed, arguments.random).text(), end="")
+    print(generate(arguments.seed, arguments.flavour).text(), end="")
 
 
 if __name__ == "__main__":

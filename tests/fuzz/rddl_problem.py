@@ -34,6 +34,20 @@ class Expr:
         for part in self.parts:
             yield from part.all()
 
+    def bound_variables(self) -> frozenset[str]:
+        """By the expression itself: the binder is a part of its form."""
+        return frozenset(variables_in(self.form)) if "_{" in self.form else frozenset()
+
+    def free_variables(self) -> frozenset[str]:
+        inside = frozenset().union(*(part.free_variables() for part in self.parts))
+        if bound := self.bound_variables():
+            return inside - bound
+        return inside | frozenset(variables_in(self.form))
+
+    def names(self) -> set[str]:
+        """Fluents, with their primes; other words, too."""
+        return set(re.findall(r"(?<![?@\w])[A-Za-z](?:[\w-]*[A-Za-z0-9])?'?", str(self)))
+
 
 @dataclass
 class Type:
@@ -63,7 +77,23 @@ class Fluent:
 
 
 @dataclass
+class Policy:
+    """A policy block, whose fluents are its own."""
+
+    fluents: list[Fluent] = field(default_factory=list)
+    cpfs: dict[str, tuple[tuple[str, ...], Expr]] = field(default_factory=dict)
+
+    def text(self) -> str:
+        lines = ["policy p {", "    pvariables {"]
+        lines += ["        " + declaration(fluent) for fluent in self.fluents]
+        lines += ["    };", "    cpfs {", *definitions(self.cpfs), "    };", "}", ""]
+        return "\n".join(lines)
+
+
+@dataclass
 class Problem:
+    flavour: str = "plain"  # generate.py
+    name: str = "i"  # of the instance
     types: list[Type] = field(default_factory=list)
     fluents: list[Fluent] = field(default_factory=list)
     cpfs: dict[str, tuple[tuple[str, ...], Expr]] = field(default_factory=dict)  # left-hand side
@@ -73,24 +103,30 @@ class Problem:
     terminations: list[Expr] = field(default_factory=list)
     horizon: int = 20
     max_nondef_actions: str = "pos-inf"
+    policy: Policy | None = None
 
     def type(self, name: str) -> Type | None:
         return next((t for t in self.types if t.name == name), None)
 
     def fluent(self, name: str) -> Fluent:
-        return next(f for f in self.fluents if f.name == name)
+        own = self.policy.fluents if self.policy else []
+        return next(f for f in (*self.fluents, *own) if f.name == name)
 
     def groundings(self, fluent: Fluent):
         members = [self.type(parameter).members for parameter in fluent.parameters]
         return itertools.product(*members)
 
     def expressions(self) -> list[Expr]:
-        cpfs = [body for _, body in self.cpfs.values()]
+        own = self.policy.cpfs if self.policy else {}
+        cpfs = [body for _, body in (*self.cpfs.values(), *own.values())]
         return cpfs + [self.reward] + self.preconditions + self.invariants + self.terminations
 
     def text(self) -> str:
         """Domain and instance in one."""
-        return self.domain_text() + self.instance_text()
+        return self.domain_text() + self.instance_text() + self.policy_text()
+
+    def policy_text(self) -> str:
+        return self.policy.text() if self.policy else ""
 
     def domain_text(self) -> str:
         enumerated = [t for t in self.types if t.enumerated]
@@ -101,10 +137,7 @@ class Problem:
             lines.append(f"        {t.name} : {{ {', '.join('@' + m for m in t.members)} }};")
         lines += ["    };", "    pvariables {"]
         lines += ["        " + declaration(fluent) for fluent in self.fluents]
-        lines += ["    };", "    cpfs {"]
-        for name, (parameters, body) in self.cpfs.items():
-            head = f"{name}({', '.join(parameters)})" if parameters else name
-            lines.append(f"        {head} = {body};")
+        lines += ["    };", "    cpfs {", *definitions(self.cpfs)]
         lines += ["    };", f"    reward = {self.reward};"]
         for block, conditions in (
             ("action-preconditions", self.preconditions),
@@ -122,7 +155,7 @@ class Problem:
             lists = [f"{t.name} : {{ {', '.join(t.members)} }};" for t in objects]
             lines.append(f"    objects {{ {' '.join(lists)} }};")
         lines += self._values("non-fluents", "non-fluent")
-        lines += ["}", "instance i {", "    domain = fuzz;", "    non-fluents = nf;"]
+        lines += ["}", f"instance {self.name} {{", "    domain = fuzz;", "    non-fluents = nf;"]
         lines += self._values("init-state", "state-fluent")
         lines += [f"    max-nondef-actions = {self.max_nondef_actions};"]
         lines += [f"    horizon = {self.horizon};", "    discount = 0.9;", "}", ""]
@@ -140,10 +173,28 @@ class Problem:
         return [f"    {block} {{", *lines, "    };"] if lines else []
 
 
+def definitions(cpfs: dict[str, tuple[tuple[str, ...], Expr]]) -> list[str]:
+    lines = []
+    for name, (parameters, body) in cpfs.items():
+        head = f"{name}({', '.join(parameters)})" if parameters else name
+        lines.append(f"        {head} = {body};")
+    return lines
+
+
 def declaration(fluent: Fluent) -> str:
     parameters = f"({', '.join(fluent.parameters)})" if fluent.parameters else ""
     default = f", default = {fluent.default}" if fluent.default is not None else ""
     return f"{fluent.name}{parameters} : {{ {fluent.role}, {fluent.range}{default} }};"
+
+
+def work_of(expr: Expr, problem: Problem) -> int:
+    """Operations of one evaluation, about."""
+    inside = sum(work_of(part, problem) for part in expr.parts)
+    if "_{" not in expr.form:
+        return 1 + inside
+    for type_ in re.findall(r"\?[\w-]+ : ([\w-]+)", expr.form):
+        inside *= len(problem.type(type_).members)
+    return 1 + inside
 
 
 def variables_in(text: str) -> set[str]:
@@ -152,4 +203,4 @@ def variables_in(text: str) -> set[str]:
 
 def names_in(text: str) -> set[str]:
     """Fluents by name, primes removed."""
-    return set(re.findall(r"(?<![?@\w-])[A-Za-z](?:[\w-]*[A-Za-z0-9])?", text))
+    return set(re.findall(r"(?<![?@\w])[A-Za-z](?:[\w-]*[A-Za-z0-9])?", text))

@@ -4,7 +4,7 @@ import copy
 import time
 from collections.abc import Callable, Iterator
 
-from rddl_problem import Expr, Problem, names_in, variables_in
+from rddl_problem import Expr, Problem, names_in
 
 CONSTANTS = {
     "bool": [Expr("bool", "false"), Expr("bool", "true")],
@@ -30,6 +30,8 @@ def reduce(problem: Problem, fails: Callable[[Problem], bool], seconds: float) -
 
 def smaller_problems(problem: Problem) -> Iterator[Problem]:
     """Each simpler in one respect, those that save most first."""
+    if problem.policy:
+        yield changed(problem, lambda p: setattr(p, "policy", None))
     yield from with_simpler_bodies(problem)
     yield from without_conditions(problem)
     yield from without_fluents(problem)
@@ -64,6 +66,10 @@ def without_fluents(problem: Problem) -> Iterator[Problem]:
         own = {fluent.name, fluent.name + "'"}
         others = [str(body) for name, (_, body) in problem.cpfs.items() if name not in own]
         rest = problem.preconditions + problem.invariants + problem.terminations + [problem.reward]
+        if problem.policy:
+            if fluent.role == "action-fluent":
+                continue
+            rest += [body for _, body in problem.policy.cpfs.values()]
         if not any(fluent.name in names_in(text) for text in (*others, *map(str, rest))):
 
             def drop(p: Problem) -> None:
@@ -80,19 +86,20 @@ def without_initial_values(problem: Problem) -> Iterator[Problem]:
 
 
 def with_smaller_types(problem: Problem) -> Iterator[Problem]:
-    """Without its last member, unless the text names it."""
+    """Without its last members, half of them or one, unless the text names one."""
     used = " ".join(str(e) for e in problem.expressions())
     for type_ in problem.types:
-        last = type_.members[-1] if type_.members else ""
-        if len(type_.members) <= 1 or last in used or names_as_value(problem, last):
-            continue
+        for count in sorted({len(type_.members) // 2, 1}, reverse=True):
+            last = set(type_.members[len(type_.members) - count :])
+            if count >= len(type_.members) or any(m in used or names_as_value(problem, m) for m in last):
+                continue
 
-        def shrink(p: Problem) -> None:
-            p.type(type_.name).members.pop()
-            for fluent in p.fluents:
-                fluent.values = {o: v for o, v in fluent.values.items() if last not in o}
+            def shrink(p: Problem) -> None:
+                del p.type(type_.name).members[-count:]
+                for fluent in p.fluents:
+                    fluent.values = {o: v for o, v in fluent.values.items() if not last & set(o)}
 
-        yield changed(problem, shrink)
+            yield changed(problem, shrink)
 
 
 def names_as_value(problem: Problem, member: str) -> bool:
@@ -118,9 +125,9 @@ def smaller_expressions(expr: Expr, scope: frozenset) -> Iterator[Expr]:
         for constant in CONSTANTS.get(expr.kind, []):
             yield constant
         for part in list(expr.all())[1:]:
-            if fits(part, expr) and free_variables(part) <= scope:
+            if fits(part, expr) and part.free_variables() <= scope:
                 yield part
-    inner = scope | bound_variables(expr)
+    inner = scope | expr.bound_variables()
     for index, part in enumerate(expr.parts):
         for smaller in smaller_expressions(part, inner):
             parts = (*expr.parts[:index], smaller, *expr.parts[index + 1 :])
@@ -135,18 +142,6 @@ def fits(part: Expr, whole: Expr) -> bool:
         and part.fraction <= whole.fraction
         and part.finite >= whole.finite
     )
-
-
-def bound_variables(expr: Expr) -> frozenset:
-    """By the expression itself: the binder is a part of its form."""
-    return frozenset(variables_in(expr.form)) if "_{" in expr.form else frozenset()
-
-
-def free_variables(expr: Expr) -> frozenset:
-    inside = frozenset().union(*(free_variables(part) for part in expr.parts))
-    if bound := bound_variables(expr):
-        return inside - bound
-    return inside | frozenset(variables_in(expr.form))
 
 
 def changed(problem: Problem, change: Callable[[Problem], object]) -> Problem:

@@ -1,32 +1,36 @@
-"""Tests of the fuzzer itself: that it is repeatable, that it notices, that it reduces."""
+"""Tests of the fuzzer itself: that it is repeatable, notices, reduces, goes on, and draws enough."""
 
 import argparse
 import itertools
+import subprocess
 import tempfile
+import types
 import unittest
 import unittest.mock
+from collections import Counter
 from pathlib import Path
 
 import differential
-from fuzz_models import Task, judge
-from generate import generate
+import fuzz_models
+from generate import FLAVOURS, generate
+from passes_check import PassChecker
 from reduce import reduce
 
-OPTIONS = argparse.ArgumentParser()
-OPTIONS.add_argument("--rddl", type=Path)
-OPTIONS.add_argument("rest", nargs="*")
-arguments = OPTIONS.parse_args()
+ARGUMENTS = argparse.ArgumentParser()
+ARGUMENTS.add_argument("--bin", type=Path)
+ARGUMENTS.add_argument("rest", nargs="*")
+arguments = ARGUMENTS.parse_args()
 
 
 def counting_problem():
-    """The first random problem with a sum."""
-    return next(p for p in map(generate, itertools.count()) if "sum_{" in p.domain_text())
+    """The first random problem with a sum that pyRDDLGym runs."""
+    problems = (p for p in map(generate, itertools.count()) if "sum_{" in p.domain_text())
+    return next(p for p in problems if compared(p).values > 0)
 
 
-def judged(problem):
-    options = argparse.Namespace(rddl=arguments.rddl, exercise=None, steps=20, compiled_every=0)
+def compared(problem):
     with tempfile.TemporaryDirectory() as folder:
-        return judge(Task(0, options), problem, Path(folder), ["interpreter"])
+        return differential.compare_with_reference(problem, Path(folder), arguments.bin / "rddl", 0, 20)
 
 
 def replay_wrong(replay):
@@ -42,23 +46,76 @@ def replay_wrong(replay):
     return wrong
 
 
-class FuzzTest(unittest.TestCase):
-    def test_a_seed_is_a_problem(self):
-        self.assertEqual(generate(5).text(), generate(5).text())
-        self.assertNotEqual(generate(5).text(), generate(6).text())
+class OfProblems(unittest.TestCase):
+    def test_a_seed_and_a_flavour_are_a_problem(self):
+        for flavour in FLAVOURS:
+            self.assertEqual(generate(5, flavour).text(), generate(5, flavour).text())
+            self.assertNotEqual(generate(5, flavour).text(), generate(6, flavour).text())
 
+    def test_types_have_the_sizes_at_which_code_changes(self):
+        sizes = {len(t.members) for seed in range(3000) for t in generate(seed).types}
+        self.assertLessEqual({1, 8, 16, 17, 63, 64, 65, 128, 512, 513}, sizes)
+
+
+class OfComparisons(unittest.TestCase):
     def test_nothing_differs(self):
-        verdict = judged(counting_problem())
+        verdict = compared(counting_problem())
         self.assertEqual(verdict.kind, "", verdict.text)
         self.assertGreater(verdict.values, 0)
 
     def test_notices_and_reduces_a_difference(self):
         problem = counting_problem()
         with unittest.mock.patch("differential.replay", replay_wrong(differential.replay)):
-            self.assertEqual(judged(problem).kind, "reference")
-            smaller = reduce(problem, lambda p: judged(p).kind == "reference", seconds=300)
+            self.assertEqual(compared(problem).kind, "reference")
+            smaller = reduce(problem, lambda p: compared(p).kind == "reference", seconds=300)
         self.assertIn("sum_{", smaller.domain_text())
         self.assertLess(len(smaller.domain_text()), len(problem.domain_text()) / 2)
+
+
+class OfPasses(unittest.TestCase):
+    def setUp(self):
+        self.checker = PassChecker(arguments.bin / "fuzz_passes")
+        self.addCleanup(self.checker.close)
+
+    def test_goes_on_after_a_crash(self):
+        self.checker.ask({"text": "domain"})
+        self.checker.process.kill()
+        self.assertEqual(self.checker.ask({"text": "domain"}).outcome, "crashed")
+        self.assertEqual(self.checker.ask({"text": "domain"}).outcome, "rejected")
+
+    def test_each_pass_changes_something_in_a_model_of_a_hundred(self):
+        """Of those in which it runs, with slack: in one of 200 at least."""
+        changed, models = Counter(), Counter()
+        for seed in range(600):
+            problem = fuzz_models.problem_of("passes", seed)
+            answer = self.checker.check(problem, seed)
+            self.assertNotEqual(answer.outcome, "rejected", answer.findings)
+            changed.update(answer.changed.keys())
+            models.update(["all", problem.flavour])
+        for name, only_fast_math in self.passes():
+            with self.subTest(name):
+                self.assertGreaterEqual(changed[name], models["finite" if only_fast_math else "all"] / 200)
+
+    def passes(self):
+        lines = subprocess.run([self.checker.program, "--list"], capture_output=True, text=True, check=True)
+        for line in lines.stdout.splitlines():
+            name, *only_fast_math = line.split()
+            yield name, bool(only_fast_math)
+
+
+class OfRuns(unittest.TestCase):
+    def options(self, folder, models):
+        options = argparse.Namespace(first=100, models=models, state=Path(folder), workers=1)
+        return argparse.Namespace(**vars(options), passes=arguments.bin / "fuzz_passes", without=[], reduce_seconds=0)
+
+    def test_goes_on_where_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for models, done in ((3, 3), (5, 5)):
+                run = fuzz_models.Run("passes", self.options(folder, models))
+                run.run(types.SimpleNamespace(imap=map))
+                self.assertEqual(run.next, 100 + done)
+            counts = fuzz_models.Run("passes", self.options(folder, 5)).result.counts
+            self.assertEqual(sum(n for name, n in counts.items() if name.startswith("flavour")), 5)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,513 @@
+"""What passes look for: counts of neighbours, pieces by intervals, masks, thresholds, clamps, ..."""
+
+import math
+
+from rddl_problem import UNSURE, Expr, Fluent
+
+CHANGING = ("state-fluent", "action-fluent", "interm-fluent", "derived-fluent")
+LIMITS = ("-2.4", "0.5", "1.0", "2.25", "10.0")
+
+
+class Shapes:
+    """Of a generator (generate.py). Each gives None where the problem lacks what it needs."""
+
+    def tables_that_shapes_need(self) -> list[Fluent]:
+        """Relations, the ends of intervals, and what they choose from."""
+        objects = [t.name for t in self.problem.types if not t.enumerated]
+        first, last = objects[0], objects[-1]
+        wanted = [
+            ("LINK", "non-fluent", "bool", (first, first)),
+            ("MAY", "non-fluent", "bool", (first, last)),
+            ("WEIGHT", "non-fluent", "real", (last,)),
+            ("COST", "non-fluent", "real", (first,)),
+            ("GAIN", "non-fluent", "real", (first, last)),
+            ("on", "state-fluent", "bool", (first,)),
+            ("busy", "state-fluent", "bool", (last,)),
+            ("push", "action-fluent", "bool", (first,)),
+            ("at", "state-fluent", first, ()),
+            ("height", "state-fluent", "real", ()),
+            ("stock", "state-fluent", "real", (first,)),
+        ]
+        fluents = [self.declared(*about) for about in wanted if self.chance(0.55)]
+        if self.chance(0.4):
+            fluents += self.ladders(self.pick(objects))
+        return fluents
+
+    def ladders(self, type_name: str) -> list[Fluent]:
+        """Intervals side by side, and a number for each."""
+        low, high, time = (Fluent(name, "non-fluent", "real", (type_name,)) for name in ("LOW", "HIGH", "TIME"))
+        time.range = "int"
+        low.magnitude = high.magnitude = time.magnitude = 10
+        low.default, high.default, time.default = "-2.0", "-2.0", "0"
+        width = self.pick([0.25, 0.5, 1.0])
+        start = self.pick([-2.0, 0.0])
+        gap = self.pick([0.0, 0.0, 0.25, -0.25])
+        for number, member in enumerate(self.problem.type(type_name).members):
+            low.values[(member,)] = str(start + width * number % 200)
+            high.values[(member,)] = str(start + width * number % 200 + width - gap)
+            time.values[(member,)] = str(number)
+        return [low, high, time]
+
+    # --------------------------------------------------------------------------- references
+
+    def over(self, kind: str, variables, roles=None, exact: bool = True) -> Expr | None:
+        """A fluent of these variables, if one may be mentioned: of one of them at least."""
+        wanted = set(variables)
+        matching = []
+        for name, fluent in self.visible:
+            if fluent.range != kind or (roles and fluent.role not in roles):
+                continue
+            if exact and not fluent.is_exact() or not (fluent.finite or self.flavour.wild):
+                continue
+            choices = [[v for v, of in self.scope if of == p] for p in fluent.parameters]
+            if choices and all(choices) and wanted & {v for vs in choices for v in vs}:
+                matching.append((name, fluent, choices))
+        if not matching:
+            return None
+        name, fluent, choices = self.pick(matching)
+        arguments = []
+        for choice in choices:  # each wanted variable once, if there is room
+            fresh = [v for v in choice if v in wanted and v not in arguments]
+            arguments.append(self.pick(fresh or choice))
+        head = f"{name}({', '.join(['%s'] * len(arguments))})"
+        parts = tuple(Expr("object", argument) for argument in arguments)
+        return Expr(kind, head, parts, fluent.magnitude, fluent.fraction, fluent.finite)
+
+    def types_of_relations(self) -> list[str]:
+        """Of the parameters of bool tables."""
+        return [p for _, f in self.visible if f.range == "bool" for p in f.parameters if self.size(p)]
+
+    def masked(self, variables, depth: int) -> Expr:
+        """A bool of a table and something that changes."""
+        mask = self.over("bool", variables, ("non-fluent",)) or self.boolean(0)
+        subject = self.over("bool", variables, CHANGING) or self.boolean(min(1, depth))
+        if self.chance(0.25):
+            mask = Expr("bool", "~%s", (mask,))
+        form = self.pick(["(%s ^ %s)"] * 5 + ["(%s => %s)", "(%s | %s)", "(%s <=> %s)", "(%s ~= %s)"])
+        both = Expr("bool", form, (mask, subject))
+        if self.chance(0.3):
+            other = self.over("bool", variables) or self.boolean(0)
+            both = Expr("bool", self.pick(["(%s ^ %s)", "(%s | %s)", "(%s ~= %s)"]), (both, other))
+        return both
+
+    def over_objects(self, depth: int, form: str, make_body, most: int = 2) -> Expr | None:
+        """An aggregation over one object, or a pair, of types that bool tables are about."""
+        types = self.types_of_relations()
+        if not types:
+            return None
+        chosen = [self.pick(types) for _ in range(self.pick([1, 1, most]))]
+
+        def body():
+            return make_body([variable for variable, _ in self.scope[-len(chosen) :]])
+
+        return self.aggregation_over(chosen, body, lambda binder, inside, n: (binder, inside, n))
+
+    # ------------------------------------------------------------------------------- bools
+
+    def shape_of_bool(self, depth: int) -> Expr | None:
+        return self.pick_weighted([
+            (3, self.any_masked), (2, self.count_compared), (1, self.opposite_bounds),
+            (2, self.only_one), (1, self.in_an_interval), (2, self.threshold),
+            (2 if self.flavour.draws else 0, self.draw_in_branches),
+        ])(depth)  # fmt: skip
+
+    def any_masked(self, depth: int) -> Expr | None:
+        found = self.over_objects(depth, "", lambda variables: self.masked(variables, depth))
+        if found is None:
+            return None
+        binder, body, _ = found
+        return Expr("bool", f"({self.pick(['exists', 'exists', 'forall'])}_{binder} [%s])", (body,))
+
+    def count(self, depth: int) -> Expr | None:
+        found = self.over_objects(depth, "", lambda variables: self.masked(variables, depth))
+        if found is None:
+            return None
+        binder, body, number = found
+        return Expr("int", f"(sum_{binder} [%s])", (body,), math.ceil(math.log2(number + 1)) + 1)
+
+    def count_compared(self, depth: int) -> Expr | None:
+        count = self.count(depth)
+        if count is None:
+            return None
+        return Expr("bool", f"(%s {self.pick(['>=', '>', '==', '<', '<=', '~='])} {self.pick([0, 1, 2, 3, 8])})", (count,))
+
+    def number_that_changes(self, exact: bool = True) -> Expr | None:
+        matching = [
+            (name, f)
+            for name, f in self.visible
+            if f.range == "real" and f.role in CHANGING and (f.is_exact() or not exact or self.flavour.wild)
+        ]
+        if not matching:
+            return None
+        found = self.applied(*self.pick(matching), 0)
+        return found if found is not None and (found.finite or self.flavour.wild) else None
+
+    def opposite_bounds(self, depth: int) -> Expr | None:
+        number = self.number_that_changes()
+        if number is None:
+            return None
+        limit = self.pick(LIMITS[1:])
+        form = self.pick([
+            f"(%s < -{limit} | %s > {limit})", f"(%s <= -{limit} | %s >= {limit})",
+            f"(%s >= -{limit} ^ %s <= {limit})", f"(%s > -{limit} ^ %s < {limit})",
+        ])  # fmt: skip
+        return Expr("bool", form, (number, number))
+
+    def only_one(self, depth: int) -> Expr | None:
+        """exists of the one object that an object-valued fluent is."""
+        types = [f.range for _, f in self.visible if self.problem.type(f.range) and self.size(f.range)]
+        if not types:
+            return None
+        type_name = self.pick(types)
+        term = self.reference(type_name, 0)
+        if term is None:
+            return None
+
+        def body():
+            variable = self.scope[-1][0]
+            rest = self.over("bool", [variable]) or self.boolean(min(1, depth))
+            same = Expr("bool", self.pick(["(%s == " + variable + ")", "(" + variable + " == %s)"]), (term,))
+            return Expr("bool", "(%s ^ %s)", (same, rest))
+
+        return self.aggregation_over(
+            [type_name], body, lambda binder, inside, _n: Expr("bool", f"(exists_{binder} [%s])", (inside,))
+        )
+
+    def is_inside(self) -> Expr | None:
+        """Of an interval of the innermost variable."""
+        variable, type_name = self.scope[-1]
+        number = self.number_that_changes()
+        ladder = any(name == "LOW" and f.parameters == (type_name,) for name, f in self.visible)
+        if number is None or not ladder:
+            return None
+        form = self.pick(["(%s >= LOW({v}) ^ %s < HIGH({v}))", "(LOW({v}) < %s ^ %s <= HIGH({v}))"])
+        return Expr("bool", form.replace("{v}", variable), (number, number))
+
+    def with_ladder(self, make_body, make):
+        types = [f.parameters[0] for name, f in self.visible if name == "LOW"]
+        if not types:
+            return None
+        return self.aggregation_over(types[:1], make_body, make)
+
+    def in_an_interval(self, depth: int) -> Expr | None:
+        def body():
+            inside = self.is_inside() or self.boolean(0)
+            return inside if self.chance(0.5) else Expr("bool", "(%s ^ %s)", (inside, self.boolean(0)))
+
+        return self.with_ladder(body, lambda binder, e, _n: Expr("bool", f"(exists_{binder} [%s])", (e,)))
+
+    def threshold(self, depth: int) -> Expr | None:
+        """A sum of coefficients that have no exact doubles (in wild problems), and a limit."""
+        steps = ["0.1", "0.3", "0.7", "1.1"] if self.flavour.wild else ["0.25", "0.5", "0.75"]
+
+        def body(variables):
+            first = self.over("bool", variables, CHANGING) or self.boolean(0)
+            one = Expr("real", self.pick([f"{self.pick(steps)} * %s", f"%s * {self.pick(steps)}"]), (first,))
+            if self.chance(0.5):
+                return one
+            second = self.over("bool", variables) or self.boolean(0)
+            return Expr("real", f"%s {self.pick('+-')} {self.pick(steps)} * %s", (one, second))
+
+        found = self.over_objects(depth, "", body)
+        if found is None:
+            return None
+        binder, inside, _ = found
+        limit = self.pick(["1.0", "0.5", "0.0", "0.3", "2.0"])
+        name = self.pick(["sum", "sum", "sum", "max"])
+        return Expr("bool", f"(({name}_{binder} [%s]) {self.pick(['>=', '==', '<', '>'])} {limit})", (inside,))
+
+    def draw_in_branches(self, depth: int) -> Expr | None:
+        """Branches that draw: of the same law, or the very same; or that cannot happen."""
+        condition = self.count_compared(depth) or self.boolean(1)
+        first, second = self.bernoulli(1), self.bernoulli(1)
+        form = self.pick([
+            (first, second), (first, first), (Expr("bool", "false"), second), (first, Expr("bool", "true")),
+        ])  # fmt: skip
+        return Expr("bool", "(if (%s) then %s else %s)", (condition, *form))
+
+    # ----------------------------------------------------------------------------- numbers
+
+    def shape_of_int(self, depth: int) -> Expr | None:
+        return self.pick_weighted([
+            (4, self.count), (2, self.count_of_factors), (1, self.looked_up), (1, self.count_in_switch),
+            (1, lambda d: self.steps_of_count(d, "int")),
+        ])(depth)  # fmt: skip
+
+    def count_of_factors(self, depth: int) -> Expr | None:
+        """Of pairs, where each bool knows but one of the two."""
+        types = self.types_of_relations()
+        if not types:
+            return None
+        chosen = [self.pick(types), self.pick(types)]
+
+        def body():
+            (a, _), (b, _) = self.scope[-2:]
+            first = self.over("bool", [a]) or self.boolean(0)
+            second = self.over("bool", [b], CHANGING) or self.boolean(0)
+            both = Expr("bool", "(%s ^ %s)", (first, second))
+            if self.chance(0.5) and (mask := self.over("bool", [a, b], ("non-fluent",))):
+                both = Expr("bool", "(%s ^ %s)", (mask, both))
+            return both
+
+        return self.aggregation_over(chosen, body, lambda binder, e, n: Expr("int", f"(sum_{binder} [%s])", (e,), 14))
+
+    def looked_up(self, depth: int) -> Expr | None:
+        """The value of the object whose number this is."""
+        number = self.reference("int", 0)
+        if number is None or not any(name == "TIME" for name, _ in self.visible):
+            return None
+
+        def body():
+            variable = self.scope[-1][0]
+            value = self.over("int", [variable]) or self.constant("int")
+            same = Expr("bool", f"(TIME({variable}) == %s)", (number,))
+            return Expr("int", "(%s * %s)", (same, value), value.magnitude)
+
+        return self.with_ladder(
+            body, lambda binder, e, n: Expr("int", f"(sum_{binder} [%s])", (e,), e.magnitude + 10)
+        )
+
+    def count_in_switch(self, depth: int) -> Expr | None:
+        return self.switch("int", lambda d: self.count(d) or self.constant("int"), min(depth, 1))
+
+    def steps_of_count(self, depth: int, kind: str) -> Expr | None:
+        """if none ... else if one ... else ..."""
+        count = self.count(depth)
+        if count is None:
+            return None
+        values = [self.constant(kind) for _ in range(3)]
+        if self.chance(0.4):  # an exists of what is counted
+            any_of = Expr("bool", count.form.replace("(sum_", "(exists_", 1), count.parts)
+            return self.choice(kind, "(if (%s) then %s * %s else %s)", (any_of, count), values[:2])
+        form = f"(if (%s {self.pick(['==', '>='])} 1) then %s else if (%s == 0) then %s else %s)"
+        first, second, third = values
+        return Expr(kind, form, (count, first, count, second, third), 4, 2)
+
+    def shape_of_real(self, depth: int, rough: bool) -> Expr | None:
+        rough = rough or self.flavour.wild
+        options = [
+            (2, lambda d: self.steps_of_count(d, "real")), (3, self.pieces), (2, self.weighted_sum),
+            (2, self.line_of_count), (2, self.steps_of_number), (2, self.part_of_constants), (1, self.square),
+        ]  # fmt: skip
+        if rough:
+            options += [
+                (8 if self.flavour.finite else 4, self.function_of_count), (3, self.products_with_constants),
+                (4, self.expensive_terms),
+                (2, self.functions_in_pairs), (2 if self.flavour.draws else 0, self.normal_in_branches),
+            ]  # fmt: skip
+        return self.pick_weighted(options)(depth)
+
+    def pieces(self, depth: int) -> Expr | None:
+        """Of the interval in which a number lies: a constant, or what the object has."""
+
+        def body():
+            variable = self.scope[-1][0]
+            roles = ("non-fluent",) if self.chance(0.6) else None
+            value = self.over("real", [variable], roles) or self.constant("real")
+            inside = self.is_inside() or self.boolean(0)
+            form = self.pick(["(%s * %s)", "(if (%s) then %s else 0.0)"])
+            return Expr("real", form, (inside, value), value.magnitude, value.fraction, value.finite)
+
+        return self.with_ladder(
+            body,
+            lambda binder, e, n: self.known(
+                "real", f"(sum_{binder} [%s])", (e,), e.magnitude + n.bit_length(), e.fraction, e.finite
+            ),
+        )
+
+    def steps_of_number(self, depth: int) -> Expr | None:
+        number = self.number_that_changes()
+        if number is None:
+            return None
+        limits = sorted({self.pick(LIMITS) for _ in range(3)}, key=float)
+        op = self.pick(["<", "<=", ">"])
+        values = [self.constant("real") for _ in range(len(limits) + 1)]
+        form = "".join(f"if (%s {op} {limit}) then %s else " for limit in limits)
+        parts = [part for value in values[:-1] for part in (number, value)]
+        return Expr("real", f"({form}%s)", (*parts, values[-1]), 3, 2)
+
+    def weighted_sum(self, depth: int) -> Expr | None:
+        def body(variables):
+            weight = self.over("real", variables, ("non-fluent",)) or self.constant("real")
+            return Expr("real", "(%s * %s)", (weight, self.masked(variables, depth)), weight.magnitude, weight.fraction)
+
+        found = self.over_objects(depth, "", body)
+        if found is None:
+            return None
+        binder, inside, number = found
+        magnitude = inside.magnitude + number.bit_length()
+        return self.known("real", f"(sum_{binder} [%s])", (inside,), magnitude, inside.fraction)
+
+    def line_of_count(self, depth: int) -> Expr | None:
+        count = self.count(depth)
+        if count is None:
+            return None
+        form = self.pick(["(%s * 0.25 + 1.0)", "(2.5 - 0.5 * %s)", "min[1.0, 0.25 + 0.125 * %s]"])
+        return Expr("real", form, (count,), count.magnitude + 2, 3)
+
+    def part_of_constants(self, depth: int) -> Expr | None:
+        """Computed of tables and variables alone."""
+        everything = self.visible
+        self.visible = [(name, f) for name, f in everything if f.role == "non-fluent"]
+        draws, self.flavour = self.flavour, type(self.flavour)(False, self.flavour.wild, self.flavour.finite)
+        constant = self.real(min(depth, 2), self.flavour.wild)
+        self.visible, self.flavour = everything, draws
+        other = self.number_that_changes()
+        if other is None or not constant.finite:
+            return constant
+        return self.known(
+            "real", "(%s * %s)", (constant, other), constant.magnitude + other.magnitude,
+            min(UNSURE, constant.fraction + other.fraction), other.finite,
+        )  # fmt: skip
+
+    def square(self, depth: int) -> Expr | None:
+        number = self.number_that_changes()
+        if number is None:
+            return None
+        if number.is_exact() and not self.flavour.wild:  # pow is another library's
+            form = "(%s * %s)"
+            return self.known("real", form, (number, number), 2 * number.magnitude, 2 * number.fraction)
+        return Expr("real", "pow[%s, 2.0]", (number,), 2 * number.magnitude, UNSURE, number.finite)
+
+    def sum_of_row(self) -> Expr | None:
+        """Of numbers, over a row of a relation that the scope chooses."""
+        relations = [
+            f for _, f in self.visible if f.range == "bool" and f.role == "non-fluent" and len(f.parameters) == 2
+        ]
+        own = {of for _, of in self.scope}
+        relations = [f for f in relations if f.parameters[0] in own and self.size(f.parameters[1])]
+        if not relations:
+            return None
+        relation = self.pick(relations)
+        outer = self.pick([variable for variable, of in self.scope if of == relation.parameters[0]])
+
+        def body():
+            variable = self.scope[-1][0]
+            number = self.over("real", [variable], CHANGING, exact=False) or self.constant("real")
+            form = f"({relation.name}({outer}, {variable}) * %s)"
+            return Expr("real", form, (number,), number.magnitude, UNSURE, number.finite)
+
+        return self.aggregation_over(
+            [relation.parameters[1]],
+            body,
+            lambda binder, e, n: Expr("real", f"(sum_{binder} [%s])", (e,), e.magnitude + n.bit_length(), UNSURE, e.finite),
+        )
+
+    def shaped_definition(self, fluent: Fluent) -> Expr | None:
+        """Of a fluent whose every object sums over a row, or knows a line by a count."""
+        if fluent.range == "real" and not fluent.is_exact() and self.chance(0.5 if self.flavour.finite else 0.1):
+            count, weight = self.count(1), self.over("real", [v for v, _ in self.scope], ("non-fluent",), exact=False)
+            if count is not None and weight is not None:
+                line = self.line_of_each_object(count, weight)
+                return Expr("real", "max[-500.0, min[500.0, %s]]", (line,), 10, UNSURE)
+        total = self.sum_of_row()
+        if total is None or not (total.finite or self.flavour.wild):
+            return None
+        if fluent.range == "bool" and self.flavour.draws:
+            chance = self.pick(["(1.0 / (1.0 + exp[min[2.5 - %s, 30.0]]))", "(0.5 + 0.5 * tanh[%s])"])
+            return Expr("bool", f"Bernoulli({chance})", (total,))
+        if fluent.range != "real" or fluent.is_exact():
+            return None
+        forms = ["%s", "(%s * 0.25)", "(0.5 + %s)", "(sqrt[abs[%s]] * tanh[0.3 * %s])", "(exp[min[sin[%s], 3.0]] + cos[%s])"]
+        forms += ["(%s + Normal(0.0, 1.0))"] if self.flavour.draws else []
+        form = f"max[-500.0, min[500.0, {self.pick(forms)}]]"
+        return Expr("real", form, (total,) * form.count("%s"), 10, UNSURE)
+
+    # ----------------------------------------------------------- numbers whose rounding may differ
+
+    def function_of_count(self, depth: int) -> Expr | None:
+        count = self.count(depth)
+        if count is None:
+            return None
+        weight = self.over("real", [v for v, _ in self.scope], ("non-fluent",), exact=False)
+        if weight is not None and self.chance(0.5):
+            return self.line_of_each_object(count, weight)
+        form = self.pick([
+            "(1.0 / (1.0 + exp[min[4.5 - %s, 30.0]]))", "pow[0.9, min[%s, 64]]", "sqrt[%s + 0.1]",
+            "(0.45 + 0.1 * min[%s, 5])", "(1.0 / (%s + 1))", "(0.1 + 0.05 * %s)",
+        ])  # fmt: skip
+        return Expr("real", form, (count,), count.magnitude + 4, UNSURE)
+
+    def line_of_each_object(self, count: Expr, weight: Expr) -> Expr:
+        form = self.pick([
+            "((0.1 + 0.5 * (1 + %s)) / (1.5 + abs[%s]))", "(0.45 + 0.3 * (0.7 + %s) / (0.5 + abs[%s]) / 3.1)",
+            "min[0.9, 0.1 + 0.3 * (%s / 7.3) / (1.1 + abs[%s])]", "(exp[min[0.1 * %s, 3.0]] * %s)",
+        ])  # fmt: skip
+        return Expr("real", form, (count, weight), count.magnitude + weight.magnitude + 4, UNSURE)
+
+    def products_with_constants(self, depth: int) -> Expr | None:
+        number = self.number_that_changes(exact=False)
+        if number is None:
+            return None
+        form = self.pick([
+            "(%s * 0.3 * 2.5)", "(%s / 7.0)", "(%s * 3.0 / 7.0)", "(%s * 0.1 + 2.0) * 4.0", "pow[%s, 3.0]",
+            "(0.7 - %s - 0.2)", "max[0.0, %s]", "min[0.0, %s]", "(0.0 - 0.3 * %s)", "(0.0 * %s)",
+        ])  # fmt: skip
+        return Expr("real", form, (number,), 3 * number.magnitude + 2, UNSURE, number.finite)
+
+    def expensive_terms(self, depth: int) -> Expr | None:
+        """sum of a function that a bool lets count."""
+
+        def body(variables):
+            number = self.over("real", variables, None, exact=False) or self.constant("real")
+            chosen = self.over("bool", variables, CHANGING) or self.boolean(0)
+            function = self.pick(["sqrt[abs[%s]]", "(sin[%s] + cos[0.3 * %s])", "tanh[sin[%s] + %s]"])
+            value = Expr("real", function, (number,) * function.count("%s"), max(5, number.magnitude), UNSURE, number.finite)
+            form = self.pick(["(%s * %s)", "(%s * %s)", "(if (%s) then %s else 0.0)"])
+            parts = (chosen, value) if "if" in form or self.chance(0.5) else (value, chosen)
+            return Expr("real", form, parts, value.magnitude, UNSURE, value.finite)
+
+        found = self.over_objects(depth, "", body)
+        if found is None:
+            return None
+        binder, inside, number = found
+        return Expr("real", f"(sum_{binder} [%s])", (inside,), inside.magnitude + number.bit_length(), UNSURE, inside.finite)
+
+    def functions_in_pairs(self, depth: int) -> Expr | None:
+        """A sum in a sum: the inner one does not know the outer object, or only that."""
+
+        def inner(variables):
+            number = self.over("real", variables, None, exact=False) or self.constant("real")
+            chosen = self.masked(variables, 0)
+            return Expr("real", "(%s * %s)", (number, chosen), number.magnitude, UNSURE, number.finite)
+
+        def body(variables):
+            found = self.over_objects(depth, "", inner, most=1)
+            if found is None:
+                return self.constant("real")
+            binder, inside, number = found
+            total = Expr("real", f"(sum_{binder} [%s])", (inside,), inside.magnitude + number.bit_length(), UNSURE, inside.finite)
+            chosen = self.over("bool", variables) or self.boolean(0)
+            return Expr("real", "(%s * %s)", (chosen, total), total.magnitude, UNSURE, total.finite)
+
+        found = self.over_objects(depth, "", body, most=1)
+        if found is None:
+            return None
+        binder, inside, number = found
+        return Expr("real", f"(sum_{binder} [%s])", (inside,), inside.magnitude + number.bit_length(), UNSURE, inside.finite)
+
+    def normal_in_branches(self, depth: int) -> Expr | None:
+        condition = self.count_compared(depth) or self.boolean(1)
+        mean = self.number_that_changes(exact=False) or self.constant("real")
+        other = self.pick(["Normal(%s, 1.0)", "Normal(%s, 0.25)", "%s", "Uniform(%s, 900.0)"])
+        return Expr("real", f"(if (%s) then Normal(%s, 1.0) else {other})", (condition, mean, mean), 12, UNSURE, False)
+
+    # --------------------------------------------------------------------------- conditions
+
+    def bounds_of_state(self) -> list[Expr]:
+        """That a clamp keeps, by constants or by what a table or a state chooses."""
+        numbers = [(name, f) for name, f in self.visible if f.range == "real" and f.role == "state-fluent"]
+        if not numbers:
+            return []
+        name, fluent = self.pick(numbers)
+        limit = self.pick(["500.0", "500.0", "100.0"])
+        body = self.pick([f"%s <= {limit}", f"(%s >= -{limit} ^ %s <= {limit})", f"%s >= -{limit}"])
+        if not fluent.parameters:
+            whole = Expr("real", name)
+            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
+        if self.chance(0.3) and (whole := self.applied(name, fluent, 1)):
+            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
+        variables = [(self.fresh_variable(), p) for p in fluent.parameters]
+        binder = "{" + ", ".join(f"{v} : {of}" for v, of in variables) + "}"
+        whole = Expr("real", f"{name}({', '.join(v for v, _ in variables)})")
+        return [Expr("bool", f"(forall_{binder} [{body}])", (whole,) * body.count("%s"))]
