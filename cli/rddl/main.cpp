@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,9 @@ std::string usage_message(const CLI::App& program, const CLI::App* command,
 // Help and version end with 0, everything else that stops the parsing is a usage error.
 ExitStatus report_usage(const CLI::App& program, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-        program.exit(error);
+        std::ostringstream text;
+        program.exit(error, text, text);
+        fmt::print("{}", text.str());
         return success;
     }
     const auto chosen = program.get_subcommands();

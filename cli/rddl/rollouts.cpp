@@ -3,6 +3,7 @@
 #include "batch.hpp"
 #include "faults.hpp"
 #include "interrupt.hpp"
+#include "parallel.hpp"
 #include "progress.hpp"
 #include "random_actions.hpp"
 #include "trace.hpp"
@@ -348,8 +349,9 @@ Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& opt
 
     const auto begin = std::chrono::steady_clock::now();
     Rollout rollout(simulator, chosen, trace, progress);
-    std::vector<std::thread> others;
-    for (int i = 1; i < rollouts.threads; ++i) others.emplace_back([&] { rollout.work(); });
+    std::vector<std::thread> others = start_threads(rollouts.threads - 1, [&] { rollout.work(); });
+    rollouts.missing_threads = rollouts.threads - 1 - static_cast<int>(others.size());
+    rollouts.threads -= rollouts.missing_threads;
     rollout.work();
     for (std::thread& thread : others) thread.join();
     rollouts.seconds =

@@ -58,7 +58,8 @@ struct Rollouts {
     std::optional<EpisodeViolation> first_illegal_action, first_broken_invariant;
     std::int64_t steps = 0;
     double seconds = 0;
-    int threads = 0;
+    int threads = 0;          // that worked
+    int missing_threads = 0;  // that the system did not give
 };
 
 // Receives the trace lines of consecutive episodes, in order; called by one thread at a time.

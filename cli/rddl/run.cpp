@@ -244,6 +244,9 @@ ExitStatus run(const RunOptions& options) {
     const Rollouts rollouts =
         run_episodes(*problem.simulator, options.rollouts, sink, !options.quiet);
     if (trace) trace->finish();
+    if (rollouts.missing_threads > 0)
+        tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,
+             rollouts.threads + rollouts.missing_threads);
 
     const Summary summary = summarise(rollouts);
     ViolationExplainer explainer(problem.files, options.load);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 namespace rddlc::cli {
 namespace {
@@ -336,7 +337,9 @@ CommandLine parse_command_line(int argc, char** argv) {
             return {std::nullopt, success};
         }
         if (error.get_exit_code() == 0) {
-            program.exit(error);
+            std::ostringstream text;
+            program.exit(error, text, text);
+            fmt::print("{}", text.str());
             return {std::nullopt, success};
         }
         tell("rddlc: error: {}\n'rddlc --help' shows the usage\n", error.what());

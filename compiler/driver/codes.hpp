@@ -14,5 +14,6 @@ inline constexpr Code output_is_input{'E', 906};
 inline constexpr Code undefined_external{'E', 907};
 inline constexpr Code refused_external{'E', 908};
 inline constexpr Code table_too_large{'E', 909};
+inline constexpr Code broken_cpp_compiler{'E', 910};
 
 }  // namespace rddlc

@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <string_view>
 
 namespace rddlc {
 namespace {
@@ -28,9 +30,31 @@ int wait_for(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+// As posix_spawn takes them; they point into the strings.
+std::vector<char*> pointers(const std::vector<std::string>& words) {
+    std::vector<char*> all;
+    for (const std::string& word : words) all.push_back(const_cast<char*>(word.c_str()));
+    all.push_back(nullptr);
+    return all;
+}
+
+std::string_view name_of(std::string_view variable) {
+    return variable.substr(0, variable.find('='));
+}
+
+// Ours, but for those that are replaced.
+std::vector<std::string> environment_with(std::vector<std::string> variables) {
+    const std::vector<std::string> given = variables;
+    for (char** ours = environ; *ours; ++ours)
+        if (std::ranges::find(given, name_of(*ours), name_of) == given.end())
+            variables.emplace_back(*ours);
+    return variables;
+}
+
 }  // namespace
 
-std::optional<ProcessResult> run_process(const std::vector<std::string>& command) {
+std::optional<ProcessResult> run_process(const std::vector<std::string>& command,
+                                         const std::vector<std::string>& environment) {
     std::array<int, 2> ends;  // to read from, to write to
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
 
@@ -39,13 +63,10 @@ std::optional<ProcessResult> run_process(const std::vector<std::string>& command
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
 
-    std::vector<char*> arguments;
-    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-
+    const std::vector<std::string> variables = environment_with(environment);
     pid_t process = 0;
-    const int error =
-        ::posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
+    const int error = ::posix_spawnp(&process, command.front().c_str(), &actions, nullptr,
+                                     pointers(command).data(), pointers(variables).data());
     ::posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
     std::optional<ProcessResult> result;

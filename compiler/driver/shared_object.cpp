@@ -1,7 +1,9 @@
 #include "driver/shared_object.hpp"
 
 #include "driver/codes.hpp"
+#include "driver/compiler_failure.hpp"
 #include "driver/process.hpp"
+#include "support/files.hpp"
 
 #include <rddl/processor.hpp>
 
@@ -11,7 +13,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <future>
 #include <sstream>
 #include <stdexcept>
@@ -63,6 +64,11 @@ Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::strin
         diagnostic.notes.push_back({{}, line});
     }
     return diagnostic;
+}
+
+// In English, so that one can tell what it says.
+std::optional<ProcessResult> run_compiler(const std::vector<std::string>& command) {
+    return run_process(command, {"LC_ALL=C"});
 }
 
 // The compiler and what all its calls have in common.
@@ -120,19 +126,19 @@ bool succeeds(const std::optional<ProcessResult>& result) {
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
                                      const std::optional<fs::path>& prepared,
                                      bool has_extern_headers) {
-    if (!prepared) return run_process(command);
+    if (!prepared) return run_compiler(command);
     std::vector<std::string> linking = command;
     linking.insert(linking.end(), {"-DRDDL_LINKS_BATCHES", (*prepared / batches_name).string()});
     std::error_code ignored;
     if (!has_extern_headers && fs::exists(*prepared / precompiled_name, ignored)) {
         std::vector<std::string> including = linking;
         including.insert(including.end(), {"-include", (*prepared / header_name).string()});
-        auto result = run_process(including);
+        auto result = run_compiler(including);
         if (!is_refused(result)) return result;
         fs::remove(*prepared / precompiled_name, ignored);
     }
-    auto result = run_process(linking);
-    return is_refused(result) ? run_process(command) : result;
+    auto result = run_compiler(linking);
+    return is_refused(result) ? run_compiler(command) : result;
 }
 
 #ifdef __x86_64__
@@ -163,8 +169,8 @@ std::vector<std::string> part_command(const Part& part, const fs::path& source,
     return command;
 }
 
-// For every instruction set, all at once, and linked. What is not zero is the status of one of
-// the compilers.
+// For every instruction set, all at once if there can be threads, and linked. What is not zero is
+// the status of one of the compilers.
 std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::path& output) {
     std::vector<std::future<std::optional<ProcessResult>>> running;
     std::vector<std::string> linking = compiler_command(Processors::Any);
@@ -173,15 +179,14 @@ std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::
     for (const Part& part : parts) {
         objects.push_back(output.string() + "." + part.name + ".o");
         linking.push_back(objects.back().string());
-        running.push_back(std::async(std::launch::async, run_process,
-                                     part_command(part, source, objects.back())));
+        running.push_back(std::async(run_compiler, part_command(part, source, objects.back())));
     }
     std::optional<ProcessResult> result = ProcessResult{};
     for (auto& one : running) {
         auto its_result = one.get();
         if (result && result->status == 0) result = std::move(its_result);
     }
-    if (result && result->status == 0) result = run_process(linking);
+    if (result && result->status == 0) result = run_compiler(linking);
     std::error_code ignored;
     for (const fs::path& object : objects) fs::remove(object, ignored);
     return result;
@@ -194,9 +199,33 @@ std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::
 std::optional<ProcessResult> compile_for_any(const fs::path& source, const fs::path& output) {
 #ifdef __x86_64__
     auto result = compile_all_sets(source, output);
-    if (!is_refused(result)) return result;
+    if (result && !is_refused(result)) return result;
 #endif
-    return run_process(shared_object_command(source, output, Processors::Any));
+    return run_compiler(shared_object_command(source, output, Processors::Any));
+}
+
+// Nothing but the headers of the runtime, beside the output.
+bool compiles_headers(const fs::path& output, Processors processors) {
+    const fs::path source = output.string() + ".headers.cpp", object = output.string() + ".headers";
+    UsedFiles used;
+    write_file(source, "#include <rddl/simulator.hpp>\n", used);
+    const bool done = succeeds(run_compiler(shared_object_command(source, object, processors)));
+    for (const fs::path& file : {source, object}) {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+    }
+    return done;
+}
+
+// Without one, or where the system starts no more processes.
+Diagnostic not_started(const std::string& compiler, int error) {
+    const bool is_missing = error == ENOENT || error == EACCES || error == ENOTDIR;
+    return Diagnostic{.code = no_cpp_compiler,
+                      .span = {},
+                      .message = fmt::format("cannot run the C++ compiler '{}': {}", compiler,
+                                             std::strerror(error))}
+        .with_hint(is_missing ? "a shared object needs one: install it, or set CXX"
+                              : "there are too many processes, or too little memory");
 }
 
 }  // namespace
@@ -224,13 +253,14 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
 
 bool prepare_runtime(const fs::path& folder) {
     const fs::path runtime = runtime_include_folder().value_or("") / "rddl";
-    auto header = std::async(std::launch::async, run_process,
+    auto header = std::async(run_compiler,
                              header_command(runtime / "simulator.hpp", folder / precompiled_name));
     const auto batches =
-        run_process(batches_command(runtime / "batches.cpp", folder / batches_name));
-    std::ofstream(folder / header_name) << "#include <rddl/simulator.hpp>\n";
+        run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name));
+    UsedFiles used;
+    write_file(folder / header_name, "#include <rddl/simulator.hpp>\n", used);
     const auto header_result = header.get();
-    if (is_refused(header_result)) {
+    if (is_refused(header_result) && !lacks_resources(*header_result)) {
         std::error_code ignored;
         fs::remove(folder / precompiled_name, ignored);
         return succeeds(batches);
@@ -254,22 +284,22 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
                             ? compile_for_any(source, output)
                             : compile(command, prepared, !extern_headers.empty());
     if (!result) {
-        diagnostics.report(Diagnostic{.code = no_cpp_compiler,
-                                      .span = {},
-                                      .message = fmt::format("cannot run the C++ compiler '{}': {}",
-                                                             command.front(), std::strerror(errno))}
-                               .with_hint("a shared object needs one: install it, or set CXX"));
+        diagnostics.report(not_started(command.front(), errno));
         return false;
     }
-    if (result->status != 0 && !extern_headers.empty()) {
+    if (result->status == 0) return true;
+    if (!extern_headers.empty() && names_a_mistake(*result)) {
         diagnostics.report(refused(extern_headers, result->output));
         return false;
     }
-    if (result->status != 0) {
+    const auto compiles_runtime = [&] {
+        return compiles_headers(output, processors);
+    };
+    if (is_our_mistake(*result, compiles_runtime))
         throw std::logic_error(fmt::format("the C++ compiler refuses the emitted text ({}):\n{}",
                                            fmt::join(command, " "), result->output));
-    }
-    return true;
+    diagnostics.report(failing_compiler(command, *result));
+    return false;
 }
 
 }  // namespace rddlc

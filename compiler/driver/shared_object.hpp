@@ -33,9 +33,10 @@ bool prepare_runtime(const std::filesystem::path& folder);
 // into the folder `prepared`, if there is one, as far as the compiler takes that; else all is
 // compiled. A precompiled header that it refuses is removed.
 //
-// False, with the reason reported, if there is no compiler or no runtime, or if the compiler
-// refuses a text that includes the user's headers. Without headers that is never the user's
-// mistake: it throws std::logic_error with the compiler's messages.
+// False, with the reason reported, if there is no compiler or no runtime, if the compiler fails, or
+// if it refuses a text that includes the user's headers. Where it finds a mistake in a text of ours
+// alone (compiler_failure.hpp), it throws std::logic_error with the compiler's messages. Throws
+// UnwritableFile, too.
 bool build_shared_object(const std::filesystem::path& source, const std::filesystem::path& output,
                          Processors processors,
                          const std::vector<std::filesystem::path>& extern_headers,

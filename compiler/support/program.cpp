@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -24,8 +25,8 @@ void occupy_standard_descriptors() {
 }
 
 void flush_standard_output() {
-    std::cout.flush();
     errno = 0;
+    std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (flushed && std::cout) return;
     const char* const why = errno != 0 ? std::strerror(errno) : "it was refused before";
@@ -51,6 +52,8 @@ int run_program(std::string_view name, std::string_view version,
         return status;
     };
     occupy_standard_descriptors();
+    // A file that may not grow is a failure to write, not the end of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         const ExitStatus status = work();
         flush_standard_output();

@@ -136,11 +136,14 @@ TEST_F(Output, NeedsACompilerOnlyAsASharedObject) {
 }
 
 TEST_F(Output, ThatTheCompilerRefusesIsAnInternalError) {
+    write("compiler.sh",
+          "case \"$*\" in *headers.cpp*) exit 0; esac\n"
+          "echo 'simulator.cpp:3:4: error: nonsense'; exit 1\n");
     const Result result =
-        rddlc_with({"CXX=false"}, {"domain.rddl", "instance.rddl", "-o", "sim.so"});
+        rddlc_with({"CXX=sh compiler.sh"}, {"domain.rddl", "instance.rddl", "-o", "sim.so"});
     EXPECT_EQ(result.status, 70);
     EXPECT_TRUE(mentions(result, "please report it")) << result.output;
-    EXPECT_EQ(files().size(), 2u);
+    EXPECT_EQ(files().size(), 3u);
 }
 
 TEST_F(Output, NeedsInputsThatCanBeRead) {

@@ -59,11 +59,13 @@ class CommandTest(unittest.TestCase):
 
     def run_command(self, *words, environment=None, **options) -> Result:
         """Ends by itself and soon, with a status of its own, and finds no mistake in itself."""
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
         done = subprocess.run(
-            [str(word) for word in words], cwd=self.folder, capture_output=True, timeout=SECONDS,
-            env={**os.environ, **(environment or {})}, restore_signals=False, **options)
-        result = Result(done.returncode, done.stdout.decode(errors="replace"),
-                        done.stderr.decode(errors="replace"))
+            [str(word) for word in words], cwd=self.folder, timeout=SECONDS,
+            env={**os.environ, **(environment or {})}, restore_signals=False,
+            **{**streams, **options})
+        result = Result(done.returncode, (done.stdout or b"").decode(errors="replace"),
+                        (done.stderr or b"").decode(errors="replace"))
         self.assertIn(result.status, [SUCCESS, DIAGNOSED, USAGE], f"{words}\n{result}")
         self.assertNotIn("Sanitizer", result.errors)
         self.assertNotIn("runtime error", result.errors)

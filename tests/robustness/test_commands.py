@@ -1,6 +1,8 @@
 """Wrong command lines are refused, and what cannot be written leaves nothing half-written behind."""
 
 import os
+import resource
+import subprocess
 import unittest
 
 from commands import (DIAGNOSED, EXAMPLES, RDDL, RDDLC, ROOT, SUCCESS, USAGE, CommandTest,
@@ -99,6 +101,68 @@ class Output(CommandTest):
                                   environment={"CXX": "no-c++", "XDG_CACHE_HOME": str(self.folder)})
         self.assertEqual(result.status, DIAGNOSED, result)
         self.assertIn("no-c++", result.errors)
+
+
+class Blame(CommandTest):
+    """What the machine or the user's settings do wrong is told as that, not as a mistake of ours."""
+
+    MISTAKE = "echo 'simulator.cpp:3:4: error: nonsense'; exit 1"
+
+    def compile_with(self, compiler: str) -> list:
+        """By a compiler of this name, or one that is a script."""
+        if "\n" in compiler:
+            self.write("compiler.sh", compiler)
+            compiler = "sh compiler.sh"
+        environment = {"CXX": compiler, "XDG_CACHE_HOME": str(self.folder / "cache")}
+        return [self.run_command(*words, environment=environment) for words in (
+            [RDDLC, *PROBLEM, "-o", "sim.so"], [RDDL, "run", *PROBLEM, "--quiet"])]
+
+    def test_compilers_that_fail(self):
+        for compiler, says in (
+            ("false", "'false' ends with status 1"),
+            ("\nkill -9 $$", "is ended by signal 9"),
+            ("\necho 'g++: fatal error: Killed signal terminated program cc1plus'; exit 1",
+             "more memory"),
+            ("\necho 'x.cpp:9:1: fatal error: error writing to /tmp/c.s: No space left on device'; "
+             "exit 1", "make room"),
+            ("\necho '/usr/bin/ld: final link failed: Disk quota exceeded'; exit 1", "make room"),
+            (f"\n{self.MISTAKE}", "set CXX to g++ 12"),  # The runtime's headers, too: too old.
+            (f"\ncase $* in *headers.cpp*) exit 0; esac; echo 'virtual memory exhausted'; "
+             f"{self.MISTAKE}", "more memory"),
+        ):
+            for result in self.compile_with(compiler):
+                self.assert_refused(result, "E0910")
+                self.assertIn(says, result.errors)
+
+    def test_options_of_the_user(self):
+        self.write("--script", f"case $* in *headers.cpp*) exit 0; esac; {self.MISTAKE}")
+        for result in self.compile_with("sh -- ./--script"):
+            self.assert_refused(result, "E0910")
+            self.assertIn("leave the options out of CXX, which is 'sh -- ./--script'", result.errors)
+
+    def test_threads_that_cannot_be_created(self):
+        limit = 300 * 2**20
+        result = self.run_command(
+            RDDL, "run", *PROBLEM, "--engine=interpreter", "--episodes=1000", "--threads=600",
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(result.status, SUCCESS, result)
+        self.assertRegex(result.errors, "the system gives no more than [0-9]+ of 600 threads")
+
+    def test_full_standard_streams(self):
+        for words in ([RDDLC, "--help"], [RDDL, "--help"], [RDDL, "run", "--help"],
+                      [RDDLC, "--version"], [RDDL, "--version"], [RDDLC, "--explain", "E0101"],
+                      [RDDL, "info", *PROBLEM], [RDDLC, *PROBLEM, "--stats"],
+                      [RDDL, "fmt", "--stdout", PROBLEM[0]]):
+            with open("/dev/full", "w") as full:
+                result = self.run_command(*words, stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(result.status, DIAGNOSED, f"{words}\n{result}")
+            self.assertIn("No space left on device", result.errors)
+        for words, status in (([RDDL, "nonsense"], USAGE), ([RDDLC, "--nonsense"], USAGE),
+                              ([RDDLC, "no.rddl"], DIAGNOSED), ([RDDL, "run", "no.rddl"], DIAGNOSED),
+                              ([RDDLC, *PROBLEM, "--check", "-v"], SUCCESS)):
+            with open("/dev/full", "w") as full:
+                result = self.run_command(*words, stdout=subprocess.PIPE, stderr=full)
+            self.assertEqual(result.status, status, f"{words}\n{result}")
 
 
 class Externals(CommandTest):

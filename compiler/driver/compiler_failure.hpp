@@ -1,0 +1,30 @@
+// Whose fault it is that the C++ compiler made nothing: a mistake of ours is what it finds one in,
+// and nothing else.
+#pragma once
+
+#include "driver/process.hpp"
+#include "support/diagnostic.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rddlc {
+
+// Whether it names a place in what it compiles as wrong, or a function that is missing. It must
+// speak English (LC_ALL=C).
+bool names_a_mistake(const ProcessResult& failed);
+
+// Whether it says that it lacks memory or room, or that it was killed.
+bool lacks_resources(const ProcessResult& failed);
+
+// Whether a text that we have written is wrong. So it is if the compiler names a mistake and lacks
+// nothing, if CXX adds no options of the user's, and if `compiles_runtime`: the headers of our
+// runtime alone are no problem for it, so that it is new enough. The last is asked only if all else
+// holds.
+bool is_our_mistake(const ProcessResult& failed, const std::function<bool()>& compiles_runtime);
+
+// Any other failure, with what the compiler says.
+Diagnostic failing_compiler(const std::vector<std::string>& command, const ProcessResult& failed);
+
+}  // namespace rddlc
