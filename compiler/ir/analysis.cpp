@@ -11,8 +11,6 @@ namespace rddlc::ir {
 namespace {
 
 constexpr double cheap_cost = 6;
-// Ints of a smaller size, and their neighbours, are doubles, too: ranges are of doubles.
-constexpr double exact_ints = 0x1p53;
 
 // In units of an addition.
 double cost_of(Operator op) {
@@ -50,26 +48,11 @@ double as_real(const Value& value) {
     return match(value, [](auto v) { return static_cast<double>(v); });
 }
 
-bool is_too_large(const Value& value) {
-    return std::holds_alternative<std::int64_t>(value) && std::abs(as_real(value)) >= exact_ints;
-}
-
-std::optional<Range> range_of(const std::vector<Value>& values) {
-    if (values.empty()) return std::nullopt;
-    Range range{HUGE_VAL, -HUGE_VAL};
-    for (const Value& value : values) {
-        const double v = as_real(value);
-        if (std::isnan(v) || is_too_large(value)) return std::nullopt;
-        range = join(range, {v, v});
-    }
-    return range;
-}
-
 // Joins what is known of operands into what is known of their user.
 class Collector {
   public:
-    Collector(const Program& program, std::span<const Facts> known)
-        : program_(program), known_(known) {}
+    Collector(const Program& program, std::span<const Facts> known, TableFacts& tables)
+        : program_(program), known_(known), tables_(tables) {}
 
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
@@ -93,7 +76,7 @@ class Collector {
     }
 
     void describe(Scalar, const Constant& constant) {
-        facts_.range = range_of({constant.value});
+        facts_.range = range_of(Table{constant.value});
         facts_.finite = std::isfinite(as_real(constant.value));
     }
 
@@ -106,10 +89,10 @@ class Collector {
     void describe(Scalar, const Load& load) {
         facts_.cost += 1;
         const Buffer& buffer = program_[load.buffer];
-        facts_.uniform &= buffer.storage == Storage::Constant;
+        facts_.uniform &= is_constant(load.buffer);
         facts_.finite = buffer.finite;
         facts_.range =
-            buffer.storage == Storage::Constant ? table_range(load.buffer) : object_range(buffer);
+            is_constant(load.buffer) ? tables_.range(program_, load.buffer) : object_range(buffer);
     }
 
     // Of a fluent whose values are objects.
@@ -191,11 +174,7 @@ class Collector {
                                 static_cast<double>(program_[bits.buffer].count() - bits.first));
             },
             [&](const Load& load) {
-                const Buffer& buffer = program_[load.buffer];
-                double most = buffer.storage == Storage::Constant ? 0 : 64;
-                for (std::int64_t i = 0; most < 64 && i < buffer.count(); ++i)
-                    most = std::max(most, ones(buffer.values[i]));
-                return most;
+                return is_constant(load.buffer) ? tables_.most_ones(program_, load.buffer) : 64.0;
             },
             [&](const Apply& apply) {
                 if (apply.op != Operator::BitAnd) return 64.0;
@@ -235,12 +214,8 @@ class Collector {
     // The length of the longest row.
     double longest(const Bounds& bounds) const {
         const Load* row = row_of(program_, bounds);
-        if (!row) return std::numeric_limits<double>::infinity();
-        const Table& begins = program_[row->buffer].values;
-        double longest = 0;
-        for (std::int64_t k = 1; k < program_[row->buffer].count(); ++k)
-            longest = std::max(longest, as_real(begins[k]) - as_real(begins[k - 1]));
-        return longest;
+        return row ? tables_.longest_row(program_, row->buffer)
+                   : std::numeric_limits<double>::infinity();
     }
 
     // On average, where the bounds are neighbours in a table of where rows begin.
@@ -305,16 +280,11 @@ class Collector {
 
     std::optional<Range> range(NodeId id) const { return known_[id.index].range; }
 
-    std::optional<Range> table_range(BufferId id) const {
-        std::vector<Value> values;
-        const Table& table = program_[id].values;
-        if (table.has_common()) values.push_back(table.common());
-        for (const auto& [index, value] : table.exceptions()) values.push_back(value);
-        return range_of(values);
-    }
+    bool is_constant(BufferId id) const { return program_[id].storage == Storage::Constant; }
 
     const Program& program_;
     std::span<const Facts> known_;
+    TableFacts& tables_;
     Facts facts_;
 };
 
@@ -404,14 +374,16 @@ bool draws(const std::vector<Definition>& definitions, const std::vector<Facts>&
 
 }  // namespace
 
-Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known) {
-    return Collector(program, known).facts_of(node);
+Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known,
+               TableFacts& tables) {
+    return Collector(program, known, tables).facts_of(node);
 }
 
 std::vector<Facts> all_facts(const Program& program) {
+    TableFacts tables;
     std::vector<Facts> facts;
     facts.reserve(program.nodes.size());
-    for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts));
+    for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts, tables));
     return facts;
 }
 

@@ -3,6 +3,7 @@
 
 #include "ir/ir.hpp"
 #include "ir/range.hpp"
+#include "ir/table_facts.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -27,7 +28,8 @@ struct Facts {
 };
 
 // Of a node whose operands' facts are already in `known`.
-Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known);
+Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known,
+               TableFacts& tables);
 // Of all nodes of the program, by NodeId::index.
 std::vector<Facts> all_facts(const Program& program);
 

@@ -150,7 +150,7 @@ NodeId Builder::intern(Node node) {
     const NodeId next{static_cast<std::uint32_t>(program_.nodes.size())};
     const auto [entry, is_new] = known_.emplace(Key(node).words(), next);
     if (is_new) {
-        facts_.push_back(facts_of(program_, node, facts_));
+        facts_.push_back(facts_of(program_, node, facts_, tables_));
         program_.nodes.push_back(std::move(node));
     }
     return entry->second;

@@ -54,6 +54,7 @@ class Builder {
 
     Program& program_;
     std::vector<Facts> facts_;  // by NodeId::index
+    TableFacts tables_;
     std::map<std::vector<std::uint64_t>, NodeId> known_;
 };
 

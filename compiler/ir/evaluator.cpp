@@ -12,15 +12,14 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
-#include <set>
 #include <type_traits>
 #include <utility>
 
 namespace rddlc::ir {
 namespace {
 
-// Constant tables with more elements are looked up where they are: they are sparse.
-constexpr std::int64_t most_packed = std::int64_t{1} << 20;
+// Constant tables for which these bytes leave no room are looked up where they are.
+constexpr std::size_t most_packed = std::size_t{1} << 25;
 
 // Locals of different computations never live together: each computation numbers its own from 0.
 void number_lets(const Block& block, std::size_t& next, std::vector<std::size_t>& slots) {
@@ -71,30 +70,40 @@ Evaluator::Evaluator(const Program& program, ExternalFunctions functions)
             origins_[field.buffer.index] = {record, field.offset};
         }
     }
-    pack_constants();
+    find_passed_tables();
+    know_added_tables();
     number_slots();
 }
 
-void Evaluator::pack_constants() {
-    std::set<BufferId> passed;  // as a whole: it must lie in memory
+// Tables that are passed as a whole must lie in memory.
+void Evaluator::find_passed_tables() {
     for (const Block* block : blocks_of(*program_)) {
         for_each_statement<Call>(*block, [&](const Call& call) {
-            for (const TableView& input : call.inputs) passed.insert(input.buffer);
+            for (const TableView& input : call.inputs) passed_.insert(input.buffer);
         });
     }
-    for (std::uint32_t index = 0; index < program_->buffers.size(); ++index) {
-        const Buffer& buffer = program_->buffers[index];
-        if (buffer.storage != Storage::Constant) continue;
-        origins_[index] = {static_cast<std::size_t>(Storage::Constant), constants_.size()};
-        origins_[index].is_looked_up =
-            buffer.count() > most_packed && !passed.contains(BufferId{index});
-        if (origins_[index].is_looked_up) continue;
-        constexpr std::size_t alignment = 8;
-        const std::size_t bytes =
-            size_of(buffer.scalar) * static_cast<std::size_t>(buffer.count()) + alignment - 1;
-        constants_.resize(constants_.size() + bytes / alignment * alignment);
-        write_values(buffer, constants_.data() + origins_[index].offset);
+}
+
+void Evaluator::know_added_tables() {
+    origins_.resize(program_->buffers.size());
+    for (; packed_ < origins_.size(); ++packed_) {
+        const BufferId id{static_cast<std::uint32_t>(packed_)};
+        if ((*program_)[id].storage == Storage::Constant) pack(id);
     }
+}
+
+void Evaluator::pack(BufferId id) {
+    const Buffer& buffer = (*program_)[id];
+    Origin& origin = origins_[id.index];
+    origin = {static_cast<std::size_t>(Storage::Constant), constants_.size()};
+    constexpr std::size_t alignment = 8;
+    const std::size_t bytes =
+        size_of(buffer.scalar) * static_cast<std::size_t>(buffer.count()) + alignment - 1;
+    origin.is_looked_up =
+        bytes > most_packed - std::min(most_packed, constants_.size()) && !passed_.contains(id);
+    if (origin.is_looked_up) return;
+    constants_.resize(constants_.size() + bytes / alignment * alignment);
+    write_values(buffer, constants_.data() + origin.offset);
 }
 
 void Evaluator::number_slots() {

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace rddlc::ir {
@@ -33,9 +34,12 @@ struct Records {
 
 class Evaluator {
   public:
-    // The program must outlive the evaluator, and not change. The functions are by ExternalId;
-    // whoever runs no calls needs none.
+    // The program must outlive the evaluator, and not change; there may come more nodes that do not
+    // draw, and constant tables. The functions are by ExternalId; whoever runs no calls needs none.
     explicit Evaluator(const Program& program, ExternalFunctions functions = {});
+
+    // Before values that read constant tables which are new.
+    void know_added_tables();
 
     // One evaluation: the records, and room for loop indices and locals.
     class Frame {
@@ -80,7 +84,8 @@ class Evaluator {
         bool is_looked_up = false;  // in Buffer::values: the table is too large to be packed
     };
 
-    void pack_constants();
+    void find_passed_tables();
+    void pack(BufferId table);
     void number_slots();
 
     // Where the element begins, or the part that the leading indices choose.
@@ -114,6 +119,8 @@ class Evaluator {
     const Program* program_;
     ExternalFunctions functions_;
     std::vector<Origin> origins_;            // by BufferId::index
+    std::set<BufferId> passed_;              // to calls
+    std::size_t packed_ = 0;                 // the first buffers, if they are Constant
     std::vector<std::byte> constants_;       // the record of all Constant buffers
     std::vector<std::size_t> local_slots_;   // by LocalId::index
     std::vector<std::size_t> weight_slots_;  // by NodeId::index: the first weight of a Discrete

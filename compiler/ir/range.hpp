@@ -15,6 +15,9 @@ struct Range {
     bool operator==(const Range&) const = default;
 };
 
+// Ints of a smaller magnitude are doubles exactly.
+inline constexpr double exact_ints = 0x1p53;
+
 Range join(Range a, Range b);
 
 // The range of `op` on reals, where it is known.

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <string_view>
+#include <tuple>
 
 namespace rddlc::ir {
 namespace {
@@ -52,13 +54,15 @@ class Verifier {
                     buffer.types.size());
             values(buffer);
         }
+        std::map<Likeness, int> counts;
+        for (const Buffer& buffer : program_.buffers) ++counts[likeness(buffer, buffer.storage)];
         for (const Buffer& buffer : program_.buffers) {
             if (buffer.storage == Storage::State)
-                require(count_like(buffer, Storage::Next) == 1, "'{}' has no next state",
+                require(counts[likeness(buffer, Storage::Next)] == 1, "'{}' has no next state",
                         buffer.name);
             if (buffer.storage == Storage::Memory)
-                require(count_like(buffer, Storage::NextMemory) == 1, "'{}' has no next memory",
-                        buffer.name);
+                require(counts[likeness(buffer, Storage::NextMemory)] == 1,
+                        "'{}' has no next memory", buffer.name);
         }
         for (const Fluent& fluent : program_.fluents) {
             require(!fluent.buffer || fluent.buffer->index < program_.buffers.size(),
@@ -79,11 +83,10 @@ class Verifier {
         require(buffer.values.all_of(typed), "'{}' has values of another type", buffer.name);
     }
 
-    std::ptrdiff_t count_like(const Buffer& model, Storage storage) const {
-        return std::ranges::count_if(program_.buffers, [&](const Buffer& buffer) {
-            return buffer.storage == storage && buffer.name == model.name &&
-                   buffer.shape == model.shape && buffer.scalar == model.scalar;
-        });
+    // What a buffer and that of its next value have in common, apart from the storage.
+    using Likeness = std::tuple<std::string_view, std::vector<std::int64_t>, Scalar, Storage>;
+    static Likeness likeness(const Buffer& buffer, Storage storage) {
+        return {buffer.name, buffer.shape, buffer.scalar, storage};
     }
 
     // -------------------------------------------------------------------------- nodes
@@ -159,17 +162,18 @@ class Verifier {
     void nodes() {
         const std::vector<bool> reachable = reachable_nodes(program_);
         std::vector<int> site_uses = calls_by_site();
+        bound_below_.resize(program_.nodes.size());
         for (std::uint32_t index = 0; index < program_.nodes.size(); ++index) {
             if (!reachable[index]) continue;
             const Node& node = program_.nodes[index];
             const bool typed =
                 match(node.form, [&](const auto& form) { return fits(form, node.type); });
-            require(typed, "types do not fit in '{}'", print(program_, NodeId{index}));
-            not_bound_inside_itself(NodeId{index});
+            require(typed, "types do not fit in '{}'", text_unless(typed, {index}));
+            not_bound_inside_itself({index});
             const auto place = place_of(node);
             if (!place) continue;
-            require(type(place->index) == Scalar::Int, "the place of '{}' is not an int",
-                    print(program_, NodeId{index}));
+            const bool is_int = type(place->index) == Scalar::Int;
+            require(is_int, "the place of '{}' is not an int", text_unless(is_int, {index}));
             ++site_uses[place->site.index];
         }
         for (std::size_t site = 0; site < site_uses.size(); ++site) {
@@ -177,6 +181,9 @@ class Verifier {
             numbers_fit(program_.sites[site]);
         }
     }
+
+    // For complaints: to print every node would take the square of their number.
+    std::string text_unless(bool ok, NodeId id) const { return ok ? "" : print(program_, id); }
 
     void numbers_fit(const Site& site) {
         if (!site.series) return;
@@ -196,12 +203,23 @@ class Verifier {
     }
 
     void not_bound_inside_itself(NodeId binder) {
+        std::vector<VariableId>& bound = bound_below_[binder.index];
+        for (NodeId operand : operands_of(program_[binder]))
+            bound = united(bound, bound_below_[operand.index]);
         const auto variable = bound_variable(program_[binder]);
         if (!variable) return;
-        for (NodeId id : below(operands_of(program_[binder]).front())) {
-            require(bound_variable(program_[id]) != variable, "'{}' is bound inside itself",
-                    program_[*variable].name);
-        }
+        const auto& inside = bound_below_[operands_of(program_[binder]).front().index];
+        require(!std::ranges::binary_search(inside, *variable), "'{}' is bound inside itself",
+                program_[*variable].name);
+        bound = united(bound, {*variable});
+    }
+
+    static std::vector<VariableId> united(const std::vector<VariableId>& a,
+                                          const std::vector<VariableId>& b) {
+        if (b.empty()) return a;
+        std::vector<VariableId> both;
+        std::ranges::set_union(a, b, std::back_inserter(both));
+        return both;
     }
 
     bool fits(const Constant& form, Scalar type) const {
@@ -436,13 +454,13 @@ class Verifier {
 
     // A table is complete behind the outermost statement that fills it. The scope behind the body.
     Scope body(const Block& statements, const StorageSet& readable) {
-        const std::set<BufferId> before = defined_;
+        ++body_;
         Scope scope;
         for (const Statement& each : statements) {
             statement(each, scope, readable);
             for (BufferId target : filled_by(each)) {
-                require(!before.contains(target), "'{}' is computed twice", program_[target].name);
-                defined_.insert(target);
+                const int first = defined_.emplace(target, body_).first->second;
+                require(first == body_, "'{}' is computed twice", program_[target].name);
             }
         }
         return scope;
@@ -570,8 +588,8 @@ class Verifier {
         const auto known = [&](VariableId id) {
             return scope.variables.contains(id);
         };
-        require(std::ranges::all_of(facts_[root.index].free_variables, known),
-                "a variable of '{}' is not bound", print(program_, root));
+        const bool bound = std::ranges::all_of(facts_[root.index].free_variables, known);
+        require(bound, "a variable of '{}' is not bound", text_unless(bound, root));
         for (NodeId id : below(root)) {
             const Node& node = program_[id];
             if (const auto buffer = buffer_read_by(node)) readable_now(*buffer, readable);
@@ -608,8 +626,10 @@ class Verifier {
 
     const Program& program_;
     std::vector<Facts> facts_;
-    StorageSet computed_;  // what the current block computes
-    std::set<BufferId> defined_;
+    StorageSet computed_;                               // what the current block computes
+    std::map<BufferId, int> defined_;                   // and in which body
+    int body_ = 0;                                      // how many have been looked at
+    std::vector<std::vector<VariableId>> bound_below_;  // sorted, by NodeId::index
     std::map<LocalId, Scalar> let_types_;
     std::vector<std::string> complaints_;
 };

@@ -7,8 +7,8 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -22,71 +22,13 @@ constexpr double cost_of_element = 2;
 constexpr double cheap_enough_to_try = 64;
 constexpr double most_elements = 1e6;
 
-// How one CPF, or the reward, uses the nodes.
+// How one CPF, or the reward, uses a node.
 struct Use {
-    std::vector<double> times;  // by NodeId::index: evaluations in a step; 0 if it is not used
-    std::vector<bool> always;   // and not in a branch
-    std::set<ir::BufferId> filled;
+    double times = 0;     // evaluations in a step
+    bool always = false;  // and not in a branch
 };
-
-class Counting {
-  public:
-    Counting(const ir::Program& program, const std::map<ir::NodeId, ir::NodeId>& shared)
-        : program_(program), shared_(shared) {}
-
-    Use of(const ir::Block& body) {
-        use_ = {.times = std::vector<double>(program_.nodes.size()),
-                .always = std::vector<bool>(program_.nodes.size()),
-                .filled = ir::written_buffers(body)};
-        visit(body, 1);
-        spread();
-        return std::move(use_);
-    }
-
-  private:
-    void visit(const ir::Block& block, double times) {
-        const auto use = [&](ir::NodeId root) {
-            use_.times[root.index] = std::max(use_.times[root.index], times);
-            use_.always[root.index] = true;
-        };
-        for (const ir::Statement& statement : block) {
-            match(
-                statement.form, [&](const ir::Let& let) { use(let.value); },
-                [&](const ir::Store& store) {
-                    for (ir::NodeId index : store.indices) use(index);
-                    use(store.value);
-                },
-                [&](const ir::Loop& loop) {
-                    visit(loop.body, times * static_cast<double>(program_[loop.variable].size));
-                },
-                [&](const ir::Call& call) {
-                    for (ir::NodeId operand : ir::operands_of(call)) use(operand);
-                });
-        }
-    }
-
-    // From the roots down: users come behind their operands in the pool.
-    void spread() {
-        for (std::uint32_t index = static_cast<std::uint32_t>(use_.times.size()); index-- > 0;) {
-            if (use_.times[index] == 0 || shared_.contains({index})) continue;
-            const ir::Node& node = program_.nodes[index];
-            const auto bound = ir::bound_variable(node);
-            const std::vector<ir::NodeId> operands = ir::operands_of(node);
-            for (std::size_t k = 0; k < operands.size(); ++k) {
-                const double repeated =
-                    bound && k == 0 ? static_cast<double>(program_[*bound].size) : 1;
-                double& times = use_.times[operands[k].index];
-                times = std::max(times, use_.times[index] * repeated);
-                const bool is_branch = std::holds_alternative<ir::Select>(node.form) && k > 0;
-                if (use_.always[index] && !is_branch) use_.always[operands[k].index] = true;
-            }
-        }
-    }
-
-    const ir::Program& program_;
-    const std::map<ir::NodeId, ir::NodeId>& shared_;
-    Use use_;
-};
+// By users, which are the CPFs in their order, and then the reward.
+using Uses = std::map<std::size_t, Use>;
 
 class Sharing {
   public:
@@ -94,94 +36,169 @@ class Sharing {
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
-        while (const auto found = find()) share(found->id, found->first_user);
+        find_uses();
+        find_available();
+        choose();
+        replace();
         return ir::collect_garbage(std::move(program_));
     }
 
   private:
-    struct Found {
+    // Worth a table, which the first user fills.
+    struct Shared {
         ir::NodeId id;
         std::size_t first_user;
+        ir::BufferId table;
     };
 
-    // The CPFs, then the reward.
-    std::vector<ir::Block> users() const {
-        std::vector<ir::Block> blocks;
-        for (const ir::Definition& definition : program_.step) blocks.push_back(definition.body);
-        blocks.push_back(program_.reward.body);
-        blocks.back().push_back({ir::Let{{}, program_.reward.value}});
-        return blocks;
+    // ------------------------------------------------------------------------------- uses
+
+    void find_uses() {
+        for (std::size_t user = 0; user < program_.step.size(); ++user)
+            visit(program_.step[user].body, user, 1);
+        const std::size_t reward = program_.step.size();
+        visit(program_.reward.body, reward, 1);
+        use(program_.reward.value, reward, {1, true});
     }
 
-    // The outermost expression that is worth it.
-    std::optional<Found> find() const {
-        std::vector<Use> uses;
-        for (const ir::Block& block : users())
-            uses.push_back(Counting(program_, elements_).of(block));
-        for (std::uint32_t index = static_cast<std::uint32_t>(program_.nodes.size());
-             index-- > 0;) {
-            const auto used = [&](const Use& use) {
-                return use.times[index] > 0;
-            };
-            if (elements_.contains({index}) || std::ranges::count_if(uses, used) < 2) continue;
-            const auto first = std::ranges::find_if(uses, used);
-            if (!is_worthwhile({index}, uses) || !is_known_before({index}, first->filled)) continue;
-            return Found{{index}, static_cast<std::size_t>(first - uses.begin())};
+    void visit(const ir::Block& block, std::size_t user, double times) {
+        const auto use_root = [&](ir::NodeId root) {
+            use(root, user, {times, true});
+        };
+        for (const ir::Statement& statement : block) {
+            match(
+                statement.form, [&](const ir::Let& let) { use_root(let.value); },
+                [&](const ir::Store& store) {
+                    for (ir::NodeId index : store.indices) use_root(index);
+                    use_root(store.value);
+                },
+                [&](const ir::Loop& loop) {
+                    visit(loop.body, user,
+                          times * static_cast<double>(program_[loop.variable].size));
+                },
+                [&](const ir::Call& call) {
+                    for (ir::NodeId operand : ir::operands_of(call)) use_root(operand);
+                });
         }
-        return std::nullopt;
     }
 
-    bool is_worthwhile(ir::NodeId id, const std::vector<Use>& uses) const {
+    void use(ir::NodeId id, std::size_t user, const Use& more) {
+        if (more.times == 0) return;
+        Use& use = uses_[id][user];
+        use.times = std::max(use.times, more.times);
+        use.always |= more.always;
+    }
+
+    // Behind which users all is there that a node reads. A local value is there for no other user.
+    void find_available() {
+        std::map<ir::BufferId, std::size_t> filled;
+        for (std::size_t user = 0; user <= program_.step.size(); ++user) {
+            for (const ir::BufferId table : ir::written_buffers(body_of(user)))
+                filled[table] = user + 1;
+        }
+        available_.resize(program_.nodes.size());
+        for (std::size_t index = 0; index < available_.size(); ++index) {
+            const ir::Node& node = program_.nodes[index];
+            const auto buffer = ir::buffer_read_by(node);
+            const auto table = buffer ? filled.find(*buffer) : filled.end();
+            std::size_t& available = available_[index];
+            if (std::holds_alternative<ir::Local>(node.form)) available = program_.step.size() + 1;
+            if (table != filled.end()) available = table->second;
+            for (const ir::NodeId operand : ir::operands_of(node))
+                available = std::max(available, available_[operand.index]);
+        }
+    }
+
+    // ---------------------------------------------------------------------------- choosing
+
+    // From the roots down, so that the outermost expressions that are worth it are found first;
+    // users come behind their operands in the pool.
+    void choose() {
+        for (const auto& [id, uses] : uses_) {
+            if (is_worthwhile(id, uses) && available_[id.index] <= uses.begin()->first) {
+                share(id, uses);
+            } else {
+                for (const auto& [user, use] : uses) spread(id, user, use);
+            }
+        }
+    }
+
+    void spread(ir::NodeId id, std::size_t user, const Use& of_node) {
+        const ir::Node& node = program_[id];
+        const auto bound = ir::bound_variable(node);
+        const std::vector<ir::NodeId> operands = ir::operands_of(node);
+        for (std::size_t k = 0; k < operands.size(); ++k) {
+            const double repeated =
+                bound && k == 0 ? static_cast<double>(program_[*bound].size) : 1;
+            const bool is_branch = std::holds_alternative<ir::Select>(node.form) && k > 0;
+            use(operands[k], user, {of_node.times * repeated, of_node.always && !is_branch});
+        }
+    }
+
+    bool is_worthwhile(ir::NodeId id, const Uses& uses) const {
         const ir::Facts& facts = builder_.facts(id);
-        if (facts.may_fault || facts.uniform || facts.cost < worth_an_element) return false;
+        if (uses.size() < 2 || facts.may_fault || facts.uniform || facts.cost < worth_an_element)
+            return false;
         double elements = 1, evaluations = 0;
         for (ir::VariableId variable : facts.free_variables)
             elements *= static_cast<double>(program_[variable].size);
-        for (const Use& use : uses) evaluations += use.times[id.index];
-        const bool always =
-            std::ranges::any_of(uses, [&](const Use& use) { return use.always[id.index]; });
+        bool always = false;
+        for (const auto& [user, use] : uses) {
+            evaluations += use.times;
+            always |= use.always;
+        }
         const double shared = elements * (facts.cost + cost_of_element);
         return (always || facts.cost <= cheap_enough_to_try) && elements <= most_elements &&
                shared + evaluations * cost_of_element < evaluations * facts.cost;
     }
 
-    // Neither a local value nor what the first user itself fills is part of it.
-    bool is_known_before(ir::NodeId id, const std::set<ir::BufferId>& filled) const {
-        const ir::Node& node = program_[id];
-        if (std::holds_alternative<ir::Local>(node.form)) return false;
-        const auto buffer = ir::buffer_read_by(node);
-        if (buffer && filled.contains(*buffer)) return false;
-        return std::ranges::all_of(ir::operands_of(node), [&](ir::NodeId operand) {
-            return is_known_before(operand, filled);
-        });
+    // The first user fills a table for it, and all read that.
+    void share(ir::NodeId id, const Uses& uses) {
+        const std::size_t first_user = uses.begin()->first;
+        double elements = 1;
+        for (const ir::VariableId variable : builder_.facts(id).free_variables)
+            elements *= static_cast<double>(program_[variable].size);
+        spread(id, first_user, {elements, true});
+        const Span span = first_user < program_.step.size() ? program_.step[first_user].span
+                                                            : program_.reward.span;
+        shared_.push_back({id, first_user, new_table(id, span)});
     }
 
-    // ---------------------------------------------------------------------------- sharing
+    ir::Block& body_of(std::size_t user) {
+        return user < program_.step.size() ? program_.step[user].body : program_.reward.body;
+    }
 
-    void share(ir::NodeId id, std::size_t first_user) {
-        const std::vector<ir::VariableId> variables = builder_.facts(id).free_variables;
-        const bool in_step = first_user < program_.step.size();
-        ir::Block& body = in_step ? program_.step[first_user].body : program_.reward.body;
-        const ir::BufferId table =
-            new_table(id, in_step ? program_.step[first_user].span : program_.reward.span);
-        std::vector<ir::NodeId> indices;
-        for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
-        const ir::NodeId element = builder_.load(table, indices);
+    // --------------------------------------------------------------------------- replacing
 
-        std::map<ir::NodeId, ir::NodeId> known = {{id, element}};
+    // Inner expressions first, so that outer ones read their tables.
+    void replace() {
+        std::ranges::reverse(shared_);
+        std::map<ir::NodeId, ir::NodeId> known;
+        std::map<std::size_t, ir::Block> fills;
+        for (const Shared& shared : shared_) {
+            const std::vector<ir::VariableId> variables = builder_.facts(shared.id).free_variables;
+            std::vector<ir::NodeId> indices;
+            for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+            const ir::NodeId value = ir::replace_in(builder_, shared.id, known);
+            known[shared.id] = builder_.load(shared.table, indices);
+            ir::Block fill;
+            fill.push_back({ir::Store{shared.table, indices, value}});
+            std::ranges::move(ir::looped(std::move(fill), variables),
+                              std::back_inserter(fills[shared.first_user]));
+            ++report_["expressions computed once for several CPFs"];
+        }
+        if (shared_.empty()) return;
         const ir::Change change = [&](ir::NodeId& root) {
             root = ir::replace_in(builder_, root, known);
         };
         for (ir::Definition& definition : program_.step) ir::change_roots(definition.body, change);
         ir::change_roots(program_.reward.body, change);
         change(program_.reward.value);
-        elements_[element] = element;
-
-        ir::Block fill;
-        fill.push_back({ir::Store{table, indices, id}});
-        fill = ir::looped(std::move(fill), variables);
-        body.insert(body.begin(), std::move(fill.front()));
-        ++report_["expressions computed once for several CPFs"];
+        for (auto& [user, fill] : fills) {
+            ir::Block& body = body_of(user);
+            std::ranges::move(body, std::back_inserter(fill));
+            body = std::move(fill);
+        }
     }
 
     ir::BufferId new_table(ir::NodeId id, Span span) {
@@ -215,7 +232,9 @@ class Sharing {
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
-    std::map<ir::NodeId, ir::NodeId> elements_;  // loads of what is shared already
+    std::map<ir::NodeId, Uses, std::greater<>> uses_;  // users before their operands
+    std::vector<std::size_t> available_;               // by NodeId::index: the first user
+    std::vector<Shared> shared_;
 };
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -15,21 +17,17 @@ namespace {
 // In operations (Facts::cost).
 constexpr double worth_a_name = 6;
 
-// How the nodes below a statement are used. All vectors are by NodeId::index.
-struct Uses {
-    explicit Uses(std::size_t node_count)
-        : is_root(node_count),
-          reached(node_count),
-          always(node_count),
-          repeated(node_count),
-          count(node_count) {}
-
-    std::vector<bool> is_root;
-    std::vector<bool> reached;
-    std::vector<bool> always;    // evaluated whenever the statement is
-    std::vector<bool> repeated;  // below a loop of the statement, or a reduction
-    std::vector<int> count;      // by different nodes, or twice by one
+// How a node below a statement is used.
+struct Use {
+    bool is_root = false;
+    bool always = false;    // evaluated whenever the statement is
+    bool repeated = false;  // below a loop of the statement, or a reduction
+    int count = 0;          // by different nodes, or twice by one
 };
+
+// Of all nodes below a statement, users before their operands. No statement looks at nodes of
+// others, or the time would be the square of the program's length.
+using Uses = std::map<ir::NodeId, Use, std::greater<>>;
 
 class Sharing {
   public:
@@ -64,7 +62,7 @@ class Sharing {
     void share_in(ir::Computation& computation) {
         bound_.clear();
         share_below(computation.body);
-        Uses uses(program_.nodes.size());
+        Uses uses;
         use(uses, computation.value, false);
         ir::Block lets =
             replace_shared(uses, {}, [&](const ir::Change& change) { change(computation.value); });
@@ -89,7 +87,7 @@ class Sharing {
     }
 
     ir::Block lets_before(ir::Block& single) {
-        Uses uses(program_.nodes.size());
+        Uses uses;
         const bool is_loop = std::holds_alternative<ir::Loop>(single.front().form);
         for (ir::NodeId root : ir::roots_of(single)) use(uses, root, is_loop);
         return replace_shared(uses, ir::written_buffers(single),
@@ -99,27 +97,21 @@ class Sharing {
     // ---------------------------------------------------------------------------- uses
 
     static void use(Uses& uses, ir::NodeId root, bool repeated) {
-        uses.is_root[root.index] = true;
-        uses.reached[root.index] = true;
-        uses.always[root.index] = true;
-        uses.repeated[root.index] = uses.repeated[root.index] || repeated;
-        ++uses.count[root.index];
+        Use& use = uses[root];
+        use.is_root = use.always = true;
+        use.repeated |= repeated;
+        ++use.count;
     }
 
     // From the roots down: users come behind their operands in the pool.
     void spread(Uses& uses) const {
-        for (std::size_t index = uses.reached.size(); index-- > 0;) {
-            if (!uses.reached[index]) continue;
-            const ir::Node& node = program_.nodes[index];
+        for (const auto& [id, use] : uses) {
+            const ir::Node& node = program_[id];
             for (ir::NodeId operand : ir::operands_of(node)) {
-                uses.reached[operand.index] = true;
-                ++uses.count[operand.index];
-                if (uses.repeated[index] || is_body(node, operand)) {
-                    uses.repeated[operand.index] = true;
-                }
-                if (uses.always[index] && !is_lazy(node, operand)) {
-                    uses.always[operand.index] = true;
-                }
+                Use& used = uses[operand];
+                ++used.count;
+                used.repeated |= use.repeated || is_body(node, operand);
+                used.always |= use.always && !is_lazy(node, operand);
             }
         }
     }
@@ -160,47 +152,48 @@ class Sharing {
 
     // In the order of the pool, so that each may use those before it.
     std::vector<ir::NodeId> choose(const Uses& uses, const std::set<ir::BufferId>& stored) const {
-        const std::vector<bool> fixed = fixed_nodes(uses, stored);
-        const std::vector<bool> exposed = exposed_nodes(uses, fixed);
+        const std::set<ir::NodeId> fixed = fixed_nodes(uses, stored);
+        const std::set<ir::NodeId> exposed = exposed_nodes(uses, fixed);
         std::vector<ir::NodeId> chosen;
-        for (std::uint32_t index = 0; index < fixed.size(); ++index) {
-            if (!fixed[index] || !uses.always[index] || is_plain_index({index})) continue;
-            if (builder_.facts({index}).cost < worth_a_name) continue;
-            const bool hoisted = uses.repeated[index] && exposed[index];
-            if (uses.count[index] > 1 || hoisted) chosen.push_back({index});
+        for (const ir::NodeId id : fixed) {
+            const Use& use = uses.at(id);
+            if (!use.always || is_plain_index(id)) continue;
+            if (builder_.facts(id).cost < worth_a_name) continue;
+            const bool hoisted = use.repeated && exposed.contains(id);
+            if (use.count > 1 || hoisted) chosen.push_back(id);
         }
         return chosen;
     }
 
     // Neither the loops nor the stores of the statement change the node's value.
-    std::vector<bool> fixed_nodes(const Uses& uses, const std::set<ir::BufferId>& stored) const {
+    std::set<ir::NodeId> fixed_nodes(const Uses& uses, const std::set<ir::BufferId>& stored) const {
         const auto is_bound = [&](ir::VariableId id) {
             return bound_.contains(id);
         };
-        std::vector<bool> reads_stored(uses.reached.size());
-        std::vector<bool> fixed(uses.reached.size());
-        for (std::uint32_t index = 0; index < fixed.size(); ++index) {
-            const ir::Node& node = program_.nodes[index];
+        std::set<ir::NodeId> reads_stored, fixed;
+        for (const auto& [id, use] : std::views::reverse(uses)) {
+            const ir::Node& node = program_[id];
             const auto buffer = ir::buffer_read_by(node);
             const auto reads = [&](ir::NodeId operand) {
-                return reads_stored[operand.index];
+                return reads_stored.contains(operand);
             };
-            reads_stored[index] = (buffer && stored.contains(*buffer)) ||
-                                  std::ranges::any_of(ir::operands_of(node), reads);
-            fixed[index] = uses.reached[index] && !reads_stored[index] &&
-                           std::ranges::all_of(builder_.facts({index}).free_variables, is_bound);
+            if ((buffer && stored.contains(*buffer)) ||
+                std::ranges::any_of(ir::operands_of(node), reads)) {
+                reads_stored.insert(id);
+            } else if (std::ranges::all_of(builder_.facts(id).free_variables, is_bound)) {
+                fixed.insert(fixed.end(), id);
+            }
         }
         return fixed;
     }
 
     // Used by something that is not fixed. What is used by fixed nodes alone goes with them.
-    std::vector<bool> exposed_nodes(const Uses& uses, const std::vector<bool>& fixed) const {
-        std::vector<bool> exposed = uses.is_root;
-        for (std::size_t index = 0; index < fixed.size(); ++index) {
-            if (!uses.reached[index] || fixed[index]) continue;
-            for (ir::NodeId operand : ir::operands_of(program_.nodes[index])) {
-                exposed[operand.index] = true;
-            }
+    std::set<ir::NodeId> exposed_nodes(const Uses& uses, const std::set<ir::NodeId>& fixed) const {
+        std::set<ir::NodeId> exposed;
+        for (const auto& [id, use] : uses) {
+            if (use.is_root) exposed.insert(id);
+            if (fixed.contains(id)) continue;
+            for (ir::NodeId operand : ir::operands_of(program_[id])) exposed.insert(operand);
         }
         return exposed;
     }
