@@ -47,11 +47,13 @@ std::string hint_for_unknown(const std::string& name, const Context& context) {
         return fmt::format("an aggregation is written '{}_{{?x : type}} ...'", name);
     if (context.names.fluents.contains(name))
         return fmt::format("the fluent's arguments take round brackets: '{}(...)'", name);
-    std::vector<std::string> names = function_names();
-    std::erase_if(names, [&](const std::string& known) {
-        return context.standard == Standard::PyRddlGym && is_extension(*function_named(known));
+    return suggestion(context, name, [&] {
+        std::vector<std::string> names = function_names();
+        std::erase_if(names, [&](const std::string& known) {
+            return context.standard == Standard::PyRddlGym && is_extension(*function_named(known));
+        });
+        return names;
     });
-    return suggestion(context, name, std::move(names));
 }
 
 std::string hint_for_arity(Operator op, std::size_t found) {

@@ -6,12 +6,18 @@
 
 namespace rddlc::checking {
 
-std::string suggestion(const Context& context, std::string_view name,
-                       std::vector<std::string> candidates) {
+std::optional<std::string> name_meant(const Context& context, std::string_view name,
+                                      const Candidates& candidates) {
     constexpr std::size_t enough_errors = 50;
-    if (context.diagnostics.error_count() >= enough_errors) return "";
-    std::ranges::sort(candidates);
-    const auto near = did_you_mean(name, candidates);
+    if (context.diagnostics.error_count() >= enough_errors) return std::nullopt;
+    std::vector<std::string> names = candidates();
+    std::ranges::sort(names);
+    return did_you_mean(name, names);
+}
+
+std::string suggestion(const Context& context, std::string_view name,
+                       const Candidates& candidates) {
+    const auto near = name_meant(context, name, candidates);
     return near ? fmt::format("did you mean '{}'?", *near) : "";
 }
 

@@ -8,6 +8,7 @@
 #include "support/source.hpp"
 #include "support/standard.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,10 +71,13 @@ std::vector<std::string> keys(const std::unordered_map<std::string, T>& map) {
     return result;
 }
 
-// "did you mean 'rlevel'?" or nothing. After many errors nothing is suggested any more: the
-// search looks at every candidate.
-std::string suggestion(const Context& context, std::string_view name,
-                       std::vector<std::string> candidates);
+// The name that was meant, if one of the candidates is near. They are only made while there are few
+// errors: the search looks at every one of them.
+using Candidates = std::function<std::vector<std::string>()>;
+std::optional<std::string> name_meant(const Context& context, std::string_view name,
+                                      const Candidates& candidates);
+// "did you mean 'rlevel'?" or nothing.
+std::string suggestion(const Context& context, std::string_view name, const Candidates& candidates);
 
 // "1 argument", "2 arguments"
 std::string counted(std::size_t count, std::string_view noun);

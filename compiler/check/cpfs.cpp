@@ -91,7 +91,8 @@ class CpfChecker {
     }
 
     void report_undeclared(const ast::Cpf& cpf) {
-        const auto meant = did_you_mean(cpf.name.text, keys(context_.names.fluents));
+        const auto meant =
+            name_meant(context_, cpf.name.text, [&] { return keys(context_.names.fluents); });
         if (meant) meant_.insert(context_.names.fluents.at(*meant));
         context_.report(diagnose(undeclared_cpf, cpf.name.span,
                                  fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))

@@ -27,7 +27,7 @@ std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& c
                 std::vector<std::string> names = keys(context.names.types);
                 names.insert(names.end(), {"bool", "int", "real"});
                 return names;
-            }())));
+            })));
     return std::nullopt;
 }
 

@@ -68,7 +68,7 @@ void report_unknown_name(const ast::Reference& reference, Scope& scope) {
     else if (context.names.types.contains(name))
         diagnostic.hint = fmt::format("'{}' is a type, and has no value", name);
     else
-        diagnostic.hint = suggestion(context, name, candidates(reference, context));
+        diagnostic.hint = suggestion(context, name, [&] { return candidates(reference, context); });
     context.report(std::move(diagnostic));
 }
 

@@ -102,7 +102,7 @@ Typed check_literal(const ast::Literal& literal, Span span, Scope& scope) {
     scope.context.report(
         diagnose(unknown_literal, span, fmt::format("no type has the member '@{}'", literal.name))
             .with_hint(suggestion(scope.context, "@" + literal.name,
-                                  as_literals(enumerated_members(scope.context)))));
+                                  [&] { return as_literals(enumerated_members(scope.context)); })));
     return std::nullopt;
 }
 

@@ -23,9 +23,12 @@ std::string hint_for_unknown(const std::string& name, const Scope& scope) {
     std::vector<std::string> names;
     for (const Binding& binding : scope.bindings) names.push_back(binding.name);
     if (names.empty()) return "no variable is bound here";
-    if (const auto near = did_you_mean(name, names))
+    if (const auto near = name_meant(scope.context, name, [&] { return names; }))
         return fmt::format("did you mean '?{}'?", *near);
-    return fmt::format("bound here: ?{}", fmt::join(names, ", ?"));
+    constexpr std::size_t most_shown = 10;
+    const bool all = names.size() <= most_shown;
+    if (!all) names.resize(most_shown);
+    return fmt::format("bound here: ?{}{}", fmt::join(names, ", ?"), all ? "" : ", ...");
 }
 
 void report_unknown(const std::string& name, Span span, Scope& scope) {

@@ -90,7 +90,8 @@ void report_undeclared(const ast::Objects& objects, Context& context) {
             context.report(
                 diagnose(objects_of_unknown_type, list.type.span,
                          fmt::format("type '{}' is not declared in the domain", list.type.text))
-                    .with_hint(suggestion(context, list.type.text, keys(context.names.types))));
+                    .with_hint(suggestion(context, list.type.text,
+                                          [&] { return keys(context.names.types); })));
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ std::optional<model::TypeId> resolve_type(const ast::Name& name, Context& contex
     const bool primitive = name.text == "bool" || name.text == "int" || name.text == "real";
     const std::string hint =
         primitive ? "only object types and enumerated types have members to range over"
-                  : suggestion(context, name.text, keys(context.names.types));
+                  : suggestion(context, name.text, [&] { return keys(context.names.types); });
     const std::string message = primitive ? fmt::format("'{}' is not a type of objects", name.text)
                                           : fmt::format("type '{}' is not declared", name.text);
     context.report(diagnose(unknown_type, name.span, message).with_hint(hint));

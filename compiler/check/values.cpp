@@ -79,7 +79,8 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                : fmt::format("the unknown name '{}'", symbol.name);
     std::string hint;
     if (!object && fluent.range.kind == Kind::Object)
-        hint = suggestion(context, symbol.name, context.type(fluent.range.type).objects);
+        hint = suggestion(context, symbol.name,
+                          [&] { return context.type(fluent.range.type).objects; });
     report_value(code, span, fluent, found, std::move(hint), context);
     return std::nullopt;
 }
@@ -183,7 +184,7 @@ class Assigner {
             context_.report(
                 diagnose(not_settable, assignment.name.span,
                          fmt::format("there is no {} '{}'", name_of(section.role), name))
-                    .with_hint(suggestion(context_, name, names_of(section.role))));
+                    .with_hint(suggestion(context_, name, [&] { return names_of(section.role); })));
             return nullptr;
         }
         const model::Fluent& fluent = context_.fluent(*id);
@@ -248,7 +249,9 @@ class Assigner {
                                  fmt::format("argument {} of '{}' is of type '{}', but {}", i + 1,
                                              fluent.name, expected.name, found))
                             .note(fluent.span, "declared here")
-                            .with_hint(object ? "" : suggestion(context_, name, expected.objects)));
+                            .with_hint(object ? "" : suggestion(context_, name, [&] {
+                                return expected.objects;
+                            })));
     }
 
     std::optional<model::Value> value_assigned(const ast::Assignment& assignment,

@@ -84,6 +84,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> did_you_mean(std::string_view name,
                                         const std::vector<std::string>& candidates) {
+    // Nobody misspells a name by much that is longer; the search takes the square of its length.
+    constexpr std::size_t longest_name = 100;
+    if (name.size() > longest_name) return std::nullopt;
     const std::size_t tolerance = std::max<std::size_t>(1, name.size() / 3);
     std::size_t best_distance = tolerance + 1;
     std::optional<std::string> best;
