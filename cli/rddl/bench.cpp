@@ -141,17 +141,20 @@ Command add_bench_command(CLI::App& program) {
         "  rddl bench MountainCar_ippc2023 1 --against=pyrddlgym,jax --python venv/bin/python");
     const auto options = std::make_shared<BenchOptions>();
     add_problem_arguments(*app, options->problem);
-    app->add_option("--seconds", options->seconds, "Time for each measurement (1)")
-        ->check(CLI::Range(0.01, 3600.0).description(""))
-        ->type_name("SECONDS");
-    app->add_option("--batch", options->batches,
-                    "Environments in the batches (1024; fewer for large problems)")
+    add_number_option(*app, "--seconds", options->seconds, 0.01, 3600.0,
+                      "Time for each measurement (1)", "SECONDS");
+    app->add_option_function<std::vector<std::string>>(
+           "--batch",
+           [options](const std::vector<std::string>& words) {
+               for (const std::string& word : words)
+                   options->batches.push_back(
+                       number_of<std::int64_t>("--batch", word, 1, largest_batch));
+           },
+           "Environments in the batches (1024; fewer for large problems)")
         ->delimiter(',')
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24).description(""))
         ->type_name("B,...");
-    app->add_option("--threads", options->threads, "Most threads to try (one per core)")
-        ->check(CLI::Range(1, 4096).description(""))
-        ->type_name("T");
+    add_number_option(*app, "--threads", options->threads, 1, most_threads,
+                      "Most threads to try (one per core)", "T");
     add_engine_options(*app, options->load);
     add_peer_options(*app, *options);
     app->add_flag("--json", options->json, "Print the figures as JSON");

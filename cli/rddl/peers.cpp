@@ -105,8 +105,8 @@ PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
     const Peer& peer = peer_named(name);
     const std::string python = python_of(options);
     const auto result =
-        run_process({python, program_file(peer).string(), files.domain.string(),
-                     files.instance.value_or("/dev/null").string(), "--seconds",
+        run_process({python, program_file(peer).string(), fs::absolute(files.domain).string(),
+                     fs::absolute(files.instance.value_or("/dev/null")).string(), "--seconds",
                      fmt::format("{}", options.seconds), "--cores", std::to_string(options.cores)});
     if (!result)
         throw Failure(fmt::format("cannot run '{}'", python),

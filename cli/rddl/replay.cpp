@@ -88,14 +88,10 @@ Command add_replay_command(CLI::App& program) {
         ->type_name("FILE");
     app->add_option("--output", options->output, "Answers; - (default) is standard output")
         ->type_name("FILE");
-    app->add_option("--seed", options->session.seed,
-                    "Seed of all random numbers (the input's if it is a trace, else 0)")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("S");
-    app->add_option("--horizon", options->session.horizon,
-                    "Steps an episode; 0: no horizon (the trace's or the instance's)")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("H");
+    add_course_options(*app, options->session.seed,
+                       "Seed of all random numbers (the input's if it is a trace, else 0)",
+                       options->session.horizon,
+                       "Steps an episode; 0: no horizon (the trace's or the instance's)");
     add_preconditions_option(*app, options->session.preconditions);
     add_engine_options(*app, options->load);
     return {app, [options] {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace rddlc::cli {
 
@@ -62,11 +63,24 @@ std::optional<std::int64_t> read_count(const json& line, const char* name, std::
                                        std::int64_t most) {
     const auto found = line.find(name);
     if (found == line.end()) return std::nullopt;
-    if (found->is_number_integer()) {
+    // What is beyond an int64 is an unsigned one, or a real.
+    const bool fits =
+        found->is_number_integer() &&
+        (!found->is_number_unsigned() ||
+         found->get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<std::int64_t>::max()});
+    if (fits) {
         const auto value = found->get<std::int64_t>();
         if (value >= least && value <= most) return value;
     }
     throw Refusal{fmt::format("'{}' is not an int from {} to {}", name, least, most)};
+}
+
+std::optional<std::uint64_t> read_seed(const json& line) {
+    const auto found = line.find("seed");
+    if (found == line.end()) return std::nullopt;
+    if (found->is_number_unsigned()) return found->get<std::uint64_t>();
+    throw Refusal{fmt::format("'seed' is not an int from 0 to {}",
+                              std::numeric_limits<std::uint64_t>::max())};
 }
 
 bool read_flag(const json& line, const char* name) {
@@ -100,6 +114,8 @@ std::string ReplaySession::answer(std::string_view line) {
         message = message_of(error);
     } catch (const Refusal& refusal) {
         message = refusal.message;
+    } catch (const Failure& failure) {  // such as a lack of memory: the next line may need less
+        message = failure.what();
     }
     std::string out = R"({"error":)";
     write_string(out, message);
@@ -129,10 +145,10 @@ std::string ReplaySession::answer_object(const json& line) {
 
 // The trace's own seed and horizon, so that replaying it gives the same steps again.
 void ReplaySession::read_header(const json& header) {
-    if (!options_.seed && header.contains("seed") && header["seed"].is_number_unsigned())
-        seed_ = header["seed"].get<std::uint64_t>();
-    if (!options_.horizon && header.contains("horizon") && header["horizon"].is_number_unsigned())
-        horizon_ = header["horizon"].get<std::int64_t>();
+    const auto seed = read_seed(header);
+    const auto horizon = read_count(header, "horizon", 0, std::numeric_limits<std::int64_t>::max());
+    if (!options_.seed && seed) seed_ = *seed;
+    if (!options_.horizon && horizon) horizon_ = *horizon;
     batch_ = create(environment_, 1, horizon_);
 }
 

@@ -287,22 +287,15 @@ Command add_run_command(CLI::App& program) {
            "random (default): legal random actions; noop: default actions; rddl: the policy block "
            "of the problem; FILE: the policy block in it")
         ->type_name("POLICY");
-    app->add_option("--episodes", options->rollouts.episodes, "How many (1)")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}).description(""))
-        ->type_name("N");
-    app->add_option("--seed", options->rollouts.seed, "Seed of all random numbers (0)")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("S");
-    app->add_option("--horizon", options->rollouts.horizon,
-                    "Steps an episode; 0: no horizon (the instance's)")
-        ->check(CLI::NonNegativeNumber.description(""))
-        ->type_name("H");
-    app->add_option("--threads", options->rollouts.threads, "Threads (one per core)")
-        ->check(CLI::Range(1, 4096).description(""))
-        ->type_name("T");
-    app->add_option("--batch", options->rollouts.batch, "Episodes that a thread steps together")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 24).description(""))
-        ->type_name("B");
+    RolloutOptions& rollouts = options->rollouts;
+    add_number_option<std::int64_t>(*app, "--episodes", rollouts.episodes, 1, 100'000'000,
+                                    "How many (1)", "N");
+    add_course_options(*app, rollouts.seed, "Seed of all random numbers (0)", rollouts.horizon,
+                       "Steps an episode; 0: no horizon (the instance's)");
+    add_number_option(*app, "--threads", rollouts.threads, 1, most_threads,
+                      "Threads (one per core)", "T");
+    add_number_option<std::int64_t>(*app, "--batch", rollouts.batch, 1, largest_batch,
+                                    "Episodes that a thread steps together", "B");
     add_preconditions_option(*app, options->rollouts.preconditions);
     add_engine_options(*app, options->load);
     app->add_option("--trace", options->trace, "Write every step as a line of JSON; - is stdout")

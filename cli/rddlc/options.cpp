@@ -43,7 +43,7 @@ struct Arguments {
     std::string format = "text";
     std::string color = "auto";
     std::string standard = "pyrddlgym";
-    int lanes = 16;
+    std::string lanes = "16";
     std::string real = "double";
     std::string explained;
     std::vector<std::string> without;
@@ -123,7 +123,7 @@ void declare(CLI::App& program, Arguments& arguments) {
         .add_option("--lanes", arguments.lanes,
                     "environments that a step of a batch computes at once: 8, 16 (the default), "
                     "32, 64, or 1")
-        ->check(CLI::IsMember({1, 8, 16, 32, 64}).description(""))
+        ->check(CLI::IsMember({"1", "8", "16", "32", "64"}).description(""))
         ->type_name("N");
     program
         .add_option("--real", arguments.real,
@@ -293,7 +293,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
     options.line_directives = arguments.line_directives;
-    options.lane_count = arguments.lanes;
+    options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);

@@ -22,12 +22,22 @@
 
 namespace rddl {
 
+// A caller in C may give any number as an enumerator, which C++ may not even look at.
+template <class Enumeration>
+int number_of(const Enumeration& given) {
+    int number = 0;
+    static_assert(sizeof number == sizeof given);
+    std::memcpy(&number, &given, sizeof number);
+    return number;
+}
+
 // The options with their defaults resolved; nothing if they are out of range.
 inline std::optional<BatchOptions> checked_options(const rddl_problem& problem,
                                                    const rddl_batch_options& given) {
     const bool valid = given.environment_count > 0 && given.thread_count >= 0 &&
-                       given.autoreset >= RDDL_AUTORESET_DISABLED &&
-                       given.autoreset <= RDDL_AUTORESET_SAME_STEP && given.horizon >= -1;
+                       number_of(given.autoreset) >= RDDL_AUTORESET_DISABLED &&
+                       number_of(given.autoreset) <= RDDL_AUTORESET_SAME_STEP &&
+                       given.horizon >= -1;
     if (!valid) return std::nullopt;
     const std::int64_t threads =
         given.thread_count > 0 ? given.thread_count : std::thread::hardware_concurrency();
@@ -184,7 +194,7 @@ class Functions {
     static rddl_error step_values(rddl_batch* batch, rddl_number number, const void* actions,
                                   void* observations, const rddl_transition* out) {
         if (batch == nullptr || out == nullptr) return RDDL_BAD_ARGUMENT;
-        return with_number(number, [&]<class Number>(Number) {
+        return with_number(number_of(number), [&]<class Number>(Number) {
             const auto* const rows = static_cast<const Number*>(actions);
             return handle(batch).use([&](auto& environments) {
                 const Columns& columns = environments.action_columns();
@@ -200,7 +210,7 @@ class Functions {
     static rddl_error get_observation_values(const rddl_batch* batch, rddl_number number,
                                              void* observations) {
         if (batch == nullptr || observations == nullptr) return RDDL_BAD_ARGUMENT;
-        return with_number(number, [&]<class Number>(Number) {
+        return with_number(number_of(number), [&]<class Number>(Number) {
             handle(batch).use([&](const auto& environments) {
                 environments.get_observation_values(static_cast<Number*>(observations));
             });
@@ -208,7 +218,7 @@ class Functions {
         });
     }
     template <class Use>
-    static rddl_error with_number(rddl_number number, Use&& use) {
+    static rddl_error with_number(int number, Use&& use) {
         if (number == RDDL_FLOAT) return use(float{});
         if (number == RDDL_DOUBLE) return use(double{});
         return RDDL_BAD_ARGUMENT;

@@ -293,7 +293,7 @@ class Batch {
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
 
     std::size_t block_count() const {
-        return static_cast<std::size_t>((options_.environment_count + width - 1) / width);
+        return static_cast<std::size_t>((options_.environment_count - 1) / width + 1);
     }
     // Environments in the block.
     int lanes_of(std::size_t b) const { return lanes_of(static_cast<std::int64_t>(b)); }

@@ -2,6 +2,7 @@
 
 #include "../runtime/tiny_simulator.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,14 @@ TEST_F(Replay, RefusesALineAndGoesOn) {
               "2 action values differ from their default; at most 1 may");
     EXPECT_EQ(error(R"({"repeat": 0})"), "'repeat' is not an int from 1 to 10000000");
     EXPECT_EQ(error(R"({"reset": 1})"), "'reset' is not true or false");
+    for (const char* number : {"9223372036854775808", "18446744073709551616", "-1", "1e20", "0.5"})
+        EXPECT_EQ(error(fmt::format(R"({{"rddl_trace": 1, "horizon": {}}})", number)),
+                  "'horizon' is not an int from 0 to 9223372036854775807");
+    for (const char* number : {"18446744073709551616", "-1", "1e3", "\"0\""})
+        EXPECT_EQ(error(fmt::format(R"({{"rddl_trace": 1, "seed": {}}})", number)),
+                  "'seed' is not an int from 0 to 18446744073709551615");
+    EXPECT_EQ(error(R"({"episode": 18446744073709551615})"),
+              "'episode' is not an int from 0 to 1099511627775");
     EXPECT_EQ(answer("{}")["state"]["repairs"], 0) << "nothing has changed";
 }
 

@@ -258,6 +258,29 @@ class Options(CommandTest):
             self.assertEqual(result.status, USAGE, f"{words}\n{result}")
             self.assertNotEqual(result.errors, "", words)
 
+    def test_numbers(self):
+        """Every option that takes one refuses what it would have to change, in a sentence."""
+        run, replay, bench = ([RDDL, command, *PROBLEM, "--engine=interpreter"]
+                              for command in ("run", "replay", "bench"))
+        ints = "x", "1e20", "1.0", "0x10", "+1", " 1", "99999999999999999999", "9" * 400, "nan"
+        for command, option in ((run, "episodes"), (run, "seed"), (run, "horizon"), (run, "threads"),
+                                (run, "batch"), (replay, "seed"), (replay, "horizon"),
+                                (bench, "batch"), (bench, "threads")):
+            for word in *ints, "-1", "-9223372036854775809":
+                self.assert_wrong_number(command, option, word, "is not an int from")
+        for word in "nan", "-nan", "inf", "1e999", "-1", "0", "0x1p3", "1,5", "3600.1", "1s":
+            self.assert_wrong_number(bench, "seconds", word, "is not a number from 0.01 to 3600")
+        for word in *ints, "2", "016", "4294967304", "-8":
+            self.assert_wrong_number([RDDLC, *PROBLEM], "lanes", word, "")
+        self.assertEqual(self.run_command(
+            *run, "--seed=18446744073709551615", "--horizon=0010", "--quiet").status, SUCCESS)
+
+    def assert_wrong_number(self, command, option, word, says) -> None:
+        result = self.run_command(*command, f"--{option}={word}")
+        self.assertEqual(result.status, USAGE, f"--{option}={word}\n{result}")
+        self.assertIn(says, result.errors)
+        self.assertLess(len(result.errors), 600)
+
     def test_warnings(self):
         """Shown, silenced by code or altogether, made errors."""
         self.write("warns.rddl", """

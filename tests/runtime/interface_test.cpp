@@ -171,12 +171,25 @@ TEST(Interface, RefusesOptionsOutOfRange) {
     EXPECT_TRUE(refused({-5, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
     EXPECT_TRUE(refused({1, 0, 0, -1, RDDL_AUTORESET_DISABLED, -1, 0}));
     EXPECT_TRUE(refused({1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2, 0}));
-    EXPECT_TRUE(refused({std::int64_t{1} << 60, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    for (const std::int64_t count : {std::int64_t{1} << 60, most / 2, most - 15, most - 1, most})
+        EXPECT_TRUE(refused({count, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0})) << count;
     rddl_batch_options unknown_mode{1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0};
-    const int three = 3;
-    std::memcpy(&unknown_mode.autoreset, &three, sizeof three);
-    EXPECT_TRUE(refused(unknown_mode));
+    for (const int number : {-1, 3, 4, 1'000'000}) {
+        std::memcpy(&unknown_mode.autoreset, &number, sizeof number);
+        EXPECT_TRUE(refused(unknown_mode));
+    }
     EXPECT_EQ(functions.create(&functions, nullptr), nullptr);
+}
+
+// As a caller in C may write it.
+TEST(Interface, RefusesNumbersOfNoKind) {
+    TinyBatch batch(four);
+    using StepValues = rddl_error (*)(rddl_batch*, int, const void*, void*, const rddl_transition*);
+    const auto step_values = reinterpret_cast<StepValues>(functions.step_values);
+    const rddl_transition nothing{};
+    for (const int number : {-1, 2, 3, 1'000'000})
+        EXPECT_EQ(step_values(batch.get(), number, nullptr, nullptr, &nothing), RDDL_BAD_ARGUMENT);
 }
 
 TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
