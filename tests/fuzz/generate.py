@@ -68,6 +68,7 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         self.elements_left = self.pick([100, 500, 500, LARGEST_SCOPE])
         self.variable_count = 0
         self.nested_terms = 0  # argmax or Discrete_ in arguments within one another
+        self.clamp_is_of_at = self.chance(0.5)  # shapes.py
         self.likings: dict[tuple, float] = {}
         self.said: list[tuple[Expr, set[str], set[str]]] = []  # expressions, their variables and names
 
@@ -76,7 +77,7 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         self.make_fluents()
         self.make_cpfs()
         self.make_conditions()
-        if self.flavour.wild and self.chance(0.15):
+        if self.flavour.wild and self.chance(0.2):
             self.make_policy()
         if self.flavour.wild and self.flavour.draws and self.chance(0.3):
             self.make_initial_draws()
@@ -217,10 +218,17 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         self.visible = constants + states + actions + derived + interm + next_states
         rough = self.chance(0.5)
         self.problem.reward = self.affordable(lambda depth: self.finite_number(depth, rough), 4)
+        if self.flavour.draws and self.chance(0.1):
+            self.add_drawn_pairs()
 
-    def finite_number(self, depth: int, rough: bool) -> Expr:
+    def add_drawn_pairs(self) -> None:
+        drawn = self.drawn_in_pairs()
+        if drawn is not None and work_of(drawn, self.problem) <= MOST_WORK / 2:
+            self.problem.reward = Expr("real", "(%s + %s)", (self.problem.reward, drawn), 30, UNSURE, False)
+
+    def finite_number(self, depth: int, rough: bool, always: bool = False) -> Expr:
         value = self.number(depth, rough)
-        while not (value.finite or self.flavour.wild):
+        while not (value.finite or (self.flavour.wild and not always)):
             value = self.number(depth - 1, rough)
         return value
 
@@ -233,7 +241,7 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         parameters = tuple(f"?{parameter[0]}{i}" for i, parameter in enumerate(fluent.parameters))
         self.scope = list(zip(parameters, fluent.parameters))
         depth = self.pick([1, 2, 3, 4, 4, 5, 6])
-        shaped = self.shaped_definition(fluent) if self.chance(0.25) else None
+        shaped = self.shaped_definition(fluent) if self.chance(0.6 if fluent.name in ("stock", "cap", "at") else 0.25) else None
         if shaped is not None:
             body = self.affordable(lambda _: shaped, 1)
         elif fluent.range == "bool":
@@ -293,7 +301,10 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         return Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
 
     def wild_real(self, fluent: Fluent, value: Expr) -> Expr:
-        """Within bounds, or nan; or infinite: what grows over steps would overflow."""
+        """Within bounds, or nan; or infinite: what grows over steps would overflow. Actions are
+        taken to be finite, those of policies, too."""
+        if fluent.role == "action-fluent":
+            value = self.finite_number(1, True, always=True)
         bounded = Expr("real", "max[-500.0, min[500.0, %s]]", (value,), 10, UNSURE, value.finite)
         if not value.finite and self.chance(0.3):
             condition = self.boolean(1)
@@ -321,7 +332,7 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         ):
             while self.chance(chance):
                 conditions.append(self.affordable(self.boolean, 3))
-        while self.chance(0.3):
+        while self.chance(0.5 if self.flavour.finite else 0.3):
             self.problem.invariants += self.bounds_of_state()
         self.visible = self.visible + self.of("action-fluent")
         while self.chance(0.4):

@@ -27,8 +27,13 @@ class Shapes:
             ("at", "state-fluent", first, ()),
             ("height", "state-fluent", "real", ()),
             ("stock", "state-fluent", "real", (first,)),
+            ("cap", "state-fluent", "real", (first,)),
         ]
-        fluents = [self.declared(*about) for about in wanted if self.chance(0.55)]
+        share = self.pick([0.3, 0.6, 0.9])
+        fluents = [self.declared(*about) for about in wanted if self.chance(share)]
+        for fluent in fluents:
+            if fluent.name in ("stock", "cap"):
+                fluent.fraction = UNSURE  # it is clamped by tables
         if self.chance(0.4):
             fluents += self.ladders(self.pick(objects))
         return fluents
@@ -109,7 +114,22 @@ class Shapes:
             (3, self.any_masked), (2, self.count_compared), (1, self.opposite_bounds),
             (2, self.only_one), (1, self.in_an_interval), (2, self.threshold),
             (2 if self.flavour.draws else 0, self.draw_in_branches),
+            (2 if self.flavour.draws else 0, self.drawn_object),
         ])(depth)  # fmt: skip
+
+    def drawn_object(self, depth: int) -> Expr | None:
+        """Whether a drawn object, whose weights are sums, is that of the scope."""
+        variables = [(v, of) for v, of in self.scope if self.size(of)]
+        if not variables:
+            return None
+        variable, type_name = self.pick(variables)
+        drawn = (self.fresh_variable(), type_name)
+        if not self.enter([drawn]):
+            return None
+        weight = self.sum_of_row() or self.weighted_sum(0) or self.constant("real")
+        self.leave([drawn])
+        form = f"(UnnormDiscrete_{{{drawn[0]} : {type_name}}} [(min[abs[%s], 20] + 0.5)])"
+        return Expr("bool", "(%s == %s)", (Expr(type_name, form, (weight,)), Expr(type_name, variable)))
 
     def any_masked(self, depth: int) -> Expr | None:
         found = self.over_objects(depth, "", lambda variables: self.masked(variables, depth))
@@ -202,7 +222,12 @@ class Shapes:
 
         def body(variables):
             first = self.over("bool", variables, CHANGING) or self.boolean(0)
-            one = Expr("real", self.pick([f"{self.pick(steps)} * %s", f"%s * {self.pick(steps)}"]), (first,))
+            if self.chance(0.3):
+                first = self.count(0) or first
+            one = Expr("real", self.pick([
+                f"{self.pick(steps)} * %s", f"%s * {self.pick(steps)}", f"3.0 * ({self.pick(steps)} * %s)",
+                f"{self.pick(steps)} * (%s * {self.pick(steps)})", f"%s * {self.pick(steps)} / 0.5",
+            ]), (first,))  # fmt: skip
             if self.chance(0.5):
                 return one
             second = self.over("bool", variables) or self.boolean(0)
@@ -294,6 +319,7 @@ class Shapes:
                 (8 if self.flavour.finite else 4, self.function_of_count), (3, self.products_with_constants),
                 (4, self.expensive_terms),
                 (2, self.functions_in_pairs), (2 if self.flavour.draws else 0, self.normal_in_branches),
+                ((2 if self.scope else 8) if self.flavour.draws else 0, self.draw_times_constant),
             ]  # fmt: skip
         return self.pick_weighted(options)(depth)
 
@@ -384,6 +410,8 @@ class Shapes:
         def body():
             variable = self.scope[-1][0]
             number = self.over("real", [variable], CHANGING, exact=False) or self.constant("real")
+            if self.chance(0.15):
+                number = self.draw_or_fault(relation.parameters[1], variable) or number
             form = f"({relation.name}({outer}, {variable}) * %s)"
             return Expr("real", form, (number,), number.magnitude, UNSURE, number.finite)
 
@@ -393,8 +421,30 @@ class Shapes:
             lambda binder, e, n: Expr("real", f"(sum_{binder} [%s])", (e,), e.magnitude + n.bit_length(), UNSURE, e.finite),
         )
 
+    def draw_or_fault(self, type_name: str, variable: str) -> Expr | None:
+        """A term that has a place of its own: a draw, or what has no value for some objects."""
+        if self.flavour.draws and self.chance(0.6):
+            return Expr("real", self.pick(["Normal(0.0, 1.0)", "Exponential(2.0)", "Uniform(-1, 1)"]))
+        has_time = any(name == "TIME" and f.parameters == (type_name,) for name, f in self.visible)
+        if not self.flavour.wild or not has_time:
+            return None
+        return Expr("real", f"pow[2, TIME({variable}) + 1]", (), 10)
+
+    def best_by_state(self, type_name: str) -> Expr | None:
+        variable = self.fresh_variable()
+        if not self.enter([(variable, type_name)]):
+            return None
+        value = self.over("bool", [variable], CHANGING) or self.over("real", [variable], CHANGING)
+        self.leave([(variable, type_name)])
+        return value and Expr(type_name, f"(argmax_{{{variable} : {type_name}}} [%s])", (value,))
+
     def shaped_definition(self, fluent: Fluent) -> Expr | None:
-        """Of a fluent whose every object sums over a row, or knows a line by a count."""
+        """Of a fluent whose every object sums over a row, or knows a line by a count; or of one that
+        is the best object."""
+        if fluent.name == "at":
+            return self.best_by_state(fluent.range)
+        if clamp := self.clamped_by_table(fluent):
+            return clamp
         if fluent.range == "real" and not fluent.is_exact() and self.chance(0.5 if self.flavour.finite else 0.1):
             count, weight = self.count(1), self.over("real", [v for v, _ in self.scope], ("non-fluent",), exact=False)
             if count is not None and weight is not None:
@@ -409,8 +459,13 @@ class Shapes:
         if fluent.range != "real" or fluent.is_exact():
             return None
         forms = ["%s", "(%s * 0.25)", "(0.5 + %s)", "(sqrt[abs[%s]] * tanh[0.3 * %s])", "(exp[min[sin[%s], 3.0]] + cos[%s])"]
-        forms += ["(%s + Normal(0.0, 1.0))"] if self.flavour.draws else []
-        form = f"max[-500.0, min[500.0, {self.pick(forms)}]]"
+        forms += ["(%s + Normal(0.0, 1.0))", "(%s + Exponential(2.0))", "(%s * Uniform(-1, 1))"] if self.flavour.draws else []
+        if self.flavour.draws and self.chance(0.3) and (drawn := self.drawn_object(1)):
+            form = self.pick(["(Normal(0.0, 1.0) + tanh[%s] + %s)", "(%s + Normal(0.0, 1.0) + %s)"])
+            return Expr("real", f"max[-500.0, min[500.0, {form}]]", (total, drawn), 10, UNSURE)
+        form = self.pick(forms)
+        if fluent.role == "state-fluent":
+            form = f"max[-500.0, min[500.0, {form}]]"
         return Expr("real", form, (total,) * form.count("%s"), 10, UNSURE)
 
     # ----------------------------------------------------------- numbers whose rounding may differ
@@ -492,10 +547,58 @@ class Shapes:
         other = self.pick(["Normal(%s, 1.0)", "Normal(%s, 0.25)", "%s", "Uniform(%s, 900.0)"])
         return Expr("real", f"(if (%s) then Normal(%s, 1.0) else {other})", (condition, mean, mean), 12, UNSURE, False)
 
+    def drawn_in_pairs(self) -> Expr | None:
+        """An object whose weights are sums over pairs, each of which knows it."""
+        types = [f for _, f in self.visible if f.range == "real" and f.role == "state-fluent" and len(f.parameters) == 1]
+        if not types:
+            return None
+        fluent = self.pick(types)
+        type_name = fluent.parameters[0]
+        w, x, y = (self.fresh_variable() for _ in range(3))
+        drawn, first, second = (f"{fluent.name}({v})" for v in (w, x, y))
+        term = self.pick([f"tanh[{first} * {second} + {drawn}]", f"sin[{first} - {second}] * cos[{drawn}]"])
+        inside = self.pick([
+            f"sum_{{{x} : {type_name}, {y} : {type_name}}} [{term}]", f"sum_{{{x} : {type_name}}} [sin[{first}] * cos[{drawn}]]",
+        ])  # fmt: skip
+        draw = Expr(type_name, f"(UnnormDiscrete_{{{w} : {type_name}}} [(1.5 + tanh[{inside}])])")
+        other = self.reference(type_name, 0) or self.arg_best(type_name, 0)
+        return Expr("bool", "(%s == %s)", (draw, other))
+
+    def draw_times_constant(self, depth: int) -> Expr:
+        """Whose other factor turns out to be simple."""
+        draw = self.pick([
+            self.continuous_draw(0), self.counting_draw(0), Expr("real", "Normal(0.0, 1.0)"), self.bernoulli(0),
+        ])  # fmt: skip
+        other = self.pick([self.part_of_constants(1) or self.constant("real"), Expr("real", "exp[0.0]"), Expr("real", "cos[0.0]"), self.constant("real")])
+        parts = (draw, other) if self.chance(0.5) else (other, draw)
+        return Expr("real", "(%s * %s)", parts, 40, UNSURE, False)
+
     # --------------------------------------------------------------------------- conditions
+
+    def clamped_by_table(self, fluent: Fluent) -> Expr | None:
+        """As bounds_of_state demands: by the entry of the object itself, or of one that changes."""
+        names = {name for name, f in self.visible if f.parameters or name == "at"}
+        if fluent.name not in ("stock", "cap") or not fluent.parameters or fluent.is_exact() or "COST" not in names:
+            return None
+        own = self.scope[0][0]
+        if fluent.name == "cap":
+            return Expr("real", f"COST({own})", (), 10, UNSURE)
+        value = self.number(1, rough=True)
+        if not value.finite:
+            return None
+        whose = "at" if self.clamp_is_of_at and "at" in names else own
+        form = self.pick(["max[-500.0, min[COST({}), (%s + 0.0)]]", "min[COST({}), max[-500.0, (%s + 0.0)]]"])
+        return Expr("real", form.format(whose), (value,), 10, UNSURE)
 
     def bounds_of_state(self) -> list[Expr]:
         """That a clamp keeps, by constants or by what a table or a state chooses."""
+        names = {name for name, f in self.visible if f.parameters or name == "at"}
+        type_name = self.problem.types[0].name
+        if {"stock", "COST"} <= names and self.chance(0.6):
+            limit = "cap" if "cap" in names and self.chance(0.7) else "COST"
+            if "at" in names and self.chance(0.6):
+                return [Expr("bool", f"(stock(at) <= {limit}(at))")]
+            return [Expr("bool", f"(forall_{{?c : {type_name}}} [stock(?c) <= {limit}(?c)])")]
         numbers = [(name, f) for name, f in self.visible if f.range == "real" and f.role == "state-fluent"]
         if not numbers:
             return []

@@ -133,11 +133,15 @@ Shown shown(const ir::Interpreter& engine, const Situation& at, Record& scratch,
         engine.violated_precondition(state, at.action.data(), conditions);
     result.violates_invariant = engine.violates_invariant(state, conditions);
     result.terminal = engine.terminal(state, conditions);
-    result.of_conditions = conditions.fault;
     ir::Context context = context_of(seed, at.step);
     result.reward = engine.step(state, at.action.data(), scratch.data(), result.next.data(),
                                 result.observation.data(), context);
     result.of_step = context.fault;
+    if (!result.of_step) {
+        result.next_violates_invariant = engine.violates_invariant(result.next.data(), conditions);
+        result.next_terminal = engine.terminal(result.next.data(), conditions);
+    }
+    result.of_conditions = conditions.fault;
     return result;
 }
 
@@ -221,6 +225,10 @@ void expect_step(Comparison& comparison, const Shown& expected, const Shown& fou
     comparison.expect("whether an invariant is violated", expected.violates_invariant,
                       found.violates_invariant);
     comparison.expect("whether the state is terminal", expected.terminal, found.terminal);
+    comparison.expect("whether the next state violates an invariant",
+                      expected.next_violates_invariant, found.next_violates_invariant);
+    comparison.expect("whether the next state is terminal", expected.next_terminal,
+                      found.next_terminal);
     comparison.expect("whether a condition faults", static_cast<bool>(expected.of_conditions),
                       static_cast<bool>(found.of_conditions));
     comparison.expect("whether the step faults", static_cast<bool>(expected.of_step),

@@ -26,7 +26,9 @@ struct Shown {
     Record next, observation, action, memory;  // the last two by the policy block
     double reward = 0;
     int violated_precondition = -1;
+    // Of the state, and of the next one.
     bool terminal = false, violates_invariant = false;
+    bool next_terminal = false, next_violates_invariant = false;
     rddl::FaultRecord of_step, of_conditions, of_policy;
 };
 
