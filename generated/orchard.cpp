@@ -181,24 +181,23 @@ struct Simulator {
 
     // An episode ends where one of these holds.
     template <class L>
-    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
-                                        rddl::Context<L>& /*context*/) {
+    static typename L::Bool terminal(const State<L>& /*state*/, rddl::Context<L>& /*context*/) {
         return false;
     }
 
     // Hold in every state that makes sense.
     template <class L>
-    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
-                                      rddl::Context<L>& /*context*/) {
-        return true;
+    static typename L::Bool violates_invariant(const State<L>& /*state*/,
+                                               rddl::Context<L>& /*context*/) {
+        return false;
     }
 
-    // Hold for every action that is allowed.
+    // Hold for every action that is allowed: the first that does not, or -1.
     template <class L>
-    static typename L::Bool precondition(rddl::Index /*k*/, const State<L>& /*state*/,
-                                         const Action<L>& /*action*/,
-                                         rddl::Context<L>& /*context*/) {
-        return true;
+    static typename L::Int violated_precondition(const State<L>& /*state*/,
+                                                 const Action<L>& /*action*/,
+                                                 rddl::Context<L>& /*context*/) {
+        return typename L::Int{-1};
     }
 };
 

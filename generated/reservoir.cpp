@@ -158,23 +158,17 @@ struct Simulator {
 
     // An episode ends where one of these holds.
     template <class L>
-    static typename L::Bool termination(rddl::Index /*k*/, const State<L>& /*state*/,
-                                        rddl::Context<L>& /*context*/) {
+    static typename L::Bool terminal(const State<L>& /*state*/, rddl::Context<L>& /*context*/) {
         return false;
     }
 
     // Hold in every state that makes sense.
     template <class L>
-    static typename L::Bool invariant(rddl::Index k, const State<L>& state,
-                                      rddl::Context<L>& /*context*/) {
-        switch (k) {
-            case 0:
-                return invariant_0(state);
-            case 1:
-                return invariant_1(state);
-            default:
-                return true;
-        }
+    static typename L::Bool violates_invariant(const State<L>& state, rddl::Context<L>& context) {
+        rddl::Invariants<L> conditions(context);
+        if (conditions.go_on()) conditions.add(invariant_0(state));
+        if (conditions.go_on()) conditions.add(invariant_1(state));
+        return conditions.violated();
     }
 
     // forall_{?b : basin} [water(?b) >= 0.0]  (domain.rddl:76)
@@ -193,18 +187,14 @@ struct Simulator {
                                    [&](rddl::Index b) { return state.water[b] <= CAPACITY_[b]; });
     }
 
-    // Hold for every action that is allowed.
+    // Hold for every action that is allowed: the first that does not, or -1.
     template <class L>
-    static typename L::Bool precondition(rddl::Index k, const State<L>& state,
-                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
-        switch (k) {
-            case 0:
-                return precondition_0(action);
-            case 1:
-                return precondition_1(state, action);
-            default:
-                return true;
-        }
+    static typename L::Int violated_precondition(const State<L>& state, const Action<L>& action,
+                                                 rddl::Context<L>& context) {
+        rddl::Preconditions<L> conditions(context);
+        if (conditions.go_on()) conditions.add(0, precondition_0(action));
+        if (conditions.go_on()) conditions.add(1, precondition_1(state, action));
+        return conditions.first_violated();
     }
 
     // forall_{?b : basin} [release(?b) >= 0.0]  (domain.rddl:71)

@@ -248,14 +248,10 @@ struct Simulator {
 
     // An episode ends where one of these holds.
     template <class L>
-    static typename L::Bool termination(rddl::Index k, const State<L>& state,
-                                        rddl::Context<L>& /*context*/) {
-        switch (k) {
-            case 0:
-                return termination_0(state);
-            default:
-                return false;
-        }
+    static typename L::Bool terminal(const State<L>& state, rddl::Context<L>& /*context*/) {
+        rddl::Terminations<L> conditions;
+        conditions.add(termination_0(state));
+        return conditions.hold();
     }
 
     // hypot[x - GOAL-X, y - GOAL-Y] <= GOAL-RADIUS  (domain.rddl:96)
@@ -266,27 +262,21 @@ struct Simulator {
 
     // Hold in every state that makes sense.
     template <class L>
-    static typename L::Bool invariant(rddl::Index /*k*/, const State<L>& /*state*/,
-                                      rddl::Context<L>& /*context*/) {
-        return true;
+    static typename L::Bool violates_invariant(const State<L>& /*state*/,
+                                               rddl::Context<L>& /*context*/) {
+        return false;
     }
 
-    // Hold for every action that is allowed.
+    // Hold for every action that is allowed: the first that does not, or -1.
     template <class L>
-    static typename L::Bool precondition(rddl::Index k, const State<L>& /*state*/,
-                                         const Action<L>& action, rddl::Context<L>& /*context*/) {
-        switch (k) {
-            case 0:
-                return precondition_0(action);
-            case 1:
-                return precondition_1(action);
-            case 2:
-                return precondition_2(action);
-            case 3:
-                return precondition_3(action);
-            default:
-                return true;
-        }
+    static typename L::Int violated_precondition(const State<L>& /*state*/, const Action<L>& action,
+                                                 rddl::Context<L>& context) {
+        rddl::Preconditions<L> conditions(context);
+        if (conditions.go_on()) conditions.add(0, precondition_0(action));
+        if (conditions.go_on()) conditions.add(1, precondition_1(action));
+        if (conditions.go_on()) conditions.add(2, precondition_2(action));
+        if (conditions.go_on()) conditions.add(3, precondition_3(action));
+        return conditions.first_violated();
     }
 
     // drive >= -1.0  (domain.rddl:100)

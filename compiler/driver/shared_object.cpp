@@ -2,6 +2,7 @@
 
 #include "driver/codes.hpp"
 #include "driver/compiler_failure.hpp"
+#include "driver/cpp_compiler.hpp"
 #include "driver/process.hpp"
 #include "support/files.hpp"
 
@@ -25,13 +26,6 @@ namespace fs = std::filesystem;
 bool holds_runtime(const fs::path& folder) {
     std::error_code ignored;
     return fs::exists(folder / "rddl" / "simulator.hpp", ignored);
-}
-
-std::vector<std::string> words(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> result;
-    for (std::string word; stream >> word;) result.push_back(word);
-    return result;
 }
 
 // The greatest level of x86-64 that this machine's processor has; null if it is another one.
@@ -71,22 +65,15 @@ std::optional<ProcessResult> run_compiler(const std::vector<std::string>& comman
     return run_process(command, {"LC_ALL=C"});
 }
 
-// The compiler and what all its calls have in common.
+// The compiler and what all its calls have in common. What is hidden is called without a detour
+// through a table of the linker; fused multiply-adds would give other last digits than the
+// interpreter.
 std::vector<std::string> compiler_command(Processors processors) {
-    const char* compiler = std::getenv("CXX");
-    std::vector<std::string> command = words(compiler ? compiler : "");
-    if (command.empty()) command = {"c++"};
-    // Lanes are vectors already. GCC would put numbers of one environment together as well, which
-    // costs more than it gains where they then wait for each other, as in a polynomial. It would
-    // keep the coefficients of polynomials that are evaluated twice in registers (gcse), and
-    // numbers elsewhere. Nor may it make one copy of a loop over a constant table: GCC 12 is wrong
-    // there (rddl/tables.hpp). What is hidden is called without a detour through a table of the
-    // linker. The body of a loop over several objects stands in two calls (rddl/objects.hpp), which
-    // GCC would take for a reason to inline neither; clang ignores the parameter.
+    std::vector<std::string> command = cpp_compiler();
+    const std::vector<std::string> faster = optional_flags(command);
     command.insert(command.end(),
-                   {"-std=c++20", "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off",
-                    "-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns",
-                    "--param", "max-inline-insns-single=400"});
+                   {"-std=c++20", "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off"});
+    command.insert(command.end(), faster.begin(), faster.end());
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());

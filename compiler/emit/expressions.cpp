@@ -64,15 +64,12 @@ std::string Expressions::type(ir::Scalar scalar) {
     if (several_) return table_type(scalar, unit_.program.real);
     switch (scalar) {
         case ir::Scalar::Bool:
-            uses_.bool_type = true;
             return "Bool";
         case ir::Scalar::Int:
-            uses_.int_type = true;
             return "Int";
         case ir::Scalar::Real:
             break;
     }
-    uses_.real_type = true;
     return "Real";
 }
 

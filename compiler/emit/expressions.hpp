@@ -32,7 +32,7 @@ struct Spelled {
     Level level;
 };
 
-// The parameters and the type aliases that a function turns out to need.
+// The parameters that a function turns out to need.
 struct Uses {
     bool state = false, action = false, scratch = false, next = false, observation = false;
     bool memory = false, next_memory = false;
@@ -40,7 +40,6 @@ struct Uses {
     bool stores_scratch = false, stores_next = false, stores_observation = false;
     bool stores_action = false, stores_next_memory = false;
     bool context = false;
-    bool bool_type = false, int_type = false, real_type = false;
 };
 
 // Spells the expressions of one function, by the names that are known at the current point.

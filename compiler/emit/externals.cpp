@@ -15,7 +15,6 @@
 namespace rddlc {
 namespace {
 
-
 // "std::span<const std::array<double, 2>, 3>"
 std::string type_of(const ir::Program& program, const ir::TableView& view, std::string_view row) {
     const auto axes = ir::axes_of(program, view);

@@ -9,6 +9,7 @@
 #include "support/template_slots.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,6 +19,12 @@ namespace rddlc::cpp {
 namespace {
 
 constexpr int level = 1;  // of the members of Simulator and Policy
+
+// A function with more calls makes them in functions of their own, each of some. They are not
+// inlined: what grows with the problem is the number of functions, and compilers take their time
+// for large ones.
+constexpr std::size_t most_calls = 64;
+constexpr std::size_t calls_in_part = 32;
 
 std::string indented(const std::string& text, int levels) {
     return std::string(static_cast<std::size_t>(levels * indentation), ' ') + text + "\n";
@@ -45,26 +52,24 @@ Parameter context_parameter(const Uses& uses) {
 
 // All records that a function might take, in the order of every signature.
 std::vector<Parameter> record_parameters(const Uses& uses) {
-    return {
-        record_parameter(ir::Storage::State, uses.state, false),
-        record_parameter(ir::Storage::Action, uses.action, false),
-        record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
-        record_parameter(ir::Storage::Next, uses.next, uses.stores_next),
-        record_parameter(ir::Storage::Observation, uses.observation, uses.stores_observation),
-        context_parameter(uses)};
+    return {record_parameter(ir::Storage::State, uses.state, false),
+            record_parameter(ir::Storage::Action, uses.action, false),
+            record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+            record_parameter(ir::Storage::Next, uses.next, uses.stores_next),
+            record_parameter(ir::Storage::Observation, uses.observation, uses.stores_observation),
+            context_parameter(uses)};
 }
 
 // Those of a function of the policy, which sees the observation if there is one, else the state.
 std::vector<Parameter> policy_parameters(const Unit& unit, const Uses& uses) {
-    return {
-        unit.program.partially_observed()
-            ? record_parameter(ir::Storage::Observation, uses.observation, false)
-            : record_parameter(ir::Storage::State, uses.state, false),
-        record_parameter(ir::Storage::Memory, uses.memory, false),
-        record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
-        record_parameter(ir::Storage::Action, uses.action, uses.stores_action),
-        record_parameter(ir::Storage::NextMemory, uses.next_memory, uses.stores_next_memory),
-        context_parameter(uses)};
+    return {unit.program.partially_observed()
+                ? record_parameter(ir::Storage::Observation, uses.observation, false)
+                : record_parameter(ir::Storage::State, uses.state, false),
+            record_parameter(ir::Storage::Memory, uses.memory, false),
+            record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+            record_parameter(ir::Storage::Action, uses.action, uses.stores_action),
+            record_parameter(ir::Storage::NextMemory, uses.next_memory, uses.stores_next_memory),
+            context_parameter(uses)};
 }
 
 std::vector<Parameter> only_used(std::vector<Parameter> parameters) {
@@ -80,31 +85,44 @@ std::string arguments(const std::vector<Parameter>& parameters) {
 }
 
 std::string signature(const std::string& result, const std::string& name,
-                      const std::vector<Parameter>& parameters) {
+                      const std::vector<Parameter>& parameters, const std::string& attribute) {
     std::vector<std::string> declarations;
     for (const Parameter& parameter : parameters) declarations.push_back(declaration(parameter));
     std::string text = indented("template <class L>", level);
     const std::size_t column = level * indentation;
-    for (const std::string& line :
-         fill_call("static " + result + " " + name + "(", declarations, ") {", column)) {
+    for (const std::string& line : fill_call(attribute + "static " + result + " " + name + "(",
+                                             declarations, ") {", column)) {
         text += indented(line, level);
     }
     return text;
 }
 
 std::string function(const std::string& result, const std::string& name,
-                     const std::vector<Parameter>& parameters, const std::string& body) {
-    std::string text = signature(result, name, parameters);
+                     const std::vector<Parameter>& parameters, const std::string& body,
+                     const std::string& attribute = "") {
+    std::string text = signature(result, name, parameters, attribute);
     // An empty body stands on the last line of the signature.
     if (body.empty()) return text.substr(0, text.size() - 1) + "}\n";
     return text + body + indented("}", level);
 }
 
-std::string type_aliases(const Uses& uses) {
+bool has_word(const std::string& text, std::string_view word) {
+    const auto is_part = [&](std::size_t at) {
+        return at < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+    };
+    for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += word.size())
+        if ((at == 0 || !is_part(at - 1)) && !is_part(at + word.size())) return true;
+    return false;
+}
+
+// Of the types that the text names: nothing else has these names.
+std::string type_aliases(std::span<const std::string> lines) {
     std::string text;
-    if (uses.bool_type) text += indented("using Bool = typename L::Bool;", level + 1);
-    if (uses.int_type) text += indented("using Int = typename L::Int;", level + 1);
-    if (uses.real_type) text += indented("using Real = typename L::Real;", level + 1);
+    for (const std::string word : {"Bool", "Int", "Real"})
+        if (std::ranges::any_of(lines,
+                                [&](const std::string& line) { return has_word(line, word); }))
+            text += indented("using " + word + " = typename L::" + word + ";", level + 1);
     return text;
 }
 
@@ -124,7 +142,7 @@ std::string statements_text(const Unit& unit, std::span<const std::string> lines
 }
 
 std::string body_text(const Unit& unit, FunctionBody& body, Span span, bool has_scratch = false) {
-    return type_aliases(body.uses()) + (has_scratch ? own_scratch() : "") +
+    return type_aliases(body.lines()) + (has_scratch ? own_scratch() : "") +
            statements_text(unit, body.lines(), span);
 }
 
@@ -171,6 +189,12 @@ void unite(Uses& all, const Uses& some) {
     all.memory |= some.memory;
     all.next_memory |= some.next_memory;
     all.context |= some.context;
+    all.stores_state |= some.stores_state;
+    all.stores_action |= some.stores_action;
+    all.stores_scratch |= some.stores_scratch;
+    all.stores_next |= some.stores_next;
+    all.stores_observation |= some.stores_observation;
+    all.stores_next_memory |= some.stores_next_memory;
 }
 
 // A record by the name that the runtime looks for.
@@ -183,6 +207,51 @@ std::string alias(const Unit& unit, const std::string& name, const std::string& 
                  : indented(head, level) + indented(target, level + 1));
 }
 
+// "name(state, next);" as lines.
+std::string call(const std::string& name, const std::string& arguments) {
+    std::string text;
+    for (const std::string& line : fill_call(name + "(", {arguments}, ");", level * indentation))
+        text += indented(line, level + 1);
+    return text;
+}
+
+// Statements, each a call with what it uses.
+struct Call {
+    std::string text;
+    Uses uses;
+};
+
+// What a function consists of, and the parts that it calls, if there are too many.
+struct Calls {
+    std::string text;
+    std::string parts;
+};
+
+// A part takes what its calls use: `parameters_of` tells.
+template <class ParametersOf>
+Calls in_parts(const std::string& name, const std::vector<Call>& calls,
+               ParametersOf&& parameters_of) {
+    Calls result;
+    if (calls.size() <= most_calls) {
+        for (const Call& each : calls) result.text += each.text;
+        return result;
+    }
+    for (std::size_t begin = 0; begin < calls.size(); begin += calls_in_part) {
+        const std::size_t end = std::min(begin + calls_in_part, calls.size());
+        Uses uses;
+        std::string body;
+        for (std::size_t k = begin; k < end; ++k) {
+            unite(uses, calls[k].uses);
+            body += calls[k].text;
+        }
+        const std::vector<Parameter> parameters = only_used(parameters_of(uses));
+        const std::string part = name + "_" + std::to_string(begin / calls_in_part);
+        result.text += call(part, arguments(parameters));
+        result.parts += "\n" + function("void", part, parameters, body, "[[gnu::noinline]] ");
+    }
+    return result;
+}
+
 // A function for each definition, and the lines that call them.
 struct CpfFunctions {
     std::string calls;
@@ -190,9 +259,11 @@ struct CpfFunctions {
     Uses uses;  // of all together
 };
 
-CpfFunctions cpf_functions(const Unit& unit, const std::vector<ir::Definition>& definitions,
+CpfFunctions cpf_functions(const Unit& unit, const std::string& caller,
+                           const std::vector<ir::Definition>& definitions,
                            const std::vector<std::string>& names, Owner owner) {
     CpfFunctions result;
+    std::vector<Call> calls;
     for (std::size_t k = 0; k < definitions.size(); ++k) {
         const ir::Definition& definition = definitions[k];
         FunctionBody body(unit, level + 1);
@@ -200,40 +271,43 @@ CpfFunctions cpf_functions(const Unit& unit, const std::vector<ir::Definition>& 
         const Uses& uses = body.uses();
         unite(result.uses, uses);
         const std::vector<Parameter> parameters = only_used(parameters_of(unit, uses, owner));
-        for (const std::string& line :
-             fill_call(names[k] + "(", {arguments(parameters)}, ");", level * indentation)) {
-            result.calls += indented(line, level + 1);
-        }
+        calls.push_back({call(names[k], arguments(parameters)), uses});
         result.functions +=
             (k > 0 ? "\n" : "") + cpf_comment(unit, definition, owner) +
             function("void", names[k], parameters, body_text(unit, body, definition.span));
     }
+    const Calls parted =
+        in_parts(caller, calls, [&](const Uses& uses) { return parameters_of(unit, uses, owner); });
+    result.calls = parted.text;
+    result.functions += parted.parts;
     return result;
 }
 
-std::string condition_switch(const std::vector<std::string>& calls, const char* otherwise) {
-    if (calls.empty()) return indented(std::string("return ") + otherwise + ";", level + 1);
-    std::string text = indented("switch (k) {", level + 1);
-    for (std::size_t k = 0; k < calls.size(); ++k) {
-        text += indented("case " + std::to_string(k) + ":", level + 2);
-        text += indented("return " + calls[k] + ";", level + 3);
-    }
-    text += indented("default:", level + 2);
-    text += indented(std::string("return ") + otherwise + ";", level + 3);
-    return text + indented("}", level + 1);
-}
-
 struct ConditionKind {
-    std::string word;  // "precondition"
+    std::string word;      // "precondition"
+    std::string function;  // of all: "violated_precondition"
     std::string comment;
-    const char* otherwise;  // the value of a condition that does not exist
-    bool has_action;
+    std::string type;      // of its result, in L
+    std::string none;      // the result where there are none
+    std::string gathered;  // the class that adds them up (rddl/conditions.hpp)
+    std::string result;    // its member that says what they say
 };
+
+const std::string conditions_name = "conditions";
+
+// "if (conditions.go_on()) conditions.add(3, precondition_3(state));"
+std::string add_condition(const ConditionKind& kind, std::size_t k, const std::string& condition) {
+    const bool is_lazy = kind.word != "termination";
+    const std::string number = kind.word == "precondition" ? std::to_string(k) + ", " : "";
+    return indented((is_lazy ? "if (" + conditions_name + ".go_on()) " : "") + conditions_name +
+                        ".add(" + number + condition + ");",
+                    level + 1);
+}
 
 std::string conditions(const Unit& unit, const ConditionKind& kind,
                        const std::vector<ir::Computation>& computations) {
     Uses all;
-    std::vector<std::string> calls;
+    std::vector<Call> calls;
     std::string functions;
     for (std::size_t k = 0; k < computations.size(); ++k) {
         const ir::Computation& computation = computations[k];
@@ -246,22 +320,36 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
         unite(all, uses);
         const std::vector<Parameter> parameters = only_used(record_parameters(uses));
         const std::string name = kind.word + "_" + std::to_string(k);
-        calls.push_back(name + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")");
+        const std::string condition =
+            name + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")";
+        calls.push_back({add_condition(kind, k, condition), uses});
         functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
                                     unit.where(computation.span));
         functions += function("typename L::Bool", name, parameters,
                               body_text(unit, body, computation.span, has_scratch));
     }
-    std::vector<Parameter> parameters = {{"rddl::Index", "k", !computations.empty()},
-                                         record_parameter(ir::Storage::State, all.state, false)};
-    if (kind.has_action) {
+    const std::string gathered = "rddl::" + kind.gathered + "<L>";
+    const Calls parted = in_parts(kind.word + "s", calls, [&](const Uses& uses) {
+        std::vector<Parameter> parameters = record_parameters(uses);
+        parameters.insert(parameters.begin(), {gathered + "&", conditions_name, true});
+        return parameters;
+    });
+    const bool takes_context = kind.word != "termination" && !computations.empty();
+    all.context |= takes_context;
+    std::vector<Parameter> parameters = {record_parameter(ir::Storage::State, all.state, false)};
+    if (kind.word == "precondition")
         parameters.push_back(record_parameter(ir::Storage::Action, all.action, false));
-    }
     parameters.push_back(context_parameter(all));
+    const std::string object =
+        gathered + " " + conditions_name + (takes_context ? "(context);" : ";");
+    const std::string body =
+        computations.empty()
+            ? indented("return " + kind.none + ";", level + 1)
+            : indented(object, level + 1) + parted.text +
+                  indented("return " + conditions_name + "." + kind.result + "();", level + 1);
     return indented("// " + kind.comment, level) +
-           function("typename L::Bool", kind.word, parameters,
-                    condition_switch(calls, kind.otherwise)) +
-           functions;
+           function("typename L::" + kind.type, kind.function, parameters, body) + functions +
+           parted.parts;
 }
 
 // Every element of the buffer is drawn when an episode starts.
@@ -314,7 +402,7 @@ std::string reset_function(const Unit& unit) {
     return function("void", "reset",
                     {record_parameter(ir::Storage::State, has_values || uses.state, true),
                      context_parameter(uses)},
-                    type_aliases(uses) + text + draws);
+                    type_aliases(body.lines()) + text + draws);
 }
 
 std::string reward_function(const Unit& unit) {
@@ -323,31 +411,37 @@ std::string reward_function(const Unit& unit) {
     body.block(reward.body);
     body.return_value(reward.value);
     const Uses& uses = body.uses();
-    return function("typename L::Real", "reward",
-                    {record_parameter(ir::Storage::State, uses.state, false),
-                     record_parameter(ir::Storage::Action, uses.action, false),
-                     record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
-                     record_parameter(ir::Storage::Next, uses.next, false), context_parameter(uses)},
-                    body_text(unit, body, reward.span));
+    return function(
+        "typename L::Real", "reward",
+        {record_parameter(ir::Storage::State, uses.state, false),
+         record_parameter(ir::Storage::Action, uses.action, false),
+         record_parameter(ir::Storage::Scratch, uses.scratch, uses.stores_scratch),
+         record_parameter(ir::Storage::Next, uses.next, false), context_parameter(uses)},
+        body_text(unit, body, reward.span));
 }
 
 std::string condition_functions(const Unit& unit) {
     const ir::Program& program = unit.program;
     return conditions(unit,
-                      {"termination", "An episode ends where one of these holds.", "false", false},
+                      {"termination", "terminal", "An episode ends where one of these holds.",
+                       "Bool", "false", "Terminations", "hold"},
                       program.terminations) +
            "\n" +
-           conditions(unit, {"invariant", "Hold in every state that makes sense.", "true", false},
+           conditions(unit,
+                      {"invariant", "violates_invariant", "Hold in every state that makes sense.",
+                       "Bool", "false", "Invariants", "violated"},
                       program.invariants) +
            "\n" +
            conditions(unit,
-                      {"precondition", "Hold for every action that is allowed.", "true", true},
+                      {"precondition", "violated_precondition",
+                       "Hold for every action that is allowed: the first that does not, or -1.",
+                       "Int", "typename L::Int{-1}", "Preconditions", "first_violated"},
                       program.preconditions);
 }
 
 StepFunctions step_functions(const Unit& unit) {
     CpfFunctions cpfs =
-        cpf_functions(unit, unit.program.step, unit.names.functions, Owner::Simulator);
+        cpf_functions(unit, "step", unit.program.step, unit.names.functions, Owner::Simulator);
     Uses& uses = cpfs.uses;
     uses.stores_scratch = uses.stores_next = uses.stores_observation = true;
     return {function("void", "step", record_parameters(uses), cpfs.calls), cpfs.functions};
@@ -355,8 +449,8 @@ StepFunctions step_functions(const Unit& unit) {
 
 std::string policy(const Unit& unit) {
     if (!unit.program.policy) return "";
-    CpfFunctions cpfs =
-        cpf_functions(unit, unit.program.policy->act, unit.names.policy_functions, Owner::Policy);
+    CpfFunctions cpfs = cpf_functions(unit, "act", unit.program.policy->act,
+                                      unit.names.policy_functions, Owner::Policy);
     Uses& uses = cpfs.uses;
     uses.stores_scratch = uses.stores_action = uses.stores_next_memory = true;
     const std::string initial = assignments(unit, ir::Storage::Memory, "memory", level + 1);

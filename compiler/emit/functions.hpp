@@ -12,7 +12,7 @@ std::string record_aliases(const Unit& unit);
 
 std::string reset_function(const Unit& unit);
 std::string reward_function(const Unit& unit);
-// Terminations, invariants and preconditions: their numbers, a switch, and a function for each.
+// Terminations, invariants and preconditions: what they say together, and a function for each.
 std::string condition_functions(const Unit& unit);
 
 // A function for each CPF, and the step that calls them.

@@ -89,9 +89,8 @@ RecordWords words_of(Storage storage) {
 
 std::vector<std::string> function_words() {
     std::vector<std::string> words = {"context", "k", "Bool", "Int", "Real"};
-    for (const Storage storage :
-         {Storage::State, Storage::Action, Storage::Scratch, Storage::Next, Storage::Observation,
-          Storage::Memory, Storage::NextMemory})
+    for (const Storage storage : {Storage::State, Storage::Action, Storage::Scratch, Storage::Next,
+                                  Storage::Observation, Storage::Memory, Storage::NextMemory})
         words.push_back(words_of(storage).parameter);
     return words;
 }

@@ -35,7 +35,7 @@ struct Names {
     std::vector<std::string> initial;    // by BufferId: the table of its first values, or empty
     std::vector<std::string> functions;  // by index into Program::step: what fills its buffer
     std::vector<std::string> policy_functions;  // by index into Policy::act
-    Scope file;  // what local names must differ from
+    Scope file;                                 // what local names must differ from
 };
 
 Names names_of(const ir::Program& program);

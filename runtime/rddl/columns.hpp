@@ -2,7 +2,8 @@
 //
 // A caller has one row for each environment: a record of the C interface, or a row of a matrix of
 // float or double. A block holds L::width environments as one record of emitted code, each value as
-// L::Bool, L::Int or L::Real. A column is a fluent in both.
+// L::Bool, L::Int or L::Real. A column is a fluent in both, or, where there are many, as many
+// fluents of one kind as lie beside each other.
 #pragma once
 
 #include <rddl/bool_rows.hpp>
@@ -60,36 +61,75 @@ RDDL_INLINE void with_type(rddl_scalar scalar, Visit&& visit) {
 
 namespace detail {
 
-constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role) {
+// Of a role with more fluents, neighbours make one column; and more columns than that are looped
+// over, not unrolled. So what is compiled does not grow with the fluents.
+inline constexpr std::size_t most_apart = 16;
+
+constexpr std::size_t fluent_count(const rddl_problem& problem, rddl_role role) {
     std::size_t count = 0;
     for (std::int32_t f = 0; f < problem.fluent_count; ++f)
         count += problem.fluents[f].role == role;
     return count;
 }
 
-// Fills a list that is as long as the fluents of the role are many.
+constexpr std::int64_t size_in_row(const rddl_fluent& fluent) {
+    return fluent.count * (fluent.scalar == RDDL_BOOL ? 1 : 8);
+}
+
+// Whether the second lies behind the first, in rows and in blocks, with the same kind of values.
+constexpr bool are_neighbours(const rddl_fluent& first, const rddl_fluent& second) {
+    return first.scalar == second.scalar && first.range_type == second.range_type &&
+           first.offset + size_in_row(first) == second.offset;
+}
+
+// Calls body(first, last) with the fluents of each column.
+template <class Body>
+constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&& body) {
+    const bool are_apart = fluent_count(problem, role) <= most_apart;
+    const rddl_fluent* first = nullptr;
+    const rddl_fluent* last = nullptr;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = problem.fluents[f];
+        if (fluent.role != role) continue;
+        if (last != nullptr && (are_apart || !are_neighbours(*last, fluent))) {
+            body(*first, *last);
+            first = nullptr;
+        }
+        if (first == nullptr) first = &fluent;
+        last = &fluent;
+    }
+    if (last != nullptr) body(*first, *last);
+}
+
+constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role) {
+    std::size_t count = 0;
+    for_each_group(problem, role, [&](const rddl_fluent&, const rddl_fluent&) { ++count; });
+    return count;
+}
+
+// Fills a list that is as long as the columns of the role are many.
 template <class L, class List>
 constexpr void lay_out(ColumnTable<List>& columns, const rddl_problem& problem, rddl_role role) {
     const auto round_up = [](std::int64_t a, std::int64_t unit) {
         return (a + unit - 1) / unit * unit;
     };
     std::size_t place = 0;
-    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
-        const rddl_fluent& fluent = problem.fluents[f];
-        if (fluent.role != role) continue;
+    for_each_group(problem, role, [&](const rddl_fluent& fluent, const rddl_fluent& last) {
         const bool is_object = fluent.range_type >= 0;
         const std::int64_t limit = is_object ? problem.types[fluent.range_type].object_count : 0;
+        const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
+        const std::int64_t count = (last.offset - fluent.offset) / size + last.count;
         with_type<L>(fluent.scalar, [&]<class T>() {
             const std::int64_t offset = round_up(columns.block_size, alignof(T));
-            columns.list[place++] = {fluent.scalar,       limit,         fluent.count,
+            columns.list[place++] = {fluent.scalar,       limit,         count,
                                      columns.value_count, fluent.offset, offset};
-            columns.block_size = offset + fluent.count * static_cast<std::int64_t>(sizeof(T));
+            columns.block_size = offset + count * static_cast<std::int64_t>(sizeof(T));
             columns.alignment = std::max(columns.alignment, static_cast<std::int64_t>(alignof(T)));
         });
-        columns.value_count += fluent.count;
+        columns.value_count += count;
         columns.has_bools |= fluent.scalar == RDDL_BOOL;
         columns.has_objects |= is_object;
-    }
+    });
     columns.block_size = round_up(columns.block_size, columns.alignment);
 }
 
@@ -115,7 +155,7 @@ constexpr bool has_padding(const rddl_problem& problem, rddl_role role, std::int
     std::int64_t values = 0;
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
-        if (fluent.role == role) values += fluent.count * (fluent.scalar == RDDL_BOOL ? 1 : 8);
+        if (fluent.role == role) values += detail::size_in_row(fluent);
     }
     return values != row_size;
 }
@@ -129,16 +169,19 @@ constexpr bool has_tables(const rddl_problem& problem, rddl_role role) {
     return has;
 }
 
-// Calls visit(column) for each; known ones are constants there.
+// Calls visit(column) for each; known ones are constants there, if they are few.
 template <class Visit>
 void for_each_column(const Columns& columns, Visit&& visit) {
     for (const Column& column : columns.list) visit(column);
 }
 template <std::size_t count, class Visit>
 RDDL_INLINE void for_each_column(const KnownColumns<count>& columns, Visit&& visit) {
-    [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
-        (visit(columns.list[i]), ...);
-    }
+    if constexpr (count > detail::most_apart)
+        for (const Column& column : columns.list) visit(column);
+    else
+        [&]<std::size_t... i>(std::index_sequence<i...>) RDDL_INLINE_LAMBDA {
+            (visit(columns.list[i]), ...);
+        }
     (std::make_index_sequence<count>());
 }
 

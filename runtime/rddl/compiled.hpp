@@ -2,6 +2,7 @@
 #pragma once
 
 #include <rddl/columns.hpp>
+#include <rddl/conditions.hpp>
 #include <rddl/context.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/pack_ops.hpp>
@@ -9,7 +10,6 @@
 
 #include <cstddef>
 #include <type_traits>
-#include <utility>
 
 namespace rddl {
 
@@ -70,31 +70,17 @@ struct Compiled {
         return Simulator::reward(current, chosen, workspace, following, context);
     }
 
-    // All are evaluated: one of them may fault.
     static typename L::Bool terminal(const std::byte* state, Context<L>& context) {
-        typename L::Bool holds{false};
-        for_each_index<problem.termination_count>([&](Index k) RDDL_INLINE_LAMBDA {
-            holds = Simulator::termination(k, as<State>(state), context) || holds;
-        });
-        return holds;
+        return Simulator::terminal(as<State>(state), context);
     }
 
     static typename L::Bool violates_invariant(const std::byte* state, Context<L>& context) {
-        typename L::Bool violated{false};
-        for_each_index<problem.invariant_count>([&](Index k) RDDL_INLINE_LAMBDA {
-            evaluate_where(!violated, context, [&]() RDDL_INLINE_LAMBDA {
-                const typename L::Bool holds = Simulator::invariant(k, as<State>(state), context);
-                violated = violated || !holds || context.faulted();
-            });
-        });
-        return violated;
+        return Simulator::violates_invariant(as<State>(state), context);
     }
 
     static typename L::Int violated_precondition(const std::byte* state, const std::byte* action,
                                                  Context<L>& context) {
-        return first_violated(problem.precondition_count, context, [&](Index k) {
-            return Simulator::precondition(k, as<State>(state), as<Action>(action), context);
-        });
+        return Simulator::violated_precondition(as<State>(state), as<Action>(action), context);
     }
 
     // The policy, if there is one (policy.hpp).
@@ -115,45 +101,6 @@ struct Compiled {
     }
 
   private:
-    // Calls body with 0, 1, ..., count - 1, as constants.
-    template <Index count, class Body>
-    static RDDL_INLINE void for_each_index(Body&& body) {
-        [&]<Index... k>(std::integer_sequence<Index, k...>) RDDL_INLINE_LAMBDA {
-            (body(k), ...);
-        }
-        (std::make_integer_sequence<Index, count>());
-    }
-
-    // The other lanes cannot fault meanwhile.
-    template <class Body>
-    static RDDL_INLINE void evaluate_where(typename L::Bool lanes, Context<L>& context,
-                                           Body&& body) {
-        if constexpr (L::width == 1) {
-            if (lanes) body();
-        } else {
-            const typename L::Bool active = context.active;
-            context.active = active && lanes;
-            body();
-            context.active = active;
-        }
-    }
-
-    // Of the conditions 0 .. count - 1; -1 where all hold.
-    template <class Condition>
-    static typename L::Int first_violated(Index count, const Context<L>& context,
-                                          Condition&& condition) {
-        using Bool = typename L::Bool;
-        using Int = typename L::Int;
-        Int first{std::int64_t{-1}};
-        for (Index k = 0; k < count; ++k) {
-            const Bool holds = condition(k);
-            const Bool unviolated = first < Int{0};
-            first = select((!holds || context.faulted()) && unviolated, Int{k}, first);
-            if (all(!unviolated)) break;
-        }
-        return first;
-    }
-
     template <class Record>
     static Record& as(std::byte* record) {
         return *reinterpret_cast<Record*>(record);

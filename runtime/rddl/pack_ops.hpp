@@ -357,7 +357,7 @@ requires SomePack<A, B> RDDL_INLINE auto minimum(const A& a, const B& b) {
             return Result::each([](auto p, auto q) { return p < q ? p : q; }, x, y);
     if constexpr (std::is_floating_point_v<B>)
         if (!is_nan(b)) return Result::each([](auto p, auto q) { return q < p ? q : p; }, x, y);
-    return Result::each([](auto p, auto q) { return (q < p) | (q != q) ? q : p; }, x, y);
+    return Result::each([](auto p, auto q) { return ((q < p) | (q != q)) ? q : p; }, x, y);
 }
 template <class A, class B>
 requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
@@ -368,7 +368,7 @@ requires SomePack<A, B> RDDL_INLINE auto maximum(const A& a, const B& b) {
             return Result::each([](auto p, auto q) { return p > q ? p : q; }, x, y);
     if constexpr (std::is_floating_point_v<B>)
         if (!is_nan(b)) return Result::each([](auto p, auto q) { return q > p ? q : p; }, x, y);
-    return Result::each([](auto p, auto q) { return (q > p) | (q != q) ? q : p; }, x, y);
+    return Result::each([](auto p, auto q) { return ((q > p) | (q != q)) ? q : p; }, x, y);
 }
 
 // ----------------------------------------------------------------------------- real functions

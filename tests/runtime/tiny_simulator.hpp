@@ -109,21 +109,28 @@ struct Simulator {
 
     // Nothing runs.
     template <class L>
-    static typename L::Bool termination(Index, const State<L>& state, Context<L>&) {
+    static typename L::Bool terminal(const State<L>& state, Context<L>&) {
         return !rddl::exists<typename L::Bool>(machines, [&](Index m) { return state.running[m]; });
     }
     // Wear stays below 13.
     template <class L>
-    static typename L::Bool invariant(Index, const State<L>& state, Context<L>&) {
-        return rddl::for_all<typename L::Bool>(machines,
-                                               [&](Index m) { return state.wear[m] < 13.0; });
+    static typename L::Bool violates_invariant(const State<L>& state, Context<L>& context) {
+        Invariants<L> invariants(context);
+        if (invariants.go_on())
+            invariants.add(rddl::for_all<typename L::Bool>(
+                machines, [&](Index m) { return state.wear[m] < 13.0; }));
+        return invariants.violated();
     }
     // At most one repair at a time.
     template <class L>
-    static typename L::Bool precondition(Index, const State<L>&, const Action<L>& action,
-                                         Context<L>&) {
-        return rddl::sum<typename L::Int>(
-                   machines, [&](Index m) { return rddl::to_int(action.repair[m]); }) <= 1;
+    static typename L::Int violated_precondition(const State<L>&, const Action<L>& action,
+                                                 Context<L>& context) {
+        Preconditions<L> preconditions(context);
+        if (preconditions.go_on())
+            preconditions.add(0, rddl::sum<typename L::Int>(machines, [&](Index m) {
+                                     return rddl::to_int(action.repair[m]);
+                                 }) <= 1);
+        return preconditions.first_violated();
     }
 };
 
