@@ -3,7 +3,7 @@
     .venv/bin/python tests/conformance/compilers.py --examples                  those of examples/
     .venv/bin/python tests/conformance/compilers.py --repository --only-check   the smallest instance of each problem
     .venv/bin/python tests/conformance/compilers.py --repository --all          all instances: hours
-    .venv/bin/python tests/conformance/compilers.py SysAdmin_MDP_ippc2011       all instances of one
+    .venv/bin/python tests/conformance/compilers.py SysAdmin_MDP_ippc2011       the smallest instance of one
 
 The text of each instance is checked with -Wall -Wextra -Werror; then it is compiled as rddl does, and plays
 some episodes under random actions, whose traces are the same, byte for byte. Exit status: 0 if so; 77 if a
@@ -91,12 +91,9 @@ def failure_of(command: list) -> str:
 
 def picked(options: argparse.Namespace) -> list[Case]:
     cases = example_cases() if options.examples else []
-    if options.repository and options.all:
-        cases += cases_of([])
-    elif options.repository:
-        cases += [smallest_median_largest(cases_of([problem]))[0] for problem in all_problems()]
-    if options.problems:
-        cases += cases_of(options.problems)
+    for problem in options.problems + (all_problems() if options.repository else []):
+        instances = cases_of([problem])
+        cases += instances if options.all else smallest_median_largest(instances)[:1]
     return cases
 
 
@@ -105,7 +102,7 @@ def main() -> int:
     parser.add_argument("problems", nargs="*", metavar="PROBLEM")
     parser.add_argument("--examples", action="store_true")
     parser.add_argument("--repository", action="store_true")
-    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--all", action="store_true", help="instances of a problem")
     parser.add_argument("--only-check", action="store_true", help="compile without code, and do not step")
     parser.add_argument("--compilers", nargs="+", default=["g++", "clang++"])
     parser.add_argument("--rddlc", type=Path, default=ROOT / "build/bin/rddlc")

@@ -1,6 +1,7 @@
 // Shared objects made from emitted text.
 #include "driver/shared_object.hpp"
 
+#include "driver/cpp_compiler.hpp"
 #include "driver/process.hpp"
 #include "support/diagnostic.hpp"
 
@@ -47,6 +48,23 @@ class SharedObject : public testing::Test {
 
     fs::path folder_;
 };
+
+// A compiler that does not know an option of GCC's is asked, and spared it.
+TEST_F(SharedObject, passes_no_flag_that_the_compiler_does_not_take) {
+    const fs::path compiler = folder_ / "cc";
+    std::ofstream(compiler) << "#!/bin/sh\n"
+                               "for word; do\n"
+                               "    test \"$word\" = -fno-gcse || continue\n"
+                               "    echo unknown option $word >&2; exit 1\n"
+                               "done\n"
+                               "exec c++ \"$@\"\n";
+    fs::permissions(compiler, fs::perms::owner_all);
+    const std::vector<std::string> some = optional_flags({compiler.string()});
+    const std::vector<std::string> all = optional_flags({folder_ / "no-compiler"});
+    EXPECT_TRUE(std::ranges::count(all, "-fno-gcse"));
+    EXPECT_FALSE(std::ranges::count(some, "-fno-gcse"));
+    EXPECT_LE(some.size(), all.size() - 1);
+}
 
 struct Behaviour {
     std::string instruction_set;

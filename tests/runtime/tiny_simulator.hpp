@@ -115,22 +115,22 @@ struct Simulator {
     // Wear stays below 13.
     template <class L>
     static typename L::Bool violates_invariant(const State<L>& state, Context<L>& context) {
-        Invariants<L> invariants(context);
-        if (invariants.go_on())
-            invariants.add(rddl::for_all<typename L::Bool>(
+        rddl::Invariants<L> conditions(context);
+        if (conditions.go_on())
+            conditions.add(rddl::for_all<typename L::Bool>(
                 machines, [&](Index m) { return state.wear[m] < 13.0; }));
-        return invariants.violated();
+        return conditions.violated();
     }
     // At most one repair at a time.
     template <class L>
     static typename L::Int violated_precondition(const State<L>&, const Action<L>& action,
                                                  Context<L>& context) {
-        Preconditions<L> preconditions(context);
-        if (preconditions.go_on())
-            preconditions.add(0, rddl::sum<typename L::Int>(machines, [&](Index m) {
-                                     return rddl::to_int(action.repair[m]);
-                                 }) <= 1);
-        return preconditions.first_violated();
+        rddl::Preconditions<L> conditions(context);
+        if (conditions.go_on())
+            conditions.add(0, rddl::sum<typename L::Int>(machines, [&](Index m) {
+                                  return rddl::to_int(action.repair[m]);
+                              }) <= 1);
+        return conditions.first_violated();
     }
 };
 
