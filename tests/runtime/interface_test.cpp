@@ -293,14 +293,14 @@ std::array<Mask, 2> masks_of(const rddl_simulator& simulator) {
 // A worn machine must be repaired, others need no repair, and while one is worn nothing is fast.
 struct Strict : Simulator {
     template <class L>
-    static typename L::Bool precondition(Index, const State<L>& state, const Action<L>& action,
-                                         Context<L>&) {
+    static typename L::Int violated_precondition(const State<L>& state, const Action<L>& action,
+                                                 Context<L>&) {
         bool worn = false, fits = true;
         for (Index m = 0; m < machines; ++m) {
             worn |= state.wear[m] > 10.0;
             fits &= action.repair[m] == (state.wear[m] > 10.0);
         }
-        return fits && !(worn && action.set_mode == 1);
+        return fits && !(worn && action.set_mode == 1) ? -1 : 0;
     }
 };
 
