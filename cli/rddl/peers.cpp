@@ -85,6 +85,12 @@ PeerFigures figures_of(const nlohmann::json& answer) {
     return figures;
 }
 
+// A name that no program takes for an option.
+std::string argument_of(const fs::path& file) {
+    const std::string name = file.string();
+    return name.starts_with('-') ? "./" + name : name;
+}
+
 }  // namespace
 
 const std::vector<std::string>& peer_names() {
@@ -105,8 +111,8 @@ PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
     const Peer& peer = peer_named(name);
     const std::string python = python_of(options);
     const auto result =
-        run_process({python, program_file(peer).string(), fs::absolute(files.domain).string(),
-                     fs::absolute(files.instance.value_or("/dev/null")).string(), "--seconds",
+        run_process({python, program_file(peer).string(), argument_of(files.domain),
+                     argument_of(files.instance.value_or("/dev/null")), "--seconds",
                      fmt::format("{}", options.seconds), "--cores", std::to_string(options.cores)});
     if (!result)
         throw Failure(fmt::format("cannot run '{}'", python),

@@ -174,7 +174,8 @@ TEST_F(Program, TellsWhenStandardOutputIsFull) {
     const std::string to_full_disk =
         command("info domain.rddl instance.rddl") + " >/dev/full 2>'" + stderr_file() + "'";
     EXPECT_EQ(WEXITSTATUS(std::system(to_full_disk.c_str())), 1);
-    EXPECT_EQ(read_file(stderr_file()), "rddl: error: cannot write to standard output\n");
+    EXPECT_EQ(read_file(stderr_file()),
+              "rddl: error: cannot write to standard output: No space left on device\n");
 }
 
 // ------------------------------------------------------------------------------------------ run
