@@ -44,8 +44,7 @@ Finiteness::Finiteness(const model::Model& model) : model_(model) {
 bool Finiteness::find_non_finite(const std::vector<model::Cpf>& cpfs) {
     bool found = false;
     for (const model::Cpf& cpf : cpfs) {
-        const bool is_action = model_.fluents[cpf.fluent].role == Role::Action;
-        if (is_action || !fluent_is_finite_[cpf.fluent] || is_finite(cpf.body)) continue;
+        if (!fluent_is_finite_[cpf.fluent] || is_finite(cpf.body)) continue;
         fluent_is_finite_[cpf.fluent] = false;
         found = true;
     }

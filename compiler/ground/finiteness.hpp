@@ -12,7 +12,8 @@ namespace rddlc::grounding {
 
 class Finiteness {
   public:
-    // Finds the fluents that may become inf or nan. Action-fluents are taken to be finite.
+    // Finds the fluents that may become inf or nan. Action-fluents are taken to be finite, unless
+    // the policy block may make them something else.
     explicit Finiteness(const model::Model& model);
 
     bool is_finite(const model::Expr& expr) const;
