@@ -4,6 +4,7 @@
 #include "check/context.hpp"
 #include "check/definitions.hpp"
 #include "check/fluents.hpp"
+#include "check/grounded_names.hpp"
 #include "check/policy.hpp"
 #include "check/types.hpp"
 #include "check/values.hpp"
@@ -27,6 +28,8 @@ std::optional<model::Model> check(const ast::Program& program, const Sources& so
     check_reward(*blocks, context);
     check_conditions(*blocks, context);
     check_policy(*blocks, context);
+    if (diagnostics.has_errors()) return std::nullopt;
+    check_grounded_names(context);
     if (diagnostics.has_errors()) return std::nullopt;
 
     warn_of_unused_fluents(context);

@@ -36,6 +36,7 @@ inline constexpr Code bad_matrix{'E', 227};
 inline constexpr Code illegal_declaration{'E', 228};
 inline constexpr Code bad_policy{'E', 229};
 inline constexpr Code too_many_groundings{'E', 230};
+inline constexpr Code ambiguous_groundings{'E', 231};
 
 inline constexpr Code repeated_section{'W', 201};
 inline constexpr Code unused_fluent{'W', 202};
