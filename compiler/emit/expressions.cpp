@@ -55,9 +55,26 @@ const Expressions::SeveralObjects& Expressions::enter(ir::Nest nest) {
     return several_.emplace(std::move(nest), scope_.claim("several"), scope_.claim(wish));
 }
 
+void Expressions::name(ir::NodeId id, const std::string& name) {
+    const auto [known, is_new] = named_.try_emplace(id, name);
+    namings_.push_back({id, is_new ? std::nullopt : std::optional(known->second)});
+    known->second = name;
+}
+
 void Expressions::return_to(Mark mark) {
     scope_.release(mark.scope);
-    named_ = std::move(mark.named);
+    forget(mark);
+}
+
+void Expressions::forget(Mark mark) {
+    for (; namings_.size() > mark.naming; namings_.pop_back()) {
+        Naming& last = namings_.back();
+        if (last.before) {
+            named_[last.id] = *std::move(last.before);
+        } else {
+            named_.erase(last.id);
+        }
+    }
 }
 
 std::string Expressions::type(ir::Scalar scalar) {

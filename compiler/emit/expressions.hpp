@@ -67,7 +67,7 @@ class Expressions {
     std::string discrete_call(const ir::Discrete& discrete, const std::string& weights);
 
     // A named node is spelled by its name from then on.
-    void name(ir::NodeId id, const std::string& name) { named_[id] = name; }
+    void name(ir::NodeId id, const std::string& name);
     void name(ir::LocalId local, const std::string& name) { locals_[local] = name; }
     bool is_named(ir::NodeId id) const { return named_.contains(id); }
     std::size_t named_count() const { return named_.size(); }
@@ -87,13 +87,12 @@ class Expressions {
 
     // What was named since a mark is forgotten by returning to it.
     struct Mark {
-        std::size_t scope;
-        std::map<ir::NodeId, std::string> named;
+        std::size_t scope, naming;
     };
-    Mark mark() const { return {scope_.mark(), named_}; }
+    Mark mark() const { return {scope_.mark(), namings_.size()}; }
     void return_to(Mark mark);
     // The same, but the names stay taken.
-    void forget(Mark mark) { named_ = std::move(mark.named); }
+    void forget(Mark mark);
 
     Uses& uses() { return uses_; }
     const Unit& unit() const { return unit_; }
@@ -132,6 +131,11 @@ class Expressions {
     const Unit& unit_;
     Scope scope_;
     std::map<ir::NodeId, std::string> named_;
+    struct Naming {
+        ir::NodeId id;
+        std::optional<std::string> before;  // its name until then
+    };
+    std::vector<Naming> namings_;  // to be undone, since copies of all names would be too many
     std::map<ir::VariableId, std::string> variables_;
     std::map<ir::LocalId, std::string> locals_;
     std::optional<SeveralObjects> several_;
