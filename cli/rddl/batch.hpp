@@ -5,6 +5,7 @@
 
 #include <rddl/simulator.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace rddlc::cli {
@@ -16,5 +17,11 @@ inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_opti
     if (!batch) throw Failure("not enough memory for so many environments", "try a smaller batch");
     return batch;
 }
+
+// What an environment takes in a batch, with the records that go in and out: at least 1.
+std::int64_t bytes_per_environment(const rddl_simulator& simulator);
+
+// Fails with a sentence if so many environments take more bytes than they may.
+void require_room(const rddl_simulator& simulator, std::int64_t environments, std::int64_t limit);
 
 }  // namespace rddlc::cli

@@ -111,8 +111,9 @@ ExitStatus bench(const BenchOptions& options) {
 
     std::vector<std::int64_t> batches = options.batches;
     if (batches.empty()) batches.push_back(suitable_batch(*simulator.problem));
-    report.memory_per_environment =
-        memory_per_environment(simulator, *std::max_element(batches.begin(), batches.end()));
+    const std::int64_t largest = *std::max_element(batches.begin(), batches.end());
+    require_room(simulator, largest, files.memory_limit);
+    report.memory_per_environment = memory_per_environment(simulator, largest);
     report.measurements = measure_all(simulator, batches, options);
     options.json ? print_json(report) : print_table(report);
     return is_interrupted() ? interrupted : success;

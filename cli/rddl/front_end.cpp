@@ -21,6 +21,7 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
     options.standard = files.standard;
     options.passes = passes;
     options.real = real;
+    options.memory_limit = files.memory_limit;
     return compile(options);
 }
 

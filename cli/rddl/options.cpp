@@ -7,6 +7,7 @@ namespace rddlc::cli {
 ProblemFiles ProblemArguments::files() const {
     ProblemFiles files = find_files(first, second);
     files.standard = standard;
+    files.memory_limit = memory_limit;
     return files;
 }
 
@@ -17,6 +18,11 @@ void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool 
         ->required(required);
     command.add_option("INSTANCE", arguments.second, "Instance file, or number of the instance");
     add_standard_option(command, arguments.standard);
+    command
+        .add_option("--memory-limit", arguments.memory_limit,
+                    "Bytes that simulators may take: 4G (default), 512M, ...")
+        ->transform(CLI::AsSizeValue(false).description(""))
+        ->type_name("SIZE");
 }
 
 void add_standard_option(CLI::App& command, Standard& standard) {

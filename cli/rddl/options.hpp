@@ -60,10 +60,11 @@ struct ProblemArguments {
     std::string first;   // DOMAIN or NAME
     std::string second;  // INSTANCE; may be empty for a file that holds both blocks
     Standard standard = Standard::PyRddlGym;
+    std::int64_t memory_limit = default_memory_limit;
 
     ProblemFiles files() const;
 };
-// These and --std.
+// These, --std and --memory-limit.
 void add_problem_arguments(CLI::App& command, ProblemArguments& arguments, bool required = true);
 
 // --std

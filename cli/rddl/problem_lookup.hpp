@@ -1,6 +1,7 @@
 // Which files a problem is: two paths, or a name and an instance of rddlrepository.
 #pragma once
 
+#include "support/memory.hpp"
 #include "support/standard.hpp"
 
 #include <filesystem>
@@ -17,6 +18,7 @@ struct ProblemFiles {
     std::optional<std::filesystem::path> instance;     // absent: `domain` holds both
     std::optional<std::filesystem::path> policy = {};  // a file with a policy block for it
     Standard standard = Standard::PyRddlGym;           // in which they are written
+    std::int64_t memory_limit = default_memory_limit;  // bytes that its simulators may take
 
     std::vector<std::filesystem::path> all() const;
 };

@@ -4,6 +4,7 @@
 // not on how many others run, in which batch, or on which thread.
 #pragma once
 
+#include "support/memory.hpp"
 #include "violations.hpp"
 
 #include <rddl/simulator.h>
@@ -27,6 +28,7 @@ struct RolloutOptions {
     std::int64_t horizon = -1;  // as in rddl_batch_options
     int threads = 0;            // 0: one per core
     std::int64_t batch = 0;     // environments stepped together; 0: chosen here
+    std::int64_t memory_limit = default_memory_limit;  // bytes of all environments
 };
 
 struct Episode {

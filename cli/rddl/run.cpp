@@ -241,8 +241,10 @@ ExitStatus run(const RunOptions& options) {
             trace->write(lines);
         };
     }
+    RolloutOptions rollout_options = options.rollouts;
+    rollout_options.memory_limit = files.memory_limit;
     const Rollouts rollouts =
-        run_episodes(*problem.simulator, options.rollouts, sink, !options.quiet);
+        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
     if (trace) trace->finish();
     if (rollouts.missing_threads > 0)
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,

@@ -45,6 +45,7 @@ struct Arguments {
     std::string standard = "pyrddlgym";
     std::string lanes = "16";
     std::string real = "double";
+    std::int64_t memory_limit = default_memory_limit;
     std::string explained;
     std::vector<std::string> without;
     bool fast_math = false;
@@ -131,6 +132,11 @@ void declare(CLI::App& program, Arguments& arguments) {
                     "is about twice as fast in batches and less exact")
         ->check(CLI::IsMember({"double", "float"}))
         ->type_name("TYPE");
+    program
+        .add_option("--memory-limit", arguments.memory_limit,
+                    "bytes that one environment may take: 4G (the default), 512M, ...")
+        ->transform(CLI::AsSizeValue(false).description(""))
+        ->type_name("SIZE");
     program
         .add_option("--without", arguments.without,
                     "leave out optimisations: PASS[,PASS...], listed below; may be repeated")
@@ -295,6 +301,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.line_directives = arguments.line_directives;
     options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
+    options.memory_limit = arguments.memory_limit;
     options.dependency_file = dependency_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
     options.standard = *standard_named(arguments.standard);

@@ -10,6 +10,7 @@
 #include "driver/write.hpp"
 #include "emit/emit.hpp"
 #include "ground/ground.hpp"
+#include "ground/memory.hpp"
 #include "ir/analysis.hpp"
 #include "ir/print.hpp"
 #include "ir/verify.hpp"
@@ -124,7 +125,9 @@ void run_stages(Run& run) {
     if (run.ends_after(Stage::Check)) return;
 
     // Model -> IR: objects become integers, non-fluents tables, CPFs loops.
-    auto grounded = run.measure(Stage::Ground, [&] { return ground(*result.model, diagnostics); });
+    auto grounded = run.measure(Stage::Ground, [&] {
+        return ground(*result.model, diagnostics, run.options.memory_limit);
+    });
     if (diagnostics.has_errors()) return;
     grounded->real = run.options.real;
     run.show(Form::Ir, [&] { return ir::print(*grounded); });
@@ -138,6 +141,8 @@ void run_stages(Run& run) {
     result.program = run.measure(Stage::Optimise, [&] {
         return verified(optimise(*std::move(result.program), run.options.passes, &result.passes));
     });
+    report_memory(*result.program, run.options.memory_limit, diagnostics);
+    if (diagnostics.has_errors()) return;
     run.show(Form::OptimisedIr, [&] { return ir::print(*result.program); });
     if (run.ends_after(Stage::Optimise)) return;
 

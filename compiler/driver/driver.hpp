@@ -7,6 +7,7 @@
 #include "passes/passes.hpp"
 #include "support/diagnostic.hpp"
 #include "support/files.hpp"
+#include "support/memory.hpp"
 #include "support/source.hpp"
 #include "support/standard.hpp"
 
@@ -42,6 +43,7 @@ struct CompileOptions {
     bool line_directives = false;
     int lane_count = EmitOptions{}.lane_count;
     RealType real = RealType::Double;
+    std::int64_t memory_limit = default_memory_limit;  // bytes of one environment
     // A make rule that names the inputs of the output.
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;

@@ -237,9 +237,9 @@ void start_unbounded(const model::Model& model, ir::Program& program) {
 
 void find_bounds(const model::Model& model, const std::vector<FluentBuffers>& buffers,
                  ir::Program& program, Diagnostics& diagnostics) {
-    start_unbounded(model, program);
     // Nodes that only bounds need go to a copy.
     ir::Program lowered = program;
+    start_unbounded(model, program);
     ir::Builder builder(lowered);
     const Finiteness finiteness(model);
     Diagnostics already_reported;

@@ -7,5 +7,6 @@ namespace rddlc::grounding {
 inline constexpr Code not_supported_yet{'E', 601};
 inline constexpr Code contradictory_bounds{'E', 602};
 inline constexpr Code too_many_groundings{'E', 603};
+inline constexpr Code too_much_memory{'E', 604};
 
 }  // namespace rddlc::grounding

@@ -5,6 +5,7 @@
 #include "ground/declare.hpp"
 #include "ground/finiteness.hpp"
 #include "ground/lowering.hpp"
+#include "ground/memory.hpp"
 #include "ir/analysis.hpp"
 #include "ir/builder.hpp"
 #include "ir/layout.hpp"
@@ -53,7 +54,8 @@ void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics) {
+std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
+                                  std::int64_t memory_limit) {
     const std::size_t errors_before = diagnostics.error_count();
     const grounding::Finiteness finiteness(model);
     grounding::Declarations declarations = grounding::declare(model, finiteness);
@@ -74,6 +76,8 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
     }
     report_large_tables(program, diagnostics);
+    report_memory(program, memory_limit, diagnostics);
+    if (diagnostics.error_count() > errors_before) return std::nullopt;
     grounding::find_bounds(model, declarations.buffers, program, diagnostics);
     if (diagnostics.error_count() > errors_before) return std::nullopt;
 #ifndef NDEBUG

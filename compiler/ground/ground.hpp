@@ -5,13 +5,15 @@
 #include "ir/ir.hpp"
 #include "model/model.hpp"
 #include "support/diagnostic.hpp"
+#include "support/memory.hpp"
 
 #include <optional>
 
 namespace rddlc {
 
 // Nothing if the model uses what is not supported yet (E0601) or has errors that only its values
-// show (E0602, E0603).
-std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics);
+// show (E0602, E0603), or takes more bytes than it may (E0604).
+std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
+                                  std::int64_t memory_limit = default_memory_limit);
 
 }  // namespace rddlc

@@ -3,6 +3,7 @@
 #include "passes/new_tables.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -28,15 +29,12 @@ struct Lines {
     std::int64_t length, stride, count;
 };
 
-// The place of that entry in each line, -1 where there is none; none if a line has several.
-std::optional<std::vector<std::int64_t>> only_places(const Table& table, const Lines& lines,
-                                                     bool entry) {
-    std::vector<std::int64_t> places(static_cast<std::size_t>(lines.count), -1);
+// The place of that entry in each line that has one; none if a line has several.
+std::optional<std::map<std::int64_t, std::int64_t>> only_places(const Table& table,
+                                                                const Lines& lines, bool entry) {
+    std::map<std::int64_t, std::int64_t> places;
     const auto is_only = [&](std::int64_t element) {
-        std::int64_t& place = places[static_cast<std::size_t>(lines.line_of(element))];
-        const bool is_first = place < 0;
-        place = lines.place_of(element);
-        return is_first;
+        return places.emplace(lines.line_of(element), lines.place_of(element)).second;
     };
     if (table.common() != ir::Value(entry)) {
         for (const auto& [element, value] : table.exceptions()) {
@@ -141,10 +139,11 @@ std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool ent
     const ir::Buffer& table = program_[column.table];
     const auto places = only_places(table.values, Lines(table, column.axis), entry);
     if (!places) return std::nullopt;
-    std::vector<ir::Value> objects, exists;
-    for (const std::int64_t place : *places) {
-        objects.emplace_back(std::max<std::int64_t>(place, 0));
-        exists.emplace_back(place >= 0);
+    const std::int64_t count = Lines(table, column.axis).count;
+    Table objects(count, std::int64_t{0}), exists(count, false);
+    for (const auto& [line, place] : *places) {
+        objects.set(line, place);
+        exists.set(line, true);
     }
     ir::Buffer like = table;
     like.shape.erase(like.shape.begin() + static_cast<std::ptrdiff_t>(column.axis));
@@ -158,9 +157,10 @@ std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool ent
 // From a table of these values, unless they are all equal; indexed as the column is, without its
 // axis.
 ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, ir::Scalar scalar,
-                             std::vector<ir::Value> values, const Column& column) {
-    if (std::ranges::all_of(values, [&](const ir::Value& value) { return value == values[0]; }))
-        return builder_.constant(values[0]);
+                             Table values, const Column& column) {
+    if (values.is_uniform()) return builder_.constant(values[0]);
+    // By the value that most have; a large table stays as sparse as it was written.
+    if (values.size() <= most_elements) values = Table(values.dense());
     ir::Buffer table = like;
     table.name += suffix;
     table.scalar = scalar;

@@ -37,7 +37,7 @@ class OnlyObjects {
     std::optional<OnlyObject> with_value(const Column& column, ir::NodeId value);
     std::optional<OnlyObject> with_entry(const Column& column, bool entry);
     ir::NodeId load(const ir::Buffer& like, const std::string& suffix, ir::Scalar scalar,
-                    std::vector<ir::Value> values, const Column& column);
+                    Table values, const Column& column);
 
     bool depends_on(ir::NodeId id, ir::VariableId variable) const;
     bool is_within(ir::NodeId id, std::int64_t first, std::int64_t last) const;
