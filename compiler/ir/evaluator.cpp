@@ -21,6 +21,11 @@ namespace {
 // Constant tables for which these bytes leave no room are looked up where they are.
 constexpr std::size_t most_packed = std::size_t{1} << 25;
 
+// To write out all elements would take much longer than to look up those that somebody reads.
+bool is_sparse(const Table& table) {
+    return table.size() > 64 * (std::ssize(table.exceptions()) + 1024);
+}
+
 // Locals of different computations never live together: each computation numbers its own from 0.
 void number_lets(const Block& block, std::size_t& next, std::vector<std::size_t>& slots) {
     for (const Statement& statement : block) {
@@ -99,8 +104,8 @@ void Evaluator::pack(BufferId id) {
     constexpr std::size_t alignment = 8;
     const std::size_t bytes =
         size_of(buffer.scalar) * static_cast<std::size_t>(buffer.count()) + alignment - 1;
-    origin.is_looked_up =
-        bytes > most_packed - std::min(most_packed, constants_.size()) && !passed_.contains(id);
+    const bool has_room = bytes <= most_packed - std::min(most_packed, constants_.size());
+    origin.is_looked_up = (!has_room || is_sparse(buffer.values)) && !passed_.contains(id);
     if (origin.is_looked_up) return;
     constants_.resize(constants_.size() + bytes / alignment * alignment);
     write_values(buffer, constants_.data() + origin.offset);
@@ -108,12 +113,15 @@ void Evaluator::pack(BufferId id) {
 
 void Evaluator::number_slots() {
     const std::size_t first_local = program_->variables.size();
-    local_slots_.resize(program_->local_count);
+    local_slots_.assign(program_->local_count, no_slot);
     slot_count_ = first_local;
     for (const Block* block : blocks_of(*program_)) {
         std::size_t next = first_local;
         number_lets(*block, next, local_slots_);
         slot_count_ = std::max(slot_count_, next);
+    }
+    for (std::size_t& slot : local_slots_) {
+        if (slot == no_slot) slot = slot_count_++;
     }
     weight_slots_.resize(program_->nodes.size());
     for (std::size_t index = 0; index < program_->nodes.size(); ++index) {
@@ -122,6 +130,11 @@ void Evaluator::number_slots() {
             slot_count_ += discrete->weights.size();
         }
     }
+}
+
+void Evaluator::set(LocalId local, const Value& value, Frame& frame) const {
+    Frame::Slot& slot = frame.slots_[local_slots_[local.index]];
+    match(value, [&](auto v) { Frame::of<decltype(v)>(slot) = v; });
 }
 
 Evaluator::Frame::Frame(const Evaluator& evaluator, Records records, Context& context)

@@ -69,6 +69,9 @@ class Evaluator {
         Slot* slots_;
     };
 
+    // Gives a value to a local that no statement defines.
+    void set(LocalId local, const Value& value, Frame& frame) const;
+
     void run(const Block& block, Frame& frame) const;
     // T is the C++ type of the node's type: bool, int64_t or double.
     template <class T>
@@ -77,6 +80,8 @@ class Evaluator {
     std::optional<Value> value_unless_fault(NodeId id, Frame& frame) const;
 
   private:
+    static constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+
     // Where a buffer's first element lies.
     struct Origin {
         std::size_t record;  // index into Records::begin

@@ -2,14 +2,16 @@
 
 namespace rddlc::passes {
 
-std::optional<std::vector<ir::Value>> constant_values(
-    const ir::Evaluator& evaluator, const ir::Program& program, ir::NodeId id,
-    const std::vector<ir::VariableId>& variables) {
+std::optional<std::vector<ir::Value>> constant_values(const ir::Evaluator& evaluator,
+                                                      const ir::Program& program, ir::NodeId id,
+                                                      const std::vector<ir::VariableId>& variables,
+                                                      const std::optional<Assumed>& assumed) {
     std::int64_t count = 1;
     for (ir::VariableId variable : variables) count *= program[variable].size;
 
     ir::Context context;
     ir::Evaluator::Frame frame(evaluator, {}, context);
+    if (assumed) evaluator.set(assumed->local, assumed->value, frame);
     std::vector<ir::Value> values;
     for (std::int64_t position = 0; position < count; ++position) {
         std::int64_t rest = position;

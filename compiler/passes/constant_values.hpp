@@ -9,10 +9,17 @@
 
 namespace rddlc::passes {
 
-// The values of an expression that depends on constants and these variables only, row-major, the
-// first variable outermost. None if it faults for any of them.
+// A value for a local that no statement defines.
+struct Assumed {
+    ir::LocalId local;
+    ir::Value value;
+};
+
+// The values of an expression that depends on constants, these variables and what is assumed only,
+// row-major, the first variable outermost. None if it faults for any of them.
 std::optional<std::vector<ir::Value>> constant_values(const ir::Evaluator& evaluator,
                                                       const ir::Program& program, ir::NodeId id,
-                                                      const std::vector<ir::VariableId>& variables);
+                                                      const std::vector<ir::VariableId>& variables,
+                                                      const std::optional<Assumed>& assumed = {});
 
 }  // namespace rddlc::passes

@@ -45,8 +45,11 @@ bool is_possible_break(const ir::Value& value) {
 
 class Collector {
   public:
-    Collector(const ir::Builder& builder, const ir::Evaluator& evaluator)
+    // Without an evaluator it collects no breaks.
+    Collector(const ir::Builder& builder, const ir::Evaluator* evaluator)
         : builder_(builder), evaluator_(evaluator) {}
+
+    bool has_number() const { return number_.has_value(); }
 
     // False if there is something else that is not constant.
     bool visit(ir::NodeId id) {
@@ -88,8 +91,9 @@ class Collector {
     }
 
     bool add_breaks(Operator op, ir::NodeId bound) {
+        if (!evaluator_) return true;
         const auto values =
-            constant_values(evaluator_, program(), bound, builder_.facts(bound).free_variables);
+            constant_values(*evaluator_, program(), bound, builder_.facts(bound).free_variables);
         if (!values || values->size() > most_breaks) return false;
         const bool before = op != Operator::LessEqual && op != Operator::Greater;
         const bool behind = op != Operator::Less && op != Operator::GreaterEqual;
@@ -110,7 +114,7 @@ class Collector {
     const ir::Program& program() const { return builder_.program(); }
 
     const ir::Builder& builder_;
-    const ir::Evaluator& evaluator_;
+    const ir::Evaluator* evaluator_;
     std::optional<ir::NodeId> number_;
     std::map<ir::Value, ir::Value> breaks_;  // and the entries
     std::set<ir::NodeId> visited_;
@@ -129,9 +133,14 @@ std::vector<ir::Value> Pieces::representatives() const {
     return values;
 }
 
+bool compares_one_number(const ir::Builder& builder, ir::NodeId id) {
+    Collector collector(builder, nullptr);
+    return collector.visit(id) && collector.has_number();
+}
+
 std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
                                 ir::NodeId id) {
-    Collector collector(builder, evaluator);
+    Collector collector(builder, &evaluator);
     if (!collector.visit(id)) return std::nullopt;
     return collector.result();
 }

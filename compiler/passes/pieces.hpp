@@ -25,6 +25,9 @@ struct Pieces {
     std::vector<ir::Value> representatives() const;
 };
 
+// Does the expression look at nothing else that is not constant? Quick, as nothing is evaluated.
+bool compares_one_number(const ir::Builder& builder, ir::NodeId id);
+
 // None if the expression looks at anything else that is not constant, if it may fault or if there
 // are no breaks or too many.
 std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,

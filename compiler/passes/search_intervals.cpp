@@ -17,45 +17,49 @@ namespace {
 
 // In operations (Facts::cost), of evaluating an expression for all pieces.
 constexpr double affordable_cost = 1e7;
+// The same for all expressions.
+constexpr double affordable_in_all = 1e8;
 // What costs less than this many times a search stays as it is.
 constexpr double worth_a_search = 2;
 
 // The values of an expression for numbers from all pieces.
 class Trying {
   public:
-    Trying(ir::Builder& builder, const ir::Evaluator& evaluator)
-        : builder_(builder), evaluator_(evaluator) {}
+    // The local, which no statement defines, stands for the number.
+    Trying(ir::Builder& builder, const ir::Evaluator& evaluator, ir::LocalId local)
+        : builder_(builder), evaluator_(evaluator), local_(local) {}
 
-    bool is_affordable(ir::NodeId id, const Pieces& pieces) const {
-        const auto count = static_cast<double>(pieces.breaks.size() + 2);
-        return builder_.facts(id).cost * count <= affordable_cost;
+    // `left` is what may be spent; it gets less.
+    bool is_affordable(ir::NodeId id, const Pieces& pieces, double& left) const {
+        const double cost = builder_.facts(id).cost * static_cast<double>(pieces.breaks.size() + 2);
+        if (cost > affordable_cost || cost > left) return false;
+        left -= cost;
+        return true;
     }
 
     // Each by the objects of the variables, row-major. None if nan behaves like no piece.
     std::optional<std::vector<std::vector<ir::Value>>> of(
         ir::NodeId id, const Pieces& pieces, const std::vector<ir::VariableId>& variables) {
+        const ir::Scalar type = builder_.program()[pieces.number].type;
+        std::map<ir::NodeId, ir::NodeId> known = {{pieces.number, builder_.local(local_, type)}};
+        const ir::NodeId value = ir::replace_in(builder_, id, known);
+        const auto with = [&](const ir::Value& number) {
+            const ir::Program& program = builder_.program();
+            return *constant_values(evaluator_, program, value, variables, Assumed{local_, number});
+        };
         std::vector<std::vector<ir::Value>> values;
-        for (const ir::Value& number : pieces.representatives())
-            values.push_back(with(id, pieces, number, variables));
+        for (const ir::Value& number : pieces.representatives()) values.push_back(with(number));
         // A search puts nan below all breaks.
-        if (builder_.program()[pieces.number].type == ir::Scalar::Real) {
-            const double nan = std::numeric_limits<double>::quiet_NaN();
-            if (!are_identical(with(id, pieces, nan, variables), values.front()))
-                return std::nullopt;
-        }
+        if (type == ir::Scalar::Real &&
+            !are_identical(with(std::numeric_limits<double>::quiet_NaN()), values.front()))
+            return std::nullopt;
         return values;
     }
 
   private:
-    std::vector<ir::Value> with(ir::NodeId id, const Pieces& pieces, const ir::Value& number,
-                                const std::vector<ir::VariableId>& variables) {
-        std::map<ir::NodeId, ir::NodeId> known = {{pieces.number, builder_.constant(number)}};
-        const ir::NodeId value = ir::replace_in(builder_, id, known);
-        return *constant_values(evaluator_, builder_.program(), value, variables);
-    }
-
     ir::Builder& builder_;
     const ir::Evaluator& evaluator_;
+    ir::LocalId local_;
 };
 
 std::string name_of_number(const ir::Program& program, ir::NodeId number) {
@@ -109,7 +113,11 @@ ir::NodeId search(ir::Program& program, ir::Builder& builder, const Pieces& piec
 class Tabulation {
   public:
     Tabulation(ir::Program program, Report& report)
-        : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {}
+        : program_(std::move(program)),
+          report_(report),
+          local_{program_.local_count++},
+          builder_(program_),
+          evaluator_(program_) {}
 
     ir::Program run() && {
         std::map<ir::NodeId, ir::NodeId> done;
@@ -118,6 +126,7 @@ class Tabulation {
         };
         ir::change_roots(
             program_, [&](ir::NodeId& root) { root = ir::replace_in(builder_, root, done, find); });
+        --program_.local_count;
         return ir::collect_garbage(std::move(program_));
     }
 
@@ -127,8 +136,8 @@ class Tabulation {
         if (facts.uniform || !facts.free_variables.empty() || facts.may_fault) return std::nullopt;
         auto pieces = pieces_of(builder_, evaluator_, id);
         if (!pieces) return std::nullopt;
-        Trying trying(builder_, evaluator_);
-        if (!trying.is_affordable(id, *pieces)) return std::nullopt;
+        Trying trying(builder_, evaluator_, local_);
+        if (!trying.is_affordable(id, *pieces, left_)) return std::nullopt;
         const auto tried = trying.of(id, *pieces, {});
         if (!tried) return std::nullopt;
         std::vector<ir::Value> values;
@@ -145,22 +154,28 @@ class Tabulation {
 
     ir::Program program_;
     Report& report_;
+    ir::LocalId local_;  // stands for a number that is tried
     ir::Builder builder_;
     ir::Evaluator evaluator_;
+    double left_ = affordable_in_all;
 };
 
 // -------------------------------------------------------------- one object in each piece
 
 // The object that fulfils the condition in each piece.
 std::optional<OnlyObject> only_object(ir::Program& program, ir::Builder& builder,
-                                      const Condition& condition, ir::VariableId variable) {
+                                      const Condition& condition, ir::VariableId variable,
+                                      double& left) {
     const ir::Facts facts = builder.facts(condition.id);
     const bool is_only_variable = facts.free_variables == std::vector{variable};
     if (facts.uniform || !is_only_variable || facts.may_fault) return std::nullopt;
+    if (!compares_one_number(builder, condition.id)) return std::nullopt;
+    const ir::LocalId local{program.local_count++};
     const ir::Evaluator evaluator(program);
+    --program.local_count;
     const auto pieces = pieces_of(builder, evaluator, condition.id);
-    Trying trying(builder, evaluator);
-    if (!pieces || !trying.is_affordable(condition.id, *pieces)) return std::nullopt;
+    Trying trying(builder, evaluator, local);
+    if (!pieces || !trying.is_affordable(condition.id, *pieces, left)) return std::nullopt;
     const auto tried = trying.of(condition.id, *pieces, {variable});
     if (!tried) return std::nullopt;
 
@@ -182,10 +197,11 @@ std::optional<OnlyObject> only_object(ir::Program& program, ir::Builder& builder
 
 ir::Program search_intervals(ir::Program program, Report& report) {
     program = Tabulation(std::move(program), report).run();
+    double left = affordable_in_all;
     return take_only_objects(
         std::move(program), [&](ir::Program& changed, ir::Builder& builder,
                                 const Condition& condition, ir::VariableId variable) {
-            const auto object = only_object(changed, builder, condition, variable);
+            const auto object = only_object(changed, builder, condition, variable, left);
             if (object) ++report["aggregations replaced by the object of an interval"];
             return object;
         });
