@@ -21,6 +21,7 @@ PARTS = (
     ("growth.py", False, True),
     ("segments.py", False, True),
     ("compile_cost.py", False, True),
+    ("compile_growth.py", False, True),
 )
 
 
