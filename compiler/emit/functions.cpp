@@ -106,10 +106,11 @@ std::string function(const std::string& result, const std::string& name,
     return text + body + indented("}", level);
 }
 
+// Not as a member of a record, which is the user's.
 bool has_word(const std::string& text, std::string_view word) {
     const auto is_part = [&](std::size_t at) {
-        return at < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+        return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) ||
+                                    text[at] == '_' || text[at] == '.');
     };
     for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += word.size())
         if ((at == 0 || !is_part(at - 1)) && !is_part(at + word.size())) return true;
