@@ -86,19 +86,21 @@ constexpr bool are_neighbours(const rddl_fluent& first, const rddl_fluent& secon
 template <class Body>
 constexpr void for_each_group(const rddl_problem& problem, rddl_role role, Body&& body) {
     const bool are_apart = fluent_count(problem, role) <= most_apart;
-    const rddl_fluent* first = nullptr;
-    const rddl_fluent* last = nullptr;
+    // Numbers, not pointers: with its sanitizers, g++ compares no pointer with null at compile
+    // time.
+    constexpr std::int32_t none = -1;
+    std::int32_t first = none, last = none;
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
         if (fluent.role != role) continue;
-        if (last != nullptr && (are_apart || !are_neighbours(*last, fluent))) {
-            body(*first, *last);
-            first = nullptr;
+        if (last != none && (are_apart || !are_neighbours(problem.fluents[last], fluent))) {
+            body(problem.fluents[first], problem.fluents[last]);
+            first = none;
         }
-        if (first == nullptr) first = &fluent;
-        last = &fluent;
+        if (first == none) first = f;
+        last = f;
     }
-    if (last != nullptr) body(*first, *last);
+    if (last != none) body(problem.fluents[first], problem.fluents[last]);
 }
 
 constexpr std::size_t column_count(const rddl_problem& problem, rddl_role role) {
