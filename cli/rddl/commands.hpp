@@ -21,5 +21,6 @@ Command add_fmt_command(CLI::App& program);
 Command add_run_command(CLI::App& program);
 Command add_replay_command(CLI::App& program);
 Command add_bench_command(CLI::App& program);
+Command add_verify_command(CLI::App& program);
 
 }  // namespace rddlc::cli

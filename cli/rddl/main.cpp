@@ -28,7 +28,8 @@ constexpr const char* examples =
     "  rddl info MountainCar_ippc2023 1\n"
     "  rddl check domain.rddl instance.rddl\n"
     "  rddl fmt domain.rddl instance.rddl\n"
-    "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n\n"
+    "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n"
+    "  rddl verify domain.rddl instance.rddl\n\n"
     "'rddl COMMAND --help' tells more about a command.";
 
 std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
@@ -96,7 +97,7 @@ ExitStatus run(int argc, char** argv) {
     const std::array commands{add_list_command(program),  add_info_command(program),
                               add_check_command(program), add_fmt_command(program),
                               add_run_command(program),   add_replay_command(program),
-                              add_bench_command(program)};
+                              add_bench_command(program), add_verify_command(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

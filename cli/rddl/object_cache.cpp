@@ -67,7 +67,8 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
     UsedFiles used;
     write_file(source, text, used);
-    const auto prepared = prepared_runtime(target.parent_path(), toolchain);
+    const auto prepared =
+        options.links_batches ? prepared_runtime(target.parent_path(), toolchain) : std::nullopt;
     if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
     Diagnostics diagnostics;
     bool built = false;

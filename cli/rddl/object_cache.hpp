@@ -15,6 +15,8 @@ struct CacheOptions {
     bool quiet = false;
     // The user's headers that the text includes: a change to one is a change to the text.
     std::vector<std::filesystem::path> extern_headers = {};
+    // Whether the text links what is the same for all simulators: batches of one lane count alone.
+    bool links_batches = true;
 };
 
 struct CachedObject {

@@ -40,18 +40,7 @@ void add_extern_option(CLI::App& command, LoadOptions& options, const std::strin
         ->type_name("FILE");
 }
 
-void add_engine_options(CLI::App& command, LoadOptions& options) {
-    command
-        .add_option_function<std::string>(
-            "--engine",
-            [&options](const std::string& name) {
-                options.engine = name == "compiled" ? Engine::Compiled : Engine::Interpreter;
-            },
-            "compiled (default), or interpreter, which needs no C++ compiler")
-        ->check(CLI::IsMember({"compiled", "interpreter"}).description(""))
-        ->type_name("ENGINE");
-    add_extern_option(command, options,
-                      "C++ header of the external functions; the interpreter takes a .so, too");
+void add_pass_options(CLI::App& command, LoadOptions& options) {
     command
         .add_option_function<std::vector<std::string>>(
             "--without",
@@ -68,6 +57,26 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
         ->type_name("PASS");
     command.add_flag("--fast-math", options.passes.fast_math,
                      "Compute with reals as if they were not rounded, and never inf or nan");
+}
+
+void add_cache_option(CLI::App& command, LoadOptions& options) {
+    command.add_flag("--no-cache", options.ignore_cache,
+                     "Compile anew instead of using a simulator compiled before");
+}
+
+void add_engine_options(CLI::App& command, LoadOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--engine",
+            [&options](const std::string& name) {
+                options.engine = name == "compiled" ? Engine::Compiled : Engine::Interpreter;
+            },
+            "compiled (default), or interpreter, which needs no C++ compiler")
+        ->check(CLI::IsMember({"compiled", "interpreter"}).description(""))
+        ->type_name("ENGINE");
+    add_extern_option(command, options,
+                      "C++ header of the external functions; the interpreter takes a .so, too");
+    add_pass_options(command, options);
     command
         .add_option_function<std::string>(
             "--real",
@@ -77,8 +86,7 @@ void add_engine_options(CLI::App& command, LoadOptions& options) {
             "What reals are computed in: double (default) or float")
         ->check(CLI::IsMember({"double", "float"}).description(""))
         ->type_name("TYPE");
-    command.add_flag("--no-cache", options.ignore_cache,
-                     "Compile anew instead of using a simulator compiled before");
+    add_cache_option(command, options);
 }
 
 void add_preconditions_option(CLI::App& command, Preconditions& preconditions) {

@@ -73,6 +73,12 @@ void add_standard_option(CLI::App& command, Standard& standard);
 // --extern
 void add_extern_option(CLI::App& command, LoadOptions& options, const std::string& explanation);
 
+// --without, --fast-math
+void add_pass_options(CLI::App& command, LoadOptions& options);
+
+// --no-cache
+void add_cache_option(CLI::App& command, LoadOptions& options);
+
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(CLI::App& command, LoadOptions& options);
 

@@ -1,13 +1,13 @@
 #include "peers.hpp"
 
 #include "driver/process.hpp"
+#include "python_command.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -41,13 +41,6 @@ fs::path program_file(const Peer& peer) {
         if (fs::exists(folder / peer.program, ignored)) return folder / peer.program;
     throw Failure(fmt::format("cannot find '{}', which measures {}", peer.program, peer.package),
                   "install rddl with its share folder");
-}
-
-std::string python_of(const PeerOptions& options) {
-    if (!options.python.empty()) return options.python;
-    const char* const environment = std::getenv("VIRTUAL_ENV");
-    return environment && *environment ? (fs::path(environment) / "bin/python").string()
-                                       : "python3";
 }
 
 // The last line; what stands before it are the libraries' messages.
@@ -109,7 +102,7 @@ bool knows_threads(std::string_view name) {
 PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
                          const PeerOptions& options) {
     const Peer& peer = peer_named(name);
-    const std::string python = python_of(options);
+    const std::string python = python_command(options.python);
     const auto result =
         run_process({python, program_file(peer).string(), argument_of(files.domain),
                      argument_of(files.instance.value_or("/dev/null")), "--seconds",

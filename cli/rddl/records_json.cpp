@@ -65,24 +65,6 @@ void write_int(std::string& out, std::int64_t value) {
     out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-void write_value(std::string& out, const RecordEntry& entry, const std::byte* record) {
-    switch (entry.fluent->scalar) {
-        case RDDL_BOOL:
-            out += load<std::uint8_t>(record, entry.offset) ? "true" : "false";
-            return;
-        case RDDL_REAL:
-            write_real(out, load<double>(record, entry.offset));
-            return;
-        case RDDL_INT:
-            break;
-    }
-    const auto value = load<std::int64_t>(record, entry.offset);
-    if (entry.objects && value >= 0 && value < entry.objects->object_count)
-        write_string(out, entry.objects->objects[value]);
-    else
-        write_int(out, value);
-}
-
 // What a fluent takes, for messages.
 std::string expected_value(const RecordEntry& entry) {
     if (entry.objects) return fmt::format("an object of type '{}'", entry.objects->name);
@@ -174,6 +156,24 @@ std::optional<std::string> read_value(const RecordEntry& entry, const json& valu
 
 std::size_t scalar_size(rddl_scalar scalar) {
     return scalar == RDDL_BOOL ? 1 : 8;
+}
+
+void write_value(std::string& out, const RecordEntry& entry, const std::byte* record) {
+    switch (entry.fluent->scalar) {
+        case RDDL_BOOL:
+            out += load<std::uint8_t>(record, entry.offset) ? "true" : "false";
+            return;
+        case RDDL_REAL:
+            write_real(out, load<double>(record, entry.offset));
+            return;
+        case RDDL_INT:
+            break;
+    }
+    const auto value = load<std::int64_t>(record, entry.offset);
+    if (entry.objects && value >= 0 && value < entry.objects->object_count)
+        write_string(out, entry.objects->objects[value]);
+    else
+        write_int(out, value);
 }
 
 std::string grounded_name(const rddl_problem& problem, const rddl_fluent& fluent,

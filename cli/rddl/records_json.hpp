@@ -65,6 +65,9 @@ class RecordLayout {
 std::string grounded_name(const rddl_problem& problem, const rddl_fluent& fluent,
                           std::int64_t grounding);
 
+// The value of that entry, as JSON.
+void write_value(std::string& out, const RecordEntry& entry, const std::byte* record);
+
 // Bytes of one value.
 std::size_t scalar_size(rddl_scalar scalar);
 

@@ -42,6 +42,7 @@ struct Pass {
     const char* summary;
     ir::Program (*run)(ir::Program, passes::Report&);
     bool only_fast_math = false;
+    bool rounds_sums = false;
 };
 
 // A pass may stand here several times.
@@ -78,7 +79,7 @@ constexpr Pass in_order[] = {
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
      passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
-     passes::make_aggregations_sparse},
+     passes::make_aggregations_sparse, false, true},
     {"tabulate_counts", "what a count, or another small int, decides becomes a table",
      passes::tabulate_counts},
     {"straighten_rows", "only with --fast-math: rows of tables that are nearly lines become lines",
@@ -122,7 +123,8 @@ std::vector<PassDescription> all_passes() {
     std::vector<PassDescription> passes;
     for (const Pass& pass : in_order) {
         const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
-        if (known == passes.end()) passes.push_back({pass.name, pass.summary, pass.only_fast_math});
+        if (known == passes.end())
+            passes.push_back({pass.name, pass.summary, pass.only_fast_math, pass.rounds_sums});
     }
     return passes;
 }
