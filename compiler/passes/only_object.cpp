@@ -113,7 +113,7 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
         distance >= most_entries_an_object * count)
         return std::nullopt;
 
-    const auto extent = static_cast<std::size_t>(last - first + 1);
+    const auto extent = static_cast<std::size_t>(distance + 1);
     std::vector<ir::Value> objects(extent, std::int64_t{0}), exists(extent, false);
     for (std::int64_t object = 0; object < count; ++object) {
         const auto place =
@@ -124,7 +124,7 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
     const ir::Buffer like{.name = table.name,
                           .storage = ir::Storage::Constant,
                           .scalar = ir::Scalar::Int,
-                          .shape = {last - first + 1},
+                          .shape = {distance + 1},
                           .span = table.span};
     const ir::NodeId place =
         builder_.apply(Operator::Subtract, {clamped(value, first, last), number(first)});

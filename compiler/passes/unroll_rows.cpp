@@ -52,14 +52,15 @@ class Unrolling {
     const ir::Store* sums_over_rows(const ir::Loop& loop) const {
         const ir::Nest nest = ir::nest_of(loop);
         const auto* store = ir::only_statement<ir::Store>(*nest.body);
-        if (!store || has_place(store->value)) return nullptr;
+        if (!store) return nullptr;
         double cost = builder_.facts(store->value).cost;
         for (ir::VariableId variable : nest.variables)
             cost *= static_cast<double>(program_[variable].size);
         const double sums = cost_of_sums(store->value);
         const bool is_worth_it = sums > 0 && cost <= most_operations &&
                                  builder_.facts(store->value).cost - sums <= most_beside_sums;
-        return is_worth_it ? store : nullptr;
+        // Last, as it walks through the whole expression, which is small then.
+        return is_worth_it && !has_place(store->value) ? store : nullptr;
     }
 
     // It draws or may fault at a site, which belongs to one node.
