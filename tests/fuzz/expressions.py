@@ -127,6 +127,7 @@ class Expressions:
             (1, lambda d: self.switch("bool", self.boolean, d)),
             (1, self.logic_chain),
             (1, self.comparison_chain),
+            (0.3, self.test_of_nothing),
         ]
         if self.flavour.draws:
             options.append((2, self.bernoulli))
@@ -342,11 +343,13 @@ class Expressions:
 
     def of_nothing(self, depth: int) -> Expr | None:
         """An aggregation over a type without members."""
+        binder = f"{{{self.fresh_variable()} : {self.type_without_members()}}}"
+        return Expr("int", f"({self.pick(['sum', 'prod'])}_{binder} [%s])", (self.integer(depth),), 2)
+
+    def type_without_members(self) -> str:
         if self.problem.type("none") is None:
             self.problem.types.append(Type("none", True, []))
-        variable = self.fresh_variable()
-        name = self.pick(["sum", "prod"])
-        return Expr("int", f"({name}_{{{variable} : none}} [%s])", (self.integer(depth),), 2)
+        return "none"
 
     def wild_int(self, depth: int) -> Expr | None:
         """Wraps around. One operand is a fluent, since pyRDDLGym has big ints among literals."""

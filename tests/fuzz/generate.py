@@ -18,7 +18,7 @@ library), the value is marked unsure, and nothing that jumps (comparisons, floor
 to it.
 
 What is drawn from stands beside this: tables.py (sizes and values), expressions.py,
-distributions.py, shapes.py (what passes look for).
+distributions.py, shapes.py (what passes look for), assumptions.py (what they take for granted).
 """
 
 import argparse
@@ -27,6 +27,7 @@ import random
 import re
 from dataclasses import dataclass
 
+from assumptions import Assumptions
 from distributions import Distributions
 from expressions import Expressions
 from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem, Type, work_of
@@ -54,7 +55,7 @@ FLAVOURS = {
 }
 
 
-class Generator(Tables, Expressions, Distributions, Shapes):
+class Generator(Tables, Expressions, Distributions, Shapes, Assumptions):
     def __init__(self, seed: int, flavour: str):
         self.rng = random.Random(f"{seed} {flavour}")
         self.flavour = FLAVOURS[flavour]
@@ -153,7 +154,7 @@ class Generator(Tables, Expressions, Distributions, Shapes):
             "derived-fluent": self.rng.randint(0, 1),
             "observ-fluent": self.rng.choice([0, 0, 0, 2]),
         }
-        self.problem.fluents += self.tables_that_shapes_need()
+        self.problem.fluents += self.tables_that_shapes_need() + self.fluents_with_bounds()
         for role, count in counts.items():
             for _ in range(count):
                 self.problem.fluents.append(self.make_fluent(names.pop(0), role))
@@ -219,12 +220,13 @@ class Generator(Tables, Expressions, Distributions, Shapes):
         rough = self.chance(0.5)
         self.problem.reward = self.affordable(lambda depth: self.finite_number(depth, rough), 4)
         if self.flavour.draws and self.chance(0.1):
-            self.add_drawn_pairs()
+            self.add_to_reward(self.drawn_in_pairs())
+        if self.chance(0.2 if rough or self.flavour.wild else 0.0):
+            self.add_to_reward(self.pick([self.chosen_by_sums, self.sum_of_rounded_terms])(1))
 
-    def add_drawn_pairs(self) -> None:
-        drawn = self.drawn_in_pairs()
-        if drawn is not None and work_of(drawn, self.problem) <= MOST_WORK / 2:
-            self.problem.reward = Expr("real", "(%s + %s)", (self.problem.reward, drawn), 30, UNSURE, False)
+    def add_to_reward(self, term: Expr | None) -> None:
+        if term is not None and work_of(term, self.problem) <= MOST_WORK / 2:
+            self.problem.reward = Expr("real", "(%s + %s)", (self.problem.reward, term), 30, UNSURE, False)
 
     def finite_number(self, depth: int, rough: bool, always: bool = False) -> Expr:
         value = self.number(depth, rough)
@@ -240,8 +242,12 @@ class Generator(Tables, Expressions, Distributions, Shapes):
     def definition(self, fluent: Fluent) -> tuple[tuple[str, ...], Expr]:
         parameters = tuple(f"?{parameter[0]}{i}" for i, parameter in enumerate(fluent.parameters))
         self.scope = list(zip(parameters, fluent.parameters))
-        depth = self.pick([1, 2, 3, 4, 4, 5, 6])
-        shaped = self.shaped_definition(fluent) if self.chance(0.6 if fluent.name in ("stock", "cap", "at") else 0.25) else None
+        depth = self.pick([1, 2, 3, 4, 4, 5, 6, 8])
+        shaped = None
+        if fluent.name in ("turn", "speed", "bound") and self.chance(0.9):
+            shaped = self.definition_with_bounds(fluent)
+        elif self.chance(0.6 if fluent.name in ("stock", "cap", "at") else 0.25):
+            shaped = self.shaped_definition(fluent)
         if shaped is not None:
             body = self.affordable(lambda _: shaped, 1)
         elif fluent.range == "bool":
@@ -326,14 +332,17 @@ class Generator(Tables, Expressions, Distributions, Shapes):
 
     def make_conditions(self) -> None:
         self.visible = self.of("non-fluent", "state-fluent")
+        has_bounds = any(fluent.name == "speed" for fluent in self.problem.fluents)
         for conditions, chance in (
-            (self.problem.invariants, 0.3),
+            (self.problem.invariants, 0.05 if has_bounds else 0.3),  # others would be violated most often
             (self.problem.terminations, 0.3),
         ):
             while self.chance(chance):
                 conditions.append(self.affordable(self.boolean, 3))
-        while self.chance(0.5 if self.flavour.finite else 0.3):
-            self.problem.invariants += self.bounds_of_state()
+        if has_bounds and self.chance(0.8):
+            self.problem.invariants += self.bounds_at_places()
+        while self.chance(0.2 if has_bounds else 0.5 if self.flavour.finite else 0.3):
+            self.problem.invariants += self.bounds_at_places() if has_bounds and self.chance(0.8) else self.bounds_of_state()
         self.visible = self.visible + self.of("action-fluent")
         while self.chance(0.4):
             self.problem.preconditions.append(self.affordable(self.boolean, 3))

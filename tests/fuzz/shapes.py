@@ -28,6 +28,7 @@ class Shapes:
             ("height", "state-fluent", "real", ()),
             ("stock", "state-fluent", "real", (first,)),
             ("cap", "state-fluent", "real", (first,)),
+            ("flow", "state-fluent", "real", (first, last)),
         ]
         share = self.pick([0.3, 0.6, 0.9])
         fluents = [self.declared(*about) for about in wanted if self.chance(share)]
@@ -92,6 +93,8 @@ class Shapes:
         both = Expr("bool", form, (mask, subject))
         if self.chance(0.3):
             other = self.over("bool", variables) or self.boolean(0)
+            if self.problem.flavour != "plain" and self.chance(0.2):
+                other = self.uncertain(variables) or other
             both = Expr("bool", self.pick(["(%s ^ %s)", "(%s | %s)", "(%s ~= %s)"]), (both, other))
         return both
 
@@ -112,7 +115,7 @@ class Shapes:
     def shape_of_bool(self, depth: int) -> Expr | None:
         return self.pick_weighted([
             (3, self.any_masked), (2, self.count_compared), (1, self.opposite_bounds),
-            (2, self.only_one), (1, self.in_an_interval), (2, self.threshold),
+            (2, self.only_one), (1, self.in_an_interval), (2, self.threshold), (1, self.rounded_threshold),
             (2 if self.flavour.draws else 0, self.draw_in_branches),
             (2 if self.flavour.draws else 0, self.drawn_object),
         ])(depth)  # fmt: skip
@@ -317,7 +320,7 @@ class Shapes:
         if rough:
             options += [
                 (8 if self.flavour.finite else 4, self.function_of_count), (3, self.products_with_constants),
-                (4, self.expensive_terms),
+                (4, self.expensive_terms), (4, self.sum_of_rounded_terms), (1, self.chosen_by_sums),
                 (2, self.functions_in_pairs), (2 if self.flavour.draws else 0, self.normal_in_branches),
                 ((2 if self.scope else 8) if self.flavour.draws else 0, self.draw_times_constant),
             ]  # fmt: skip

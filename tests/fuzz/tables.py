@@ -26,6 +26,8 @@ class Tables:
         """Of the two object types: most problems are small enough to be quick."""
         scale = self.rng.choices((FEW, SOME, MANY, VERY_MANY), (30, 50, 15, 5))[0]
         first, second = self.pick(scale), self.pick(FEW + SOME if scale is SOME else FEW)
+        if self.chance(0.1):
+            second = 1
         return (first, second) if self.chance(0.6) else (second, first)
 
     def give_values(self, fluent: Fluent) -> None:
