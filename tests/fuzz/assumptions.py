@@ -94,6 +94,46 @@ class Assumptions:
             return [Expr("bool", f"(forall_{{{own} : {place}}} [{body}])")]
         return [Expr("bool", f"({body})")]
 
+    def clamped_by_table(self, fluent: Fluent) -> Expr | None:
+        """As bounds_of_state demands: by the entry of the object itself, or of one that changes."""
+        names = {name for name, f in self.visible if f.parameters or name == "at"}
+        if fluent.name not in ("stock", "cap") or not fluent.parameters or fluent.is_exact() or "COST" not in names:
+            return None
+        own = self.scope[0][0]
+        if fluent.name == "cap":
+            return Expr("real", f"COST({own})", (), 10, UNSURE)
+        value = self.number(1, rough=True)
+        if not value.finite:
+            return None
+        whose = "at" if self.clamp_is_of_at and "at" in names else own
+        form = self.pick(["max[-500.0, min[COST({}), (%s + 0.0)]]", "min[COST({}), max[-500.0, (%s + 0.0)]]"])
+        return Expr("real", form.format(whose), (value,), 10, UNSURE)
+
+    def bounds_of_state(self) -> list[Expr]:
+        """That a clamp keeps, by constants or by what a table or a state chooses."""
+        names = {name for name, f in self.visible if f.parameters or name == "at"}
+        type_name = self.problem.types[0].name
+        if {"stock", "COST"} <= names and self.chance(0.6):
+            limit = "cap" if "cap" in names and self.chance(0.7) else "COST"
+            if "at" in names and self.chance(0.6):
+                return [Expr("bool", f"(stock(at) <= {limit}(at))")]
+            return [Expr("bool", f"(forall_{{?c : {type_name}}} [stock(?c) <= {limit}(?c)])")]
+        numbers = [(name, f) for name, f in self.visible if f.range == "real" and f.role == "state-fluent"]
+        if not numbers:
+            return []
+        name, fluent = self.pick(numbers)
+        limit = self.pick(["500.0", "500.0", "100.0"])
+        body = self.pick([f"%s <= {limit}", f"(%s >= -{limit} ^ %s <= {limit})", f"%s >= -{limit}"])
+        if not fluent.parameters:
+            whole = Expr("real", name)
+            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
+        if self.chance(0.3) and (whole := self.applied(name, fluent, 1)):
+            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
+        variables = [(self.fresh_variable(), p) for p in fluent.parameters]
+        binder = "{" + ", ".join(f"{v} : {of}" for v, of in variables) + "}"
+        whole = Expr("real", f"{name}({', '.join(v for v, _ in variables)})")
+        return [Expr("bool", f"(forall_{binder} [{body}])", (whole,) * body.count("%s"))]
+
     # ----------------------------------------------------------------- coefficients that round
 
     def sum_of_rounded_terms(self, depth: int) -> Expr | None:
@@ -101,7 +141,7 @@ class Assumptions:
         found = self.over_objects(depth, "", lambda variables: self.rounded_term(variables, self.pick([1, 1, 2])))
         if found is None:
             return None
-        binder, inside, number = found
+        binder, inside, _ = found
         return Expr("real", f"(sum_{binder} [%s])", (inside,), 40, UNSURE)
 
     def rounded_threshold(self, depth: int) -> Expr | None:
@@ -118,8 +158,8 @@ class Assumptions:
             terms[0] = Expr("real", "(%s)", (self.rounded_term(variables, depth - 1),), 40, UNSURE)
         inside = "%s" + "".join(f" {self.pick('++-')} %s" for _ in terms[1:])
         factor = self.pick(LARGE_FACTORS if self.chance(0.15) else WHOLE_FACTORS)
-        form = self.pick([f"{factor} * ({inside})", f"({inside}) * {factor}", f"-({factor} * ({inside}))", f"({inside}) / {factor}"])
-        return Expr("real", form, tuple(terms), 40, UNSURE)
+        forms = [f"{factor} * ({inside})", f"({inside}) * {factor}", f"-({factor} * ({inside}))", f"({inside}) / {factor}"]
+        return Expr("real", self.pick(forms), tuple(terms), 40, UNSURE)
 
     def simple_term(self, variables) -> Expr:
         counted = self.over("bool", variables, None) or self.boolean(0)
@@ -130,7 +170,9 @@ class Assumptions:
     # ------------------------------------------------------------------- objects that are bound
 
     def chosen_by_sums(self, depth: int) -> Expr | None:
-        """A number of an object that is drawn, or best, by aggregations that know it."""
+        """A number of an object that is drawn, or best, by aggregations that know it. Rounding decides."""
+        if self.problem.flavour == "plain":
+            return None
         numbers = [
             (name, f) for name, f in self.visible
             if f.range in ("real", "bool") and len(f.parameters) == 1 and (f.finite or self.flavour.wild)
@@ -159,22 +201,24 @@ class Assumptions:
 
     def aggregated_with(self, variable: str) -> Expr | None:
         """Over one or two objects, of a function of theirs and of this one."""
-        binary = [
+        numbers = [
             (name, f) for name, f in self.visible
             if f.range == "real" and len(f.parameters) in (1, 2) and all(map(self.size, f.parameters))
             and (f.finite or self.flavour.wild)
         ]  # fmt: skip
-        if not binary:
+        if not numbers:
             return None
-        name, fluent = self.rng.choices(binary, [5 if f.role != "non-fluent" and len(f.parameters) == 2 else 1 for _, f in binary])[0]
+        weights = [5 if f.role != "non-fluent" and len(f.parameters) == 2 else 1 for _, f in numbers]
+        name, fluent = self.rng.choices(numbers, weights)[0]
 
         def body():
             inner = [v for v, _ in self.scope[-len(fluent.parameters) :]]
             first = Expr("real", f"{name}({', '.join(inner)})")
-            known = self.over("real", [variable], None, exact=False) or self.over("bool", [variable]) or self.constant("real")
-            function = self.pick(["exp[min[%s, 3.0]]", "tanh[%s]", "sin[%s]", "(cos[%s] + sqrt[2.5])"])
+            known = self.over("real", [variable], None, exact=False) or self.over("bool", [variable])
+            known = known or self.constant("real")
+            function = self.pick(["exp[min[{}, 3.0]]", "tanh[{}]", "sin[{}]", "(cos[{}] + sqrt[2.5])"])
             inside = self.pick(["%s * %s", "%s * %s", "%s + %s", "(if (%s > 0.5) then %s else 1.0)"])
-            return Expr("real", function % inside, (first, known), 12, UNSURE, known.finite)
+            return Expr("real", function.format(inside), (first, known), 12, UNSURE, known.finite)
 
         name_of = self.pick(["sum", "sum", "sum", "max", "avg", "prod"])
         return self.aggregation_over(
@@ -186,13 +230,13 @@ class Assumptions:
     # ----------------------------------------------------- what faults or draws for some objects
 
     def uncertain(self, variables) -> Expr | None:
-        """A bool that has no value for some objects, or is drawn: where it counts who is asked, and when."""
+        """A bool that has no value for some objects, or is drawn."""
         if self.flavour.draws and self.chance(0.5):
             return self.bernoulli(0)
-        divisor = self.over("int", variables) or self.over("bool", variables)
-        if divisor is None:
+        number = self.over("int", variables) or self.over("bool", variables)
+        if number is None:
             return None
-        return Expr("bool", self.pick(["(div[4, %s] >= 2)", "(mod[5, %s] == 1)", "(pow[2, %s] > 3)"]), (divisor,))
+        return Expr("bool", self.pick(["(pow[2, %s] > 3)", "(pow[3, %s] == 1)", "(div[4, %s] >= 2)"]), (number,))
 
     def test_of_nothing(self, depth: int) -> Expr:
         """A quantifier over a type without members, around or inside of one over others."""
@@ -200,5 +244,5 @@ class Assumptions:
         inside = f"({self.pick(['forall', 'exists'])}_{{{self.fresh_variable()} : {empty}}} [%s])"
         if self.chance(0.5):
             return Expr("bool", inside, (self.boolean(depth),))
-        form = f"({self.pick(['forall', 'exists'])}_{{{self.fresh_variable()} : {empty}, {self.fresh_variable()} : {self.any_type().name}}} [%s])"
-        return Expr("bool", form, (self.boolean(depth),))
+        binder = f"{{{self.fresh_variable()} : {empty}, {self.fresh_variable()} : {self.any_type().name}}}"
+        return Expr("bool", f"({self.pick(['forall', 'exists'])}_{binder} [%s])", (self.boolean(depth),))

@@ -221,6 +221,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions):
         self.problem.reward = self.affordable(lambda depth: self.finite_number(depth, rough), 4)
         if self.flavour.draws and self.chance(0.1):
             self.add_to_reward(self.drawn_in_pairs())
+        if self.flavour.finite and self.chance(0.3):
+            self.add_to_reward(self.sum_of_lines())
         if self.chance(0.2 if rough or self.flavour.wild else 0.0):
             self.add_to_reward(self.pick([self.chosen_by_sums, self.sum_of_rounded_terms])(1))
 

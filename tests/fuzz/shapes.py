@@ -1,4 +1,4 @@
-"""What passes look for: counts of neighbours, pieces by intervals, masks, thresholds, clamps, ..."""
+"""What passes look for: counts of neighbours, pieces by intervals, masks, thresholds, ..."""
 
 import math
 
@@ -493,6 +493,25 @@ class Shapes:
         ])  # fmt: skip
         return Expr("real", form, (count, weight), count.magnitude + weight.magnitude + 4, UNSURE)
 
+    def sum_of_lines(self) -> Expr | None:
+        """Over objects, each of which has its own line by a count."""
+        tables = [
+            (name, f) for name, f in self.visible
+            if f.range == "real" and f.role == "non-fluent" and len(f.parameters) == 1 and self.size(f.parameters[0])
+        ]  # fmt: skip
+        if not tables:
+            return None
+        name, fluent = self.pick(tables)
+
+        def body():
+            weight = Expr("real", f"{name}({self.scope[-1][0]})", (), fluent.magnitude, UNSURE)
+            count = self.count(0)
+            return self.line_of_each_object(count, weight) if count is not None else weight
+
+        return self.aggregation_over(
+            [fluent.parameters[0]], body, lambda binder, e, _n: Expr("real", f"(sum_{binder} [%s])", (e,), 30, UNSURE)
+        )
+
     def products_with_constants(self, depth: int) -> Expr | None:
         number = self.number_that_changes(exact=False)
         if number is None:
@@ -575,45 +594,3 @@ class Shapes:
         other = self.pick([self.part_of_constants(1) or self.constant("real"), Expr("real", "exp[0.0]"), Expr("real", "cos[0.0]"), self.constant("real")])
         parts = (draw, other) if self.chance(0.5) else (other, draw)
         return Expr("real", "(%s * %s)", parts, 40, UNSURE, False)
-
-    # --------------------------------------------------------------------------- conditions
-
-    def clamped_by_table(self, fluent: Fluent) -> Expr | None:
-        """As bounds_of_state demands: by the entry of the object itself, or of one that changes."""
-        names = {name for name, f in self.visible if f.parameters or name == "at"}
-        if fluent.name not in ("stock", "cap") or not fluent.parameters or fluent.is_exact() or "COST" not in names:
-            return None
-        own = self.scope[0][0]
-        if fluent.name == "cap":
-            return Expr("real", f"COST({own})", (), 10, UNSURE)
-        value = self.number(1, rough=True)
-        if not value.finite:
-            return None
-        whose = "at" if self.clamp_is_of_at and "at" in names else own
-        form = self.pick(["max[-500.0, min[COST({}), (%s + 0.0)]]", "min[COST({}), max[-500.0, (%s + 0.0)]]"])
-        return Expr("real", form.format(whose), (value,), 10, UNSURE)
-
-    def bounds_of_state(self) -> list[Expr]:
-        """That a clamp keeps, by constants or by what a table or a state chooses."""
-        names = {name for name, f in self.visible if f.parameters or name == "at"}
-        type_name = self.problem.types[0].name
-        if {"stock", "COST"} <= names and self.chance(0.6):
-            limit = "cap" if "cap" in names and self.chance(0.7) else "COST"
-            if "at" in names and self.chance(0.6):
-                return [Expr("bool", f"(stock(at) <= {limit}(at))")]
-            return [Expr("bool", f"(forall_{{?c : {type_name}}} [stock(?c) <= {limit}(?c)])")]
-        numbers = [(name, f) for name, f in self.visible if f.range == "real" and f.role == "state-fluent"]
-        if not numbers:
-            return []
-        name, fluent = self.pick(numbers)
-        limit = self.pick(["500.0", "500.0", "100.0"])
-        body = self.pick([f"%s <= {limit}", f"(%s >= -{limit} ^ %s <= {limit})", f"%s >= -{limit}"])
-        if not fluent.parameters:
-            whole = Expr("real", name)
-            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
-        if self.chance(0.3) and (whole := self.applied(name, fluent, 1)):
-            return [Expr("bool", f"({body})", (whole,) * body.count("%s"))]
-        variables = [(self.fresh_variable(), p) for p in fluent.parameters]
-        binder = "{" + ", ".join(f"{v} : {of}" for v, of in variables) + "}"
-        whole = Expr("real", f"{name}({', '.join(v for v, _ in variables)})")
-        return [Expr("bool", f"(forall_{binder} [{body}])", (whole,) * body.count("%s"))]
