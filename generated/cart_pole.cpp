@@ -183,7 +183,7 @@ struct Simulator {
         next.velocity = state.velocity + 0.02 * scratch.speed_up;
     }
 
-    // Of the step just made.
+    // The reward of the step that was just made.
     template <class L>
     static typename L::Real reward(const State<L>& /*state*/, const Action<L>& /*action*/,
                                    const Scratch<L>& /*scratch*/, const State<L>& next,

@@ -129,7 +129,7 @@ struct Simulator {
             rddl::select(next.position <= -1.2 && scratch.speed < 0.0, 0.0, scratch.speed);
     }
 
-    // Of the step just made.
+    // The reward of the step that was just made.
     template <class L>
     static typename L::Real reward(const State<L>& /*state*/, const Action<L>& action,
                                    const Scratch<L>& /*scratch*/, const State<L>& next,

@@ -7,6 +7,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rddlc::cpp {
 namespace {
@@ -93,6 +94,8 @@ std::string Expressions::type(ir::Scalar scalar) {
 // -------------------------------------------------------------------------- expressions
 
 Spelled Expressions::spell(ir::NodeId id) {
+    if (nodes_left_ == 0) return {"", Level::Primary};
+    --nodes_left_;
     if (const auto named = named_.find(id); named != named_.end()) {
         return {named->second, Level::Primary};
     }
@@ -100,9 +103,26 @@ Spelled Expressions::spell(ir::NodeId id) {
     return match(node.form, [&](const auto& form) { return spell(node, form); });
 }
 
+// Each node takes a character at least.
+std::optional<std::string> Expressions::text_within(ir::NodeId id, std::size_t most) {
+    nodes_left_ = most + 1;
+    std::string whole = text(id);
+    const bool is_whole = std::exchange(nodes_left_, all_nodes) > 0;
+    return is_whole && whole.size() <= most ? std::optional(std::move(whole)) : std::nullopt;
+}
+
 std::string Expressions::result(ir::NodeId id) {
+    return as_result(id, text(id));
+}
+
+std::optional<std::string> Expressions::result_within(ir::NodeId id, std::size_t most) {
+    const std::optional<std::string> whole = text_within(id, most);
+    return whole ? std::optional(as_result(id, *whole)) : std::nullopt;
+}
+
+std::string Expressions::as_result(ir::NodeId id, const std::string& text) {
     const ir::Node& node = unit_.program[id];
-    return is_int_constant(node) ? type(node.type) + "{" + text(id) + "}" : text(id);
+    return is_int_constant(node) ? type(node.type) + "{" + text + "}" : text;
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Constant& constant) {

@@ -6,7 +6,9 @@
 #include "ir/ir.hpp"
 #include "ir/nest.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,6 +52,8 @@ class Expressions {
 
     Spelled spell(ir::NodeId id);
     std::string text(ir::NodeId id) { return spell(id).text; }
+    // Nothing if it has more characters than that: what does not fit is not spelled to its end.
+    std::optional<std::string> text_within(ir::NodeId id, std::size_t most);
     // The alias of a type in the function: Bool, Int or Real.
     std::string type(ir::Scalar scalar);
     // An element to store into: next.x[i][j].
@@ -62,6 +66,7 @@ class Expressions {
     std::string lambda_head(ir::VariableId variable, ir::NodeId body);
     // What a lambda returns: an int constant must not be C++'s int.
     std::string result(ir::NodeId id);
+    std::optional<std::string> result_within(ir::NodeId id, std::size_t most);
     // One call of a draw from listed weights, given their array.
     bool needs_no_check(const ir::Sample& sample) const;
     std::string discrete_call(const ir::Discrete& discrete, const std::string& weights);
@@ -113,6 +118,7 @@ class Expressions {
     Spelled spell(const ir::Node& node, const ir::DiscreteOver& discrete);
     Spelled spell(const ir::Node& node, const ir::Fault& fault);
 
+    std::string as_result(ir::NodeId id, const std::string& text);
     std::string call(const std::string& function, const std::vector<ir::NodeId>& operands,
                      const std::optional<ir::Place>& place = {});
     std::string lambda_call(const ir::Node& node, ir::VariableId variable, ir::NodeId body);
@@ -140,6 +146,8 @@ class Expressions {
     std::map<ir::LocalId, std::string> locals_;
     std::optional<SeveralObjects> several_;
     Uses uses_;
+    static constexpr std::size_t all_nodes = std::numeric_limits<std::size_t>::max();
+    std::size_t nodes_left_ = all_nodes;  // that may be spelled
 };
 
 }  // namespace rddlc::cpp

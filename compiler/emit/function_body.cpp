@@ -18,6 +18,10 @@ constexpr double cost_without_jumps = 128;
 constexpr std::size_t longest_operand = 75;
 // Shorter texts are not worth a name.
 constexpr std::size_t shortest_named = 12;
+// Of parts that are longer, none is the longest.
+constexpr std::size_t longest_compared = 2000;
+// An expression with more calls with lambdas inside is taken to pieces first.
+constexpr std::size_t most_lambda_calls = 64;
 
 bool is_binder(const ir::Node& node) {
     return ir::bound_variable(node).has_value();
@@ -216,7 +220,7 @@ void FunctionBody::prepare(const std::string& lead, ir::NodeId id) {
     if (is_block(id)) return;
     const ir::Node& node = program()[id];
     do {
-        const std::size_t length = expressions_.text(id).size() + 1;
+        const std::size_t length = length_within(id, line_width) + 1;
         const bool fits_behind_break = lead.ends_with("= ") && fits(length, 1);
         if (fits(lead.size() + length) || fits_behind_break || fits_as_chain(lead, id)) return;
         if (is_binder(node)) return;
@@ -227,8 +231,8 @@ void FunctionBody::prepare(const std::string& lead, ir::NodeId id) {
 }
 
 void FunctionBody::prepare_branch(const ir::Select& select) {
-    const bool is_long = expressions_.text(select.condition).size() > longest_condition;
-    if (is_long) name_value(select.condition);
+    const bool is_short = expressions_.text_within(select.condition, longest_condition).has_value();
+    if (!is_short) name_value(select.condition);
 }
 
 void FunctionBody::prepare_discrete(const ir::Discrete& discrete) {
@@ -262,7 +266,7 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     for (const ir::NodeId& part : parts) {
         const bool has_name = expressions_.is_named(part) || is_leaf(expressions_.unit(), part) ||
                               is_index_arithmetic(program(), part);
-        lengths.push_back(has_name ? 0 : expressions_.text(part).size());
+        lengths.push_back(has_name ? 0 : length_within(part, longest_compared));
     }
     const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);
     if (longest < shortest_named) return false;
@@ -341,8 +345,8 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
     const auto before = expressions_.mark();
     expressions_.enter(*ir::bound_variable(node));
     const std::string lambda = expressions_.lambda_head(*ir::bound_variable(node), body);
-    const std::string whole =
-        is_block(body) ? "" : lambda + " { return " + expressions_.result(body) + "; });";
+    const std::optional<std::string> result = short_result(body);
+    const std::string whole = result ? lambda + " { return " + *result + "; });" : "";
     const bool has_whole = !whole.empty() && fits(whole.size(), 1);
     const std::string opening = function + arguments + " " + lambda + " {";
     if (has_whole && fits(function.size() + whole.size())) {
@@ -416,8 +420,8 @@ bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
 
 // Behind what stands in the current line, or in lines of its own.
 void FunctionBody::add_lambda(std::string& current, ir::NodeId body, const std::string& tail) {
-    const std::string whole =
-        is_block(body) ? "" : "[&] { return " + expressions_.result(body) + "; }" + tail;
+    const std::optional<std::string> result = short_result(body);
+    const std::string whole = result ? "[&] { return " + *result + "; }" + tail : "";
     // Of several lambdas, clang-format breaks one that has a braced list inside.
     const bool stays_whole =
         !whole.empty() && whole.find(", {") == std::string::npos && fits(whole.size());
@@ -466,17 +470,28 @@ bool FunctionBody::fits_as_chain(const std::string& lead, ir::NodeId id) {
     const bool assigns = lead.ends_with("= ");
     // Of two operands, clang-format likes to break the second inside.
     if (assigns && parts.size() == 2 &&
-        !fits(lead.size() + std::max(expressions_.text(parts[0]).size() + 2,
-                                     expressions_.text(parts[1]).size() + 1))) {
+        !fits(lead.size() + std::max(length_within(parts[0], line_width) + 2,
+                                     length_within(parts[1], line_width) + 1))) {
         return false;
     }
     const std::size_t column = assigns ? indentation : lead.size();
     const std::string_view operator_and_brackets = "() &&";
     return std::ranges::all_of(parts, [&](ir::NodeId part) {
-        const std::string text = expressions_.text(part);
-        return text.size() <= longest_operand && text.find("[&]") == std::string::npos &&
-               fits(column + text.size() + operator_and_brackets.size());
+        const std::optional<std::string> text = expressions_.text_within(part, longest_operand);
+        return text && text->find("[&]") == std::string::npos &&
+               fits(column + text->size() + operator_and_brackets.size());
     });
+}
+
+// One more than `most` if it is longer.
+std::size_t FunctionBody::length_within(ir::NodeId id, std::size_t most) {
+    const std::optional<std::string> text = expressions_.text_within(id, most);
+    return text ? text->size() : most + 1;
+}
+
+// What a lambda may return on one line.
+std::optional<std::string> FunctionBody::short_result(ir::NodeId body) {
+    return is_block(body) ? std::nullopt : expressions_.result_within(body, line_width);
 }
 
 bool FunctionBody::is_block(ir::NodeId id) const {
@@ -514,18 +529,19 @@ std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
     return ir::operands_of(program()[id]);
 }
 
-// Calls with lambdas inside of it first, since they take many lines; else its operands.
+// Calls with lambdas inside of it first, since they take many lines, unless there are too many;
+// else its operands.
 std::vector<ir::NodeId> FunctionBody::nameable_parts(ir::NodeId id) const {
     std::vector<ir::NodeId> parts;
     for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, parts);
-    if (parts.empty()) parts = chain_parts(id);
+    if (parts.empty() || parts.size() > most_lambda_calls) parts = chain_parts(id);
     const bool is_itself = parts.size() == 1 && parts.front() == id;
     return is_itself ? eager_parts(id) : parts;
 }
 
-// The outermost ones.
+// The outermost ones, and no more than it takes to see that there are too many.
 void FunctionBody::collect_lambda_calls(ir::NodeId id, std::vector<ir::NodeId>& calls) const {
-    if (expressions_.is_named(id)) return;
+    if (expressions_.is_named(id) || calls.size() > most_lambda_calls) return;
     if (is_binder(program()[id])) {
         calls.push_back(id);
         return;

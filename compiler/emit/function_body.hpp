@@ -17,6 +17,8 @@
 #include "emit/expressions.hpp"
 #include "ir/ir.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,6 +69,8 @@ class FunctionBody {
 
     bool fits_as_chain(const std::string& lead, ir::NodeId id);
     bool fits(std::size_t length, int levels_deeper = 0) const;
+    std::size_t length_within(ir::NodeId id, std::size_t most);
+    std::optional<std::string> short_result(ir::NodeId body);
 
     // Must be a statement of its own: it contains a branch that is not named yet.
     bool is_block(ir::NodeId id) const;

@@ -353,11 +353,11 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
            parted.parts;
 }
 
-// Every element of the buffer is drawn when an episode starts.
-bool is_drawn(const ir::Program& program, std::size_t index) {
-    const auto draws = std::ranges::count_if(
-        program.reset, [&](const ir::Definition& d) { return d.target.index == index; });
-    return draws == program.buffers[index].count();
+// By BufferId: how many of its elements are drawn when an episode starts.
+std::vector<std::int64_t> draw_counts(const ir::Program& program) {
+    std::vector<std::int64_t> counts(program.buffers.size(), 0);
+    for (const ir::Definition& definition : program.reset) ++counts[definition.target.index];
+    return counts;
 }
 
 }  // namespace
@@ -365,10 +365,11 @@ bool is_drawn(const ir::Program& program, std::size_t index) {
 std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
                         int levels) {
     std::string text;
+    const std::vector<std::int64_t> draws = draw_counts(unit.program);
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage || buffer.values.empty()) continue;
-        if (is_drawn(unit.program, index)) continue;
+        if (draws[index] == buffer.count()) continue;
         const std::string target = record + "." + unit.names.buffers[index];
         const std::string& table = unit.names.initial[index];
         const std::string value =

@@ -1,7 +1,9 @@
 #include "emit/names.hpp"
 
-#include <algorithm>
+#include <map>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace rddlc::cpp {
 namespace {
@@ -41,25 +43,22 @@ bool is_next(const ir::Buffer& buffer) {
     return buffer.storage == Storage::Next || buffer.storage == Storage::NextMemory;
 }
 
-// A next value is the member of State or Memory that it will become.
-std::size_t current_of(const ir::Program& program, const ir::Buffer& next) {
-    const Storage current = next.storage == Storage::Next ? Storage::State : Storage::Memory;
-    const auto found = std::ranges::find_if(program.buffers, [&](const ir::Buffer& buffer) {
-        return buffer.storage == current && buffer.name == next.name;
-    });
-    return static_cast<std::size_t>(found - program.buffers.begin());
-}
-
 void name_members(const ir::Program& program, const Scope& file, std::vector<std::string>& names) {
     RecordScopes records(file);
+    std::map<std::pair<Storage, std::string_view>, std::size_t> currents;
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
         if (buffer.storage == Storage::Constant || is_next(buffer)) continue;
         names[index] = records.of(buffer.storage).claim(buffer.name);
+        currents.emplace(std::pair(buffer.storage, std::string_view(buffer.name)), index);
     }
+    // A next value is the member of State or Memory that it will become.
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
-        if (is_next(buffer)) names[index] = names[current_of(program, buffer)];
+        if (!is_next(buffer)) continue;
+        const bool is_state = buffer.storage == Storage::Next;
+        const Storage current = is_state ? Storage::State : Storage::Memory;
+        names[index] = names[currents.at({current, buffer.name})];
     }
 }
 

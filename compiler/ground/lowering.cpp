@@ -14,6 +14,8 @@ namespace {
 // In operations (ir::Facts). Passes name what is used several times; this is for nested products,
 // which would grow exponentially until then.
 constexpr double largest_repeated_cost = 200;
+// Selects inside each other that a 'switch' becomes.
+constexpr std::size_t longest_chain = 512;
 
 // What pyRDDLGym evaluates first when it is the right operand of * ^ |.
 bool is_simple(const model::Expr& expr) {
@@ -322,19 +324,33 @@ ir::NodeId Lowering::lower(const model::If& form, const model::Expr&) {
 // A chain of selects, the default (or the last case) at its end.
 ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     const ir::NodeId subject = lower(*form.subject);
-    std::vector<ir::NodeId> tests;  // behind the value that stands at the end
+    std::vector<ir::NodeId> labels;  // behind the value that stands at the end
     std::vector<const model::Expr*> branches;
     if (form.default_case) branches.push_back(&**form.default_case);
     for (std::size_t member = form.cases.size(); member-- > 0;) {
         if (!form.cases[member]) continue;
-        const ir::NodeId label = integer(static_cast<std::int64_t>(member));
-        if (!branches.empty()) tests.push_back(builder_.apply(Operator::Equal, {subject, label}));
+        if (!branches.empty()) labels.push_back(integer(static_cast<std::int64_t>(member)));
         branches.push_back(&**form.cases[member]);
     }
     const std::vector<ir::NodeId> values = lower_branches(branches);
-    ir::NodeId rest = values.front();
-    for (std::size_t k = 0; k < tests.size(); ++k)
-        rest = builder_.select(tests[k], values[k + 1], rest);
+    return choice(subject, labels, std::span(values).subspan(1), values.front());
+}
+
+// Labels fall. Of more than a chain should have, each half is a choice for itself: what follows
+// recurses on expressions.
+ir::NodeId Lowering::choice(ir::NodeId subject, std::span<const ir::NodeId> labels,
+                            std::span<const ir::NodeId> values, ir::NodeId rest) {
+    if (labels.size() > longest_chain) {
+        const std::size_t half = labels.size() / 2;
+        const ir::NodeId is_high =
+            builder_.apply(Operator::GreaterEqual, {subject, labels[half - 1]});
+        const ir::NodeId high = choice(subject, labels.first(half), values.first(half), rest);
+        const ir::NodeId low = choice(subject, labels.subspan(half), values.subspan(half), rest);
+        return builder_.select(is_high, high, low);
+    }
+    for (std::size_t k = 0; k < labels.size(); ++k)
+        rest =
+            builder_.select(builder_.apply(Operator::Equal, {subject, labels[k]}), values[k], rest);
     return rest;
 }
 

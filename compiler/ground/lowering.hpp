@@ -65,6 +65,8 @@ class Lowering {
     bool may_be_named(ir::NodeId value) const;
     bool is_fixed_in_scope(ir::NodeId value) const;
     ir::NodeId named(ir::NodeId value);
+    ir::NodeId choice(ir::NodeId subject, std::span<const ir::NodeId> labels,
+                      std::span<const ir::NodeId> values, ir::NodeId rest);
     ir::NodeId loops_over(const model::Aggregate& form, Reduction op, ir::NodeId body);
     ir::NodeId row_major_index(std::span<const ir::VariableId> variables);
     ir::Place new_place(const model::Expr& expr, std::string what);
@@ -88,7 +90,6 @@ class Lowering {
                            std::span<const ir::VariableId> dimensions, const model::Expr& expr);
     ir::BufferId filled_table(std::string_view name, ir::NodeId value,
                               std::span<const ir::VariableId> variables, const model::Expr& expr);
-    std::string unused_name(std::string_view wish) const;
     std::vector<ir::NodeId> indices_of(std::span<const ir::VariableId> variables);
     std::vector<ir::VariableId> variables_in(const std::vector<ir::NodeId>& nodes,
                                              const std::vector<ir::VariableId>& candidates) const;

@@ -64,7 +64,7 @@ void Lowering::run_before(ir::Statement statement, std::span<const ir::VariableI
 ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
                                  std::span<const ir::VariableId> dimensions,
                                  const model::Expr& expr) {
-    ir::Buffer buffer{.name = unused_name(name),
+    ir::Buffer buffer{.name = builder_.tables().unused_name(std::string(name), "_"),
                       .storage = ir::Storage::Scratch,
                       .scalar = scalar,
                       .span = expr.span,
@@ -80,18 +80,7 @@ ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
                              fmt::format("this needs a table of {:.0f} numbers, more than {:.0f}",
                                          count, most_elements)});
     }
-    program_.buffers.push_back(std::move(buffer));
-    return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
-}
-
-std::string Lowering::unused_name(std::string_view wish) const {
-    const auto is_used = [&](const std::string& name) {
-        return std::ranges::find(program_.buffers, name, &ir::Buffer::name) !=
-               program_.buffers.end();
-    };
-    std::string name(wish);
-    for (int number = 2; is_used(name); ++number) name = fmt::format("{}_{}", wish, number);
-    return name;
+    return builder_.tables().add(std::move(buffer));
 }
 
 std::vector<ir::NodeId> Lowering::indices_of(std::span<const ir::VariableId> variables) {

@@ -140,7 +140,18 @@ bool contains(const std::vector<VariableId>& sorted, VariableId variable) {
 
 }  // namespace
 
-Builder::Builder(Program& program) : program_(program), facts_(all_facts(program)) {
+std::size_t Builder::HashOfWords::operator()(const std::vector<std::uint64_t>& words) const {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : words) {
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15;  // of Fibonacci hashing
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+Builder::Builder(Program& program)
+    : program_(program), facts_(all_facts(program)), new_tables_(program) {
+    known_.reserve(program.nodes.size());
     for (std::uint32_t index = 0; index < program.nodes.size(); ++index) {
         known_.emplace(Key(program.nodes[index]).words(), NodeId{index});
     }
@@ -150,7 +161,7 @@ NodeId Builder::intern(Node node) {
     const NodeId next{static_cast<std::uint32_t>(program_.nodes.size())};
     const auto [entry, is_new] = known_.emplace(Key(node).words(), next);
     if (is_new) {
-        facts_.push_back(facts_of(program_, node, facts_, tables_));
+        facts_.push_back(facts_of(program_, node, facts_, table_facts_));
         program_.nodes.push_back(std::move(node));
     }
     return entry->second;

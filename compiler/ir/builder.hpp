@@ -8,21 +8,23 @@
 
 #include "ir/analysis.hpp"
 #include "ir/ir.hpp"
+#include "ir/new_tables.hpp"
 
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace rddlc::ir {
 
 class Builder {
   public:
-    // Adds to the program's pool. While a builder lives, nobody else may.
+    // Adds to the program's pool and tables. While a builder lives, nobody else may add nodes.
     explicit Builder(Program& program);
 
     const Program& program() const { return program_; }
     const Facts& facts(NodeId id) const { return facts_[id.index]; }
+    NewTables& tables() { return new_tables_; }
 
     // All nans are one.
     NodeId constant(Value value);
@@ -54,8 +56,12 @@ class Builder {
 
     Program& program_;
     std::vector<Facts> facts_;  // by NodeId::index
-    TableFacts tables_;
-    std::map<std::vector<std::uint64_t>, NodeId> known_;
+    TableFacts table_facts_;
+    NewTables new_tables_;
+    struct HashOfWords {
+        std::size_t operator()(const std::vector<std::uint64_t>& words) const;
+    };
+    std::unordered_map<std::vector<std::uint64_t>, NodeId, HashOfWords> known_;
 };
 
 }  // namespace rddlc::ir

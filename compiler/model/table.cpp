@@ -1,5 +1,7 @@
 #include "model/table.hpp"
 
+#include "support/match.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -15,6 +17,25 @@ Value majority_of(const std::vector<Value>& values) {
         identical(value, candidate) ? ++votes : --votes;
     }
     return candidate;
+}
+
+std::uint64_t hash_of(const Value& value) {
+    const std::uint64_t bits = match(
+        value, [](double v) { return std::bit_cast<std::uint64_t>(v); },
+        [](auto v) { return static_cast<std::uint64_t>(v); });
+    std::uint64_t hash = (bits + value.index()) * 0x9e3779b97f4a7c15;  // of Fibonacci hashing
+    hash ^= hash >> 32;
+    return hash * 0x9e3779b97f4a7c15;
+}
+
+std::uint64_t cube(std::uint64_t n) {
+    return n * n * n;
+}
+
+// Of the first n numbers, from 1 on.
+std::uint64_t sum_of_cubes(std::uint64_t n) {
+    const std::uint64_t sum = n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n;
+    return sum * sum;
 }
 
 }  // namespace
@@ -74,6 +95,16 @@ bool identical(const Table& a, const Table& b) {
     return std::ranges::equal(a.exceptions(), b.exceptions(), [](const auto& x, const auto& y) {
         return x.first == y.first && identical(x.second, y.second);
     });
+}
+
+// The sum of the elements' hashes, each times the cube of its place: so it does not matter which
+// value is the common one.
+std::uint64_t hash_of(const Table& table) {
+    const std::uint64_t common = hash_of(table.common());
+    std::uint64_t hash = common * sum_of_cubes(static_cast<std::uint64_t>(table.size()));
+    for (const auto& [index, value] : table.exceptions())
+        hash += (hash_of(value) - common) * cube(static_cast<std::uint64_t>(index) + 1);
+    return hash;
 }
 
 }  // namespace rddlc

@@ -2,7 +2,6 @@
 
 #include "ir/evaluator.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/new_tables.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -383,8 +382,8 @@ class Counting {
         std::vector<ir::NodeId> indices;
         for (const ir::VariableId variable : variables_)
             indices.push_back(builder_.index(variable));
-        set_dimensions(program_, table, variables_);
-        return builder_.load(constant_table(program_, std::move(table)), std::move(indices));
+        ir::set_dimensions(program_, table, variables_);
+        return builder_.load(builder_.tables().constant(std::move(table)), std::move(indices));
     }
 
     // The sparse table whose rows these are, or else the first one that is read.

@@ -1,7 +1,5 @@
 #include "passes/entry_tables.hpp"
 
-#include "passes/new_tables.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,13 +15,13 @@ bool is_finite(const ir::Value& value) {
 
 ir::BufferId EntryTables::table(const std::string& name, ir::Scalar scalar,
                                 const std::vector<ir::Value>& values, Span span) {
-    return constant_table(program_, {.name = name,
-                                     .storage = ir::Storage::Constant,
-                                     .scalar = scalar,
-                                     .shape = {std::ssize(values)},
-                                     .values = values,
-                                     .span = span,
-                                     .finite = std::ranges::all_of(values, is_finite)});
+    return tables_.constant({.name = name,
+                             .storage = ir::Storage::Constant,
+                             .scalar = scalar,
+                             .shape = {std::ssize(values)},
+                             .values = values,
+                             .span = span,
+                             .finite = std::ranges::all_of(values, is_finite)});
 }
 
 ir::VariableId EntryTables::variable(std::int64_t count, std::size_t depth) {

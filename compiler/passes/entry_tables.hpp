@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ir/ir.hpp"
+#include "ir/new_tables.hpp"
 
 #include <cstdint>
 #include <string>
@@ -12,7 +13,7 @@ namespace rddlc::passes {
 class EntryTables {
   public:
     // Adds to the program's buffers and variables.
-    explicit EntryTables(ir::Program& program) : program_(program) {}
+    explicit EntryTables(ir::Program& program) : program_(program), tables_(program) {}
 
     // A constant table of one dimension: one that is there already, if it has the same values.
     ir::BufferId table(const std::string& name, ir::Scalar scalar,
@@ -23,6 +24,7 @@ class EntryTables {
 
   private:
     ir::Program& program_;
+    ir::NewTables tables_;
     std::vector<ir::VariableId> variables_;
 };
 

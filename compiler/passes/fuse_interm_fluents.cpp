@@ -5,6 +5,7 @@
 #include "passes/readers.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -88,12 +89,12 @@ class Fusion {
 
     // There, share_subexpressions could give it no name.
     bool repeats_something(ir::NodeId value) const {
-        std::vector<int> uses(value.index + 1);
-        uses[value.index] = 1;
-        for (std::uint32_t index = value.index + 1; index-- > 0;) {
-            if (uses[index] == 0) continue;
-            if (uses[index] > 1 && builder_.facts({index}).cost >= worth_a_name) return true;
-            for (ir::NodeId operand : ir::operands_of(program_.nodes[index])) ++uses[operand.index];
+        // Users come before what they use.
+        std::map<ir::NodeId, int, std::greater<>> uses = {{value, 1}};
+        for (; !uses.empty(); uses.erase(uses.begin())) {
+            const auto [id, count] = *uses.begin();
+            if (count > 1 && builder_.facts(id).cost >= worth_a_name) return true;
+            for (ir::NodeId operand : ir::operands_of(program_[id])) ++uses[operand];
         }
         return false;
     }

@@ -3,7 +3,6 @@
 #include "ir/call.hpp"
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/new_tables.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -182,8 +181,8 @@ class Hoisting {
             const ir::Variable& dimension = program_[variable];
             name += "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
-        return scratch_table(program_, name, program_[id].type, builder_.facts(id).finite,
-                             dimensions, span_);
+        return builder_.tables().scratch(name, program_[id].type, builder_.facts(id).finite,
+                                         dimensions, span_);
     }
 
     // The node with elements of tables in it.

@@ -1,7 +1,5 @@
 #include "passes/only_object.hpp"
 
-#include "passes/new_tables.hpp"
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -137,10 +135,10 @@ std::optional<OnlyObject> OnlyObjects::with_value(const Column& column, ir::Node
 // By tables of the other axes.
 std::optional<OnlyObject> OnlyObjects::with_entry(const Column& column, bool entry) {
     const ir::Buffer& table = program_[column.table];
-    const auto places = only_places(table.values, Lines(table, column.axis), entry);
+    const Lines lines(table, column.axis);
+    const auto places = only_places(table.values, lines, entry);
     if (!places) return std::nullopt;
-    const std::int64_t count = Lines(table, column.axis).count;
-    Table objects(count, std::int64_t{0}), exists(count, false);
+    Table objects(lines.count, std::int64_t{0}), exists(lines.count, false);
     for (const auto& [line, place] : *places) {
         objects.set(line, place);
         exists.set(line, true);
@@ -168,7 +166,7 @@ ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, 
     std::vector<ir::NodeId> indices = column.indices;
     if (column.axis < indices.size())
         indices.erase(indices.begin() + static_cast<std::ptrdiff_t>(column.axis));
-    return builder_.load(constant_table(program_, std::move(table)), std::move(indices));
+    return builder_.load(builder_.tables().constant(std::move(table)), std::move(indices));
 }
 
 // ---------------------------------------------------------------------------------- ranges

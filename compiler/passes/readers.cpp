@@ -5,6 +5,8 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 namespace rddlc::passes {
 namespace {
@@ -31,6 +33,11 @@ class Counting {
     std::vector<Readers> result() && { return std::move(readers_); }
 
   private:
+    struct Need {
+        double times = 0, places = 0;
+        bool lazy = false;
+    };
+
     void visit(const ir::Block& block, double times, std::set<ir::BufferId>& read) {
         for (const ir::Statement& statement : block) {
             match(
@@ -55,20 +62,19 @@ class Counting {
 
     // A node that is used several times is evaluated once where it is needed most often.
     void visit(ir::NodeId root, double times, std::set<ir::BufferId>& read) {
-        std::vector<double> needed(root.index + 1), places(root.index + 1);
-        needed[root.index] = times;
-        places[root.index] = 1;
-        std::vector<bool> lazy(root.index + 1);
-        for (std::uint32_t index = root.index + 1; index-- > 0;) {
-            if (needed[index] == 0) continue;
-            const ir::Node& node = program_.nodes[index];
+        // Users come before what they use.
+        std::map<ir::NodeId, Need, std::greater<>> needs = {{root, {times, 1, false}}};
+        for (; !needs.empty(); needs.erase(needs.begin())) {
+            const auto& [id, need] = *needs.begin();
+            if (need.times == 0) continue;
+            const ir::Node& node = program_[id];
             if (const auto* load = std::get_if<ir::Load>(&node.form)) {
                 Readers& readers = readers_[load->buffer.index];
-                readers.reads += needed[index];
-                readers.places += places[index];
-                readers.lazy |= lazy[index];
-                if (!listed_[index]) readers.loads.push_back({index});
-                listed_[index] = true;
+                readers.reads += need.times;
+                readers.places += need.places;
+                readers.lazy |= need.lazy;
+                if (!listed_[id.index]) readers.loads.push_back(id);
+                listed_[id.index] = true;
                 read.insert(load->buffer);
             }
             const auto bound = ir::bound_variable(node);
@@ -77,10 +83,11 @@ class Counting {
             for (std::size_t k = 0; k < operands.size(); ++k) {
                 const bool is_body = bound && k == 0;
                 const bool is_branch = std::holds_alternative<ir::Select>(node.form) && k > 0;
-                if (lazy[index] || is_body || is_branch) lazy[operands[k].index] = true;
-                places[operands[k].index] += places[index];
-                double& of_operand = needed[operands[k].index];
-                of_operand = std::max(of_operand, needed[index] * (is_body ? size(*bound) : 1));
+                Need& of_operand = needs[operands[k]];
+                of_operand.lazy |= need.lazy || is_body || is_branch;
+                of_operand.places += need.places;
+                of_operand.times =
+                    std::max(of_operand.times, need.times * (is_body ? size(*bound) : 1));
             }
         }
     }

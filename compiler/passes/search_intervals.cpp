@@ -2,7 +2,6 @@
 
 #include "ir/rewrite.hpp"
 #include "passes/constant_values.hpp"
-#include "passes/new_tables.hpp"
 #include "passes/pieces.hpp"
 #include "passes/take_only_objects.hpp"
 
@@ -73,12 +72,13 @@ std::string name_of_number(const ir::Program& program, ir::NodeId number) {
 }
 
 // A table over the pieces or their breaks.
-ir::BufferId new_table(ir::Program& program, const Pieces& pieces, const std::string& suffix,
+ir::BufferId new_table(ir::Builder& builder, const Pieces& pieces, const std::string& suffix,
                        std::vector<ir::Value> values) {
     const auto is_finite = [](const ir::Value& value) {
         const auto* real = std::get_if<double>(&value);
         return !real || std::isfinite(*real);
     };
+    const ir::Program& program = builder.program();
     ir::Buffer table{.name = name_of_number(program, pieces.number) + suffix,
                      .storage = ir::Storage::Constant,
                      .scalar = static_cast<ir::Scalar>(values.front().index()),
@@ -86,7 +86,7 @@ ir::BufferId new_table(ir::Program& program, const Pieces& pieces, const std::st
                      .values = std::move(values),
                      .span = program.reward.span};
     table.finite = table.values.all_of(is_finite);
-    return constant_table(program, std::move(table));
+    return builder.tables().constant(std::move(table));
 }
 
 // Joins neighbours of equal values. The values are those of the pieces that are left.
@@ -103,8 +103,8 @@ std::vector<ir::Value> joined(Pieces& pieces, const std::vector<ir::Value>& valu
     return left;
 }
 
-ir::NodeId search(ir::Program& program, ir::Builder& builder, const Pieces& pieces) {
-    return builder.search(new_table(program, pieces, "-breaks", pieces.entries), pieces.number);
+ir::NodeId search(ir::Builder& builder, const Pieces& pieces) {
+    return builder.search(new_table(builder, pieces, "-breaks", pieces.entries), pieces.number);
 }
 
 // ------------------------------------------------------------------------- constant pieces
@@ -148,8 +148,8 @@ class Tabulation {
         if (facts.cost - builder_.facts(pieces->number).cost < worth_a_search * (2 * steps + 1))
             return std::nullopt;
         ++report_["aggregations made a search"];
-        const ir::NodeId place = search(program_, builder_, *pieces);
-        return builder_.load(new_table(program_, *pieces, "-values", std::move(values)), {place});
+        const ir::NodeId place = search(builder_, *pieces);
+        return builder_.load(new_table(builder_, *pieces, "-values", std::move(values)), {place});
     }
 
     ir::Program program_;
@@ -187,10 +187,10 @@ std::optional<OnlyObject> only_object(ir::Program& program, ir::Builder& builder
         objects.emplace_back(count == 0 ? std::int64_t{0} : object - values.begin());
         exists.emplace_back(count == 1);
     }
-    const ir::NodeId place = search(program, builder, *pieces);
+    const ir::NodeId place = search(builder, *pieces);
     return OnlyObject{
-        builder.load(new_table(program, *pieces, "-object", std::move(objects)), {place}),
-        builder.load(new_table(program, *pieces, "-is-there", std::move(exists)), {place})};
+        builder.load(new_table(builder, *pieces, "-object", std::move(objects)), {place}),
+        builder.load(new_table(builder, *pieces, "-is-there", std::move(exists)), {place})};
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/new_tables.hpp"
 #include "passes/several_objects.hpp"
 
 #include <algorithm>
@@ -162,8 +161,8 @@ class Separation {
     // An element of a new table with the values of a node, which `before` fills.
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
-        const ir::BufferId table = scratch_table(program_, name_ + "-" + what, program_[id].type,
-                                                 builder_.facts(id).finite, variables, span_);
+        const ir::BufferId table = builder_.tables().scratch(
+            name_ + "-" + what, program_[id].type, builder_.facts(id).finite, variables, span_);
         std::vector<ir::NodeId> indices;
         for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
         ir::Block fill;

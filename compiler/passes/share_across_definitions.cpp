@@ -3,7 +3,6 @@
 #include "ir/call.hpp"
 #include "ir/nest.hpp"
 #include "ir/rewrite.hpp"
-#include "passes/new_tables.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -203,8 +202,8 @@ class Sharing {
 
     ir::BufferId new_table(ir::NodeId id, Span span) {
         const ir::Facts facts = builder_.facts(id);
-        return scratch_table(program_, name_for(id), program_[id].type, facts.finite,
-                             facts.free_variables, span);
+        return builder_.tables().scratch(name_for(id), program_[id].type, facts.finite,
+                                         facts.free_variables, span);
     }
 
     // cos(state.angle): "cos-angle".

@@ -1,8 +1,8 @@
 #include "passes/tabulate_constants.hpp"
 
+#include "ir/new_tables.hpp"
 #include "ir/rewrite.hpp"
 #include "passes/constant_values.hpp"
-#include "passes/new_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -141,8 +141,9 @@ class Tabulation {
 ir::Program tabulate_constants(ir::Program program, Report& report) {
     const std::map<ir::NodeId, Tabulation::Table> tables = Tabulation(program).run();
     std::map<ir::NodeId, ir::BufferId> buffers;
+    ir::NewTables new_tables(program);
     for (const auto& [id, table] : tables) {
-        buffers[id] = constant_table(program, table.buffer);
+        buffers[id] = new_tables.constant(table.buffer);
         ++report["tables computed"];
     }
     return ir::rewrite(

@@ -2,7 +2,6 @@
 
 #include "ir/rewrite.hpp"
 #include "passes/constant_values.hpp"
-#include "passes/new_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -262,8 +261,8 @@ class Tabulation {
                               .scalar = ir::Scalar::Int,
                               .values = kinds.of_objects,
                               .span = span_};
-        set_dimensions(program_, of_objects, variables);
-        const ir::BufferId kind = constant_table(program_, std::move(of_objects));
+        ir::set_dimensions(program_, of_objects, variables);
+        const ir::BufferId kind = builder_.tables().constant(std::move(of_objects));
         const auto count = static_cast<std::int64_t>(kinds.examples.size());
         return {new_table(name, rows, kinds.examples, {count}),
                 {builder_.load(kind, indices_of(variables))}};
@@ -297,7 +296,7 @@ class Tabulation {
         table.finite = std::ranges::all_of(
             values, [](const ir::Value& value) { return std::isfinite(std::get<double>(value)); });
         table.values = std::move(values);
-        return constant_table(program_, std::move(table));
+        return builder_.tables().constant(std::move(table));
     }
 
     std::vector<ir::NodeId> indices_of(const std::vector<ir::VariableId>& variables) {

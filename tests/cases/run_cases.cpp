@@ -188,7 +188,7 @@ TEST_P(Cases, AreAsExpected) {
                 "template <class L>\nstruct State");
     expect_part(expected, "reset.exp", compilation.text, "    // The initial state",
                 "    // All CPFs");
-    expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // Of the step");
+    expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // The reward of");
     expect_part(expected, "policy.exp", compilation.text, "// The policy block", "static_assert");
     const bool runs = std::ranges::any_of(
         std::array{"sim.cpp.exp", "tables.exp", "reset.exp", "step.exp", "policy.exp", "trace.exp"},

@@ -1,0 +1,53 @@
+// Tables that passes add to a program.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace rddlc::ir {
+
+// Gives a table a dimension for each of these loop indices, in this order.
+void set_dimensions(const Program& program, Buffer& table,
+                    const std::vector<VariableId>& variables);
+
+// Knows which names are taken and which constant tables there are, so that a table more takes no
+// look at all others. Others may append to the program's buffers as well.
+class NewTables {
+  public:
+    // The program must outlive this.
+    explicit NewTables(Program& program) : program_(program) {}
+
+    // The name, or the name with the first number that no buffer has: "x-2", "x-3", ...
+    std::string unused_name(const std::string& wish, std::string_view separator = "-");
+
+    BufferId add(Buffer table);
+
+    // A table that the step fills with the values of an expression, with a dimension for each of
+    // these loop indices, named as it wishes if nobody else is.
+    BufferId scratch(const std::string& wish, Scalar scalar, bool finite,
+                     const std::vector<VariableId>& variables, Span span);
+
+    // A constant table like this one, if there is one already; else a new one, named as it wishes
+    // if nobody else is.
+    BufferId constant(Buffer table);
+
+  private:
+    void know_names();
+    void know_constants();
+
+    Program& program_;
+    std::size_t known_names_ = 0;  // of so many buffers
+    std::unordered_set<std::string> names_;
+    std::unordered_map<std::string, int> next_number_;            // by wish; lower ones are taken
+    std::size_t known_constants_ = 0;                             // among so many buffers
+    std::unordered_multimap<std::uint64_t, BufferId> constants_;  // by the hash of their values
+};
+
+}  // namespace rddlc::ir
