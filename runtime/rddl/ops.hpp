@@ -207,7 +207,10 @@ inline double ceil_as_real(double a) {
 
 inline double ln_absolute_gamma(double a) {
     int sign_of_gamma;
-    return ::lgamma_r(a, &sign_of_gamma);  // std::lgamma writes a global variable
+    return ::lgamma_r(unknown(a), &sign_of_gamma);  // std::lgamma writes a global variable
+}
+inline double gamma_of(double a) {
+    return std::tgamma(unknown(a));
 }
 // Both fault unless a > 0.
 template <class R>
@@ -218,7 +221,7 @@ R ln_gamma(Context<ScalarOf<R>>& context, Place place, std::type_identity_t<R> a
 template <class R>
 R gamma(Context<ScalarOf<R>>& context, Place place, std::type_identity_t<R> a) {
     const bool valid = context.require(a > 0, FaultKind::GammaArgument, place, a);
-    return valid ? static_cast<R>(std::tgamma(double{a})) : R{0};
+    return valid ? static_cast<R>(gamma_of(a)) : R{0};
 }
 
 // -------------------------------------------------------------------------------- indexing

@@ -461,8 +461,7 @@ template <int n, class R>
 Lanes<R, n> gamma(Context<Pack<n, R>>& context, Place place,
                   std::type_identity_t<const Lanes<R, n>&> a) {
     const Mask<n> valid = context.require(a > R{0}, FaultKind::GammaArgument, place, a);
-    return select(valid, map_lanes(a, [](R x) { return static_cast<R>(std::tgamma(double{x})); }),
-                  R{0});
+    return select(valid, map_lanes(a, [](R x) { return static_cast<R>(gamma_of(x)); }), R{0});
 }
 
 // --------------------------------------------------------------------------------- indexing

@@ -52,6 +52,13 @@ constexpr float to_float(double a) {
     return static_cast<float>(a);
 }
 
+// The same number, which the C++ compiler does not know: functions of numbers that it knows are
+// computed by it, exactly, and not as the mathematical library does.
+inline double unknown(double a) {
+    asm("" : "+m"(a));
+    return a;
+}
+
 // double or a pack of doubles, but no integer that would become one; the same with float.
 template <class R>
 concept RealLanes = std::same_as<R, double> || std::same_as<typename R::Element, double>;

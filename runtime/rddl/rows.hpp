@@ -26,6 +26,7 @@ namespace detail {
 // Bit for bit.
 template <class R, std::size_t cases>
 constexpr bool is_line(const std::array<R, cases>& row) {
+    if (!are_moderate(row)) return false;
     for (std::size_t count = 0; count < cases; ++count)
         if (rddl::bits_of(line_of(row).at(count)) != rddl::bits_of(row[count])) return false;
     return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <rddl/lane.hpp>
+#include <rddl/line.hpp>
 #include <rddl/ops.hpp>
 
 #include <array>
@@ -34,10 +35,14 @@ struct EvenEntries {
     using Table = std::remove_cvref_t<decltype(table)>;
     using Entry = typename Table::value_type;
     static constexpr std::size_t size = std::tuple_size_v<Table>;
-    static constexpr Entry per_unit =
-        size < 2 ? Entry{0} : static_cast<Entry>(size - 1) / (table[size - 1] - table[0]);
+    // 0 if there is no such line.
+    static constexpr Entry per_unit = [] {
+        if (size < 2 || !are_moderate(table)) return Entry{0};
+        const Entry length = table[size - 1] - table[0];
+        return length < 1 / most_in_lines<Entry> ? Entry{0} : static_cast<Entry>(size - 1) / length;
+    }();
 
-    static constexpr Entry place_of_zero = Entry{1} - table[0] * per_unit;
+    static constexpr Entry place_of_zero = per_unit > 0 ? Entry{1} - table[0] * per_unit : Entry{1};
 
     // Of the value on that line. nan becomes 0.
     template <class Value>
@@ -50,7 +55,7 @@ struct EvenEntries {
 
     // Between two entries the guess lies between those for the entries, since it never decreases.
     static constexpr bool are_even = [] {
-        if (!(per_unit > 0) || !(per_unit < std::numeric_limits<Entry>::infinity())) return false;
+        if (!(per_unit > 0)) return false;
         for (std::size_t i = 0; i < size; ++i) {
             const auto guess = static_cast<std::size_t>(clamped_place<Entry>(table[i]));
             if (guess < i || guess > i + 1) return false;

@@ -224,6 +224,19 @@ TEST(GammaFunction, FaultsUnlessItsArgumentIsPositive) {
     EXPECT_FALSE(context.fault);
 }
 
+// g++ would compute those of constants exactly, which the mathematical library does not.
+TEST(GammaFunction, OfAConstantIsThatOfAVariable) {
+    Context<Scalar> context;
+    const auto at_run_time = [&](double a) {
+        const volatile double argument = a;
+        return gamma(context, {}, argument);
+    };
+    EXPECT_EQ(gamma(context, {}, 9.5), at_run_time(9.5));
+    EXPECT_EQ(gamma(context, {}, 20.25), at_run_time(20.25));
+    EXPECT_EQ(gamma(context, {}, 99.5), at_run_time(99.5));
+    EXPECT_EQ(gamma(context, {}, 150.3), at_run_time(150.3));
+}
+
 TEST(Faults, KeepTheFirst) {
     Context<Scalar> context;
     EXPECT_EQ(fault<Int>(context, {1, 1}), 0);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace rddl {
 namespace {
@@ -21,9 +22,16 @@ using Rows = std::array<std::array<R, cases>, 3>;
 constexpr Rows<double> lines = {{{0.25, 0.5, 0.75, 1}, {0.1, 0.4, 0.4, 0.4}, {-2, -2, -2, -2}}};
 constexpr Rows<double> curves = {{{0, 1, 4, 9}, {1, 0.5, 0.25, 0.125}, {-2, -2, -2, -2}}};
 constexpr Rows<double> nearly_lines = {{{0.1, 0.2, 0.3, 0.4}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+// Differences of these overflow, or are nan.
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Rows<double> extreme = {{{-greatest, greatest, greatest, greatest},
+                                   {infinite, infinite, infinite, infinite},
+                                   {1, greatest, infinite, infinite}}};
 constexpr Rows<float> float_lines = {{{0.25, 0.5, 0.75, 1}, {0.5, 2, 2, 2}, {0, 0, 0, 0}}};
 static_assert(detail::are_lines<lines> && detail::are_lines<float_lines>);
-static_assert(!detail::are_lines<curves> && !detail::are_lines<nearly_lines>);
+static_assert(!detail::are_lines<curves> && !detail::are_lines<nearly_lines> &&
+              !detail::are_lines<extreme>);
 
 constexpr auto kinds = [] {
     std::array<std::array<std::int64_t, width>, height> table{};
@@ -75,6 +83,7 @@ TEST(Rows, AreThoseOfKinds) {
     expect_rows_of_kinds<lines, double>();
     expect_rows_of_kinds<curves, double>();
     expect_rows_of_kinds<nearly_lines, double>();
+    expect_rows_of_kinds<extreme, double>();
     expect_rows_of_kinds<float_lines, float>();
 }
 

@@ -30,6 +30,21 @@ constexpr std::array<Real, 7> nearly_even = {Real(0.1), Real(0.9), Real(2.1), Re
                                              Real(4.1), Real(4.9), Real(6.0)};
 // As doubles become that are nearer to each other than floats.
 constexpr std::array<float, 5> repeated = {0.1f, 0.1f, 0.3f, 0.5f, 0.5f};
+// No line goes through these without overflow, or a nan; nor could a constant expression have one.
+template <class Real>
+constexpr Real tiniest = std::numeric_limits<Real>::denorm_min();
+template <class Real>
+constexpr Real greatest = std::numeric_limits<Real>::max();
+template <class Real>
+constexpr Real infinite = std::numeric_limits<Real>::infinity();
+template <class Real>
+constexpr std::array<Real, 2> near = {Real(0), tiniest<Real>};
+template <class Real>
+constexpr std::array<Real, 3> far = {-greatest<Real>, Real(0), greatest<Real>};
+template <class Real>
+constexpr std::array<Real, 3> endless = {-infinite<Real>, Real(0), infinite<Real>};
+template <class Real>
+constexpr std::array<Real, 2> both_infinite = {infinite<Real>, infinite<Real>};
 
 std::int64_t counted(const auto& table, auto value) {
     return std::ranges::count_if(table, [&](auto entry) { return entry <= value; });
@@ -89,6 +104,19 @@ TEST(Search, CountsEntriesThatAreAtMostTheValue) {
     expect_counts_of_reals<nearly_even<double>>();
     expect_counts_of_reals<nearly_even<float>>();
     expect_counts_of_reals<repeated>();
+}
+
+template <class Real>
+void expect_counts_at_the_ends_of() {
+    expect_counts_of_reals<near<Real>>();
+    expect_counts_of_reals<far<Real>>();
+    expect_counts_of_reals<endless<Real>>();
+    expect_counts_of_reals<both_infinite<Real>>();
+}
+
+TEST(Search, CountsEntriesAtTheEndsOfReals) {
+    expect_counts_at_the_ends_of<double>();
+    expect_counts_at_the_ends_of<float>();
 }
 
 TEST(Search, GuessesAmongEvenEntriesOnly) {

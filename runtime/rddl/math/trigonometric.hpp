@@ -82,7 +82,8 @@ RDDL_ALWAYS_INLINE R negated_by_bit(Bits bits, int place, R a) {
 template <class R, class Function>
 RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
     const auto great = absolute(a) > greatest_angle;
-    if (!any(great)) [[likely]] return result;
+    if (!any(great)) [[likely]]
+        return result;
     return select(great, map_lanes(a, function), result);
 }
 
@@ -98,7 +99,7 @@ RDDL_ALWAYS_INLINE R sin(R a) {
     const R magnitude = detail::first_if_even(quadrants, s.high + s.low, c.high + c.low);
     const R result = detail::negated_by_bit(quadrants, 1, magnitude);
     return detail::with_great_angles(a, select(absolute(a) < 0x1p-27, a, result),
-                                     [](double x) { return std::sin(x); });
+                                     [](double x) { return std::sin(unknown(x)); });
 }
 
 template <RealLanes R>
@@ -108,7 +109,7 @@ RDDL_ALWAYS_INLINE R cos(R a) {
     const auto c = detail::cosine(rest);
     const R magnitude = detail::first_if_even(quadrants, c.high + c.low, s.high + s.low);
     const R result = detail::negated_by_bit(quadrants + std::uint64_t{1}, 1, magnitude);
-    return detail::with_great_angles(a, result, [](double x) { return std::cos(x); });
+    return detail::with_great_angles(a, result, [](double x) { return std::cos(unknown(x)); });
 }
 
 template <RealLanes R>
@@ -122,7 +123,7 @@ R tan(R a) {
                                   detail::first_if_even(quadrants, c.low, s.low)};
     const R result = detail::negated_by_bit(quadrants, 0, detail::quotient(dividend, divisor));
     return detail::with_great_angles(a, select(absolute(a) < 0x1p-27, a, result),
-                                     [](double x) { return std::tan(x); });
+                                     [](double x) { return std::tan(unknown(x)); });
 }
 
 }  // namespace rddl
