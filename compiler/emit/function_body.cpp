@@ -102,17 +102,20 @@ std::string_view wish_for(const ir::Node& node) {
     return "term";
 }
 
-// The same in all lanes, and spelled so: made of loop indices and constants by operators alone.
-bool is_index_arithmetic(const ir::Program& program, ir::NodeId id) {
-    const ir::Node& node = program[id];
+// The same in all lanes, and spelled so: made of loop indices, constants and entries of constant
+// tables by operators alone.
+bool is_index_arithmetic(const Unit& unit, ir::NodeId id) {
+    const auto are_all = [&](const std::vector<ir::NodeId>& parts) {
+        return std::ranges::all_of(
+            parts, [&](ir::NodeId part) { return is_index_arithmetic(unit, part); });
+    };
+    const ir::Node& node = unit.program[id];
     if (node.type != ir::Scalar::Int) return false;
-    const bool is_leaf = std::holds_alternative<ir::Index>(node.form) ||
-                         std::holds_alternative<ir::Constant>(node.form);
-    const auto* apply = std::get_if<ir::Apply>(&node.form);
-    return is_leaf ||
-           (apply && !apply->place && std::ranges::all_of(apply->operands, [&](ir::NodeId operand) {
-                return is_index_arithmetic(program, operand);
-            }));
+    return match(
+        node.form, [](const ir::Index&) { return true; }, [](const ir::Constant&) { return true; },
+        [&](const ir::Load& load) { return unit.facts_of(id).uniform && are_all(load.indices); },
+        [&](const ir::Apply& apply) { return !apply.place && are_all(apply.operands); },
+        [](const auto&) { return false; });
 }
 
 }  // namespace
@@ -265,7 +268,7 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     std::vector<std::size_t> lengths;
     for (const ir::NodeId& part : parts) {
         const bool has_name = expressions_.is_named(part) || is_leaf(expressions_.unit(), part) ||
-                              is_index_arithmetic(program(), part);
+                              is_index_arithmetic(expressions_.unit(), part);
         lengths.push_back(has_name ? 0 : length_within(part, longest_compared));
     }
     const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);
@@ -300,7 +303,7 @@ void FunctionBody::prepare_declaration(ir::NodeId id) {
 
 std::string FunctionBody::type_in_declaration(ir::NodeId id) {
     if (expressions_.is_over_several()) return "const auto ";
-    const bool is_index = is_index_arithmetic(program(), id);
+    const bool is_index = is_index_arithmetic(expressions_.unit(), id);
     return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type)) + " ";
 }
 

@@ -3,9 +3,9 @@
 #include "driver/driver.hpp"
 #include "driver/process.hpp"
 #include "driver/shared_object.hpp"
-#include "external_library.hpp"
+#include "engines/external_library.hpp"
+#include "engines/interpreted_simulator.hpp"
 #include "golden.hpp"
-#include "interpreted_simulator.hpp"
 #include "trace.hpp"
 
 #include <dlfcn.h>

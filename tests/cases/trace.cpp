@@ -1,6 +1,6 @@
 #include "trace.hpp"
 
-#include "records_json.hpp"
+#include "formats/records_json.hpp"
 
 #include <fmt/format.h>
 
