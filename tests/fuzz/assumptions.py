@@ -29,6 +29,8 @@ class Assumptions:
             self.declared("turn", "state-fluent", place, ()),
             self.declared("speed", "state-fluent", kind, (place,)),
         ]
+        if any(not fluent.parameters for fluent in fluents if fluent.name in ("NEXT", "bound", "speed")):
+            return []  # no room was left for all places
         for fluent in fluents:
             if fluent.range == "real":
                 fluent.fraction = UNSURE
