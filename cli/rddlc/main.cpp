@@ -51,7 +51,6 @@ ExitStatus run(const Options& options) {
 int main(int argc, char** argv) {
     using namespace rddlc;
     return run_program("rddlc", version, [&] {
-        const auto [options, status] = cli::parse_command_line(argc, argv);
-        return options ? cli::run(*options) : status;
+        return cli::run_command_line(cli::rddlc_command(cli::run), version, argc, argv);
     });
 }

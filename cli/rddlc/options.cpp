@@ -1,16 +1,14 @@
 #include "options.hpp"
 
 #include "driver/explain.hpp"
-#include "driver/version.hpp"
-#include "support/program.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
+#include <memory>
+#include <utility>
 
 namespace rddlc::cli {
 namespace {
@@ -62,127 +60,93 @@ std::string list_of_passes() {
 }
 
 // A mistake in how rddlc was called.
-CLI::ValidationError usage(const std::string& message) {
-    return CLI::ValidationError(message);
+UsageError usage(const std::string& message) {
+    return UsageError(message);
 }
 
-void declare(CLI::App& program, Arguments& arguments) {
-    program.set_version_flag("--version", fmt::format("rddlc {}", version));
-    program
-        .add_option("files", arguments.inputs,
-                    "DOMAIN and INSTANCE, or one file that holds both; POLICY, a file with a "
-                    "policy block")
-        ->type_name("DOMAIN INSTANCE [POLICY]")
-        ->expected(1, 3);
-    program
-        .add_option("-o", arguments.output,
-                    "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ "
-                    "text goes to standard output")
-        ->type_name("FILE");
-    program
-        .add_option(
-            "--extern", arguments.extern_headers,
-            "include FILE, a C++ header that defines the external functions; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("FILE");
-    program
-        .add_option("--print", arguments.print,
-                    "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("FORM");
-    program
-        .add_option("--stop-after", arguments.stop_after,
-                    "stop after a stage: read, parse, check, ground, verify, optimise, emit")
-        ->type_name("STAGE");
-    program.add_flag("--check", arguments.check_only, "only check: the same as --stop-after=check");
-    program
-        .add_option("--std", arguments.standard,
-                    "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions")
-        ->check(CLI::IsMember({"pyrddlgym", "rddlc"}))
-        ->type_name("STANDARD");
-    program.add_flag("--emit-lines", arguments.line_directives,
-                     "#line in the C++ text, for debuggers and profilers");
-    program.add_flag("--MD", arguments.dependencies,
-                     "write a rule for make and ninja beside the output: FILE.d");
-    program.add_option("--MF", arguments.dependency_file, "name the file of --MD")
-        ->type_name("FILE");
-    program
-        .add_option("-W", arguments.warnings,
-                    "-Wno-W0210: silence a warning; -Werror=W0210: make it an error; -Werror: "
-                    "make all of them errors")
-        ->allow_extra_args(false)
-        ->type_name("WARNING");
-    program.add_flag("-w", arguments.no_warnings, "silence all warnings");
-    program.add_option("--diagnostics-format", arguments.format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->type_name("FORMAT");
-    program.add_option("--color", arguments.color, "auto, always or never")
-        ->check(CLI::IsMember({"auto", "always", "never"}))
-        ->type_name("WHEN");
-    program
-        .add_option("--lanes", arguments.lanes,
+void add_input(Command& command, const std::string& name, const std::string& explanation,
+               Arguments& arguments) {
+    add_argument(command, name, explanation,
+                 [&arguments](const std::string& file) { arguments.inputs.push_back(file); });
+}
+
+// What is read, and what is made of it.
+void add_file_options(Command& command, Arguments& arguments) {
+    add_input(command, "DOMAIN", "domain file, or one that holds the instance, too", arguments);
+    command.options.back().is_required = true;
+    add_input(command, "INSTANCE", "instance file", arguments);
+    add_input(command, "POLICY", "file with a policy block", arguments);
+    add_text_option(command, "-o", "FILE",
+                    "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ text "
+                    "goes to standard output",
+                    arguments.output);
+    add_repeated_option(command, "--extern", "FILE",
+                        "include FILE, a C++ header that defines the external functions; may be "
+                        "repeated",
+                        arguments.extern_headers);
+    add_flag(command, "-MD", "write a rule for make and ninja beside the output: FILE.d",
+             arguments.dependencies);
+    add_text_option(command, "-MF", "FILE", "name the file of -MD", arguments.dependency_file);
+}
+
+void add_stage_options(Command& command, Arguments& arguments) {
+    add_list_option(command, "--print", "FORM,...",
+                    "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp",
+                    [&arguments](const std::string& form) { arguments.print.push_back(form); });
+    add_text_option(command, "--stop-after", "STAGE",
+                    "stop after a stage: read, parse, check, ground, verify, optimise, emit",
+                    arguments.stop_after);
+    add_flag(command, "--check", "only check: the same as --stop-after=check",
+             arguments.check_only);
+    add_text_option(command, "--std", "STANDARD",
+                    "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions",
+                    arguments.standard)
+        .choices = {"pyrddlgym", "rddlc"};
+}
+
+void add_diagnostic_options(Command& command, Arguments& arguments) {
+    add_repeated_option(command, "-W", "...",
+                        "-Wno-W0210: silence a warning; -Werror=W0210: make it an error; -Werror: "
+                        "make all of them errors",
+                        arguments.warnings);
+    add_flag(command, "-w", "silence all warnings", arguments.no_warnings);
+    add_text_option(command, "--diagnostics-format", "FORMAT", "text (default) or json",
+                    arguments.format)
+        .choices = {"text", "json"};
+    add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
+        .choices = {"auto", "always", "never"};
+    add_text_option(command, "--explain", "CODE", "explain a diagnostic and exit",
+                    arguments.explained)
+        .is_enough = true;
+    add_flag(command, "-v,--verbose", "tell how long each stage takes", arguments.verbose);
+}
+
+void add_code_options(Command& command, Arguments& arguments) {
+    add_flag(command, "--emit-lines", "#line in the C++ text, for debuggers and profilers",
+             arguments.line_directives);
+    add_text_option(command, "--lanes", "N",
                     "environments that a step of a batch computes at once: 8, 16 (the default), "
-                    "32, 64, or 1")
-        ->check(CLI::IsMember({"1", "8", "16", "32", "64"}).description(""))
-        ->type_name("N");
-    program
-        .add_option("--real", arguments.real,
+                    "32, 64, or 1",
+                    arguments.lanes)
+        .choices = {"1", "8", "16", "32", "64"};
+    add_text_option(command, "--real", "TYPE",
                     "what the simulator computes reals in: double (the default), or float, which "
-                    "is about twice as fast in batches and less exact")
-        ->check(CLI::IsMember({"double", "float"}))
-        ->type_name("TYPE");
-    program
-        .add_option("--memory-limit", arguments.memory_limit,
-                    "bytes that one environment may take: 4G (the default), 512M, ...")
-        ->transform(CLI::AsSizeValue(false).description(""))
-        ->type_name("SIZE");
-    program
-        .add_option("--without", arguments.without,
-                    "leave out optimisations: PASS[,PASS...], listed below; may be repeated")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("PASS");
-    program.add_flag("--fast-math", arguments.fast_math,
-                     "compute with reals as if they were not rounded, and never inf or nan");
-    program.add_flag("--stats", arguments.statistics,
-                     "tell what each optimisation did; --stats=json as JSON");
-    program.add_option("--explain", arguments.explained, "explain a diagnostic and exit")
-        ->type_name("CODE");
-    program.add_flag("-v,--verbose", arguments.verbose, "tell how long each stage takes");
-    program.get_formatter()->column_width(34);
-    program.footer(list_of_passes() + "\n" + examples);
-}
-
-// Compilers write -MD, -MF FILE and -Wx with one dash; CLI11 wants -M D or --MD.
-std::vector<std::string> with_compiler_spelling(int argc, char** argv) {
-    std::vector<std::string> words;
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool dependency = word == "-MD" || word.starts_with("-MF");
-        words.push_back(dependency ? "-" + word : word);
-        if (word.starts_with("-MF") && word.size() > 3) {
-            words.back() = "--MF=" + word.substr(3);
-        }
-    }
-    return words;
-}
-
-void replace(std::string& text, const std::string& part, const std::string& by) {
-    const std::size_t at = text.find(part);
-    if (at != std::string::npos) text.replace(at, part.size(), by);
-}
-
-// CLI11's help, with the spellings that it does not know.
-std::string help_text(const CLI::App& program) {
-    std::string help = program.help();
-    replace(help, "[OPTIONS] [files(1x)]", "[OPTIONS] DOMAIN [INSTANCE] [POLICY]");
-    replace(help, "files DOMAIN INSTANCE [POLICY]", "DOMAIN INSTANCE [POLICY]");
-    replace(help, "--MD ", "-MD  ");
-    replace(help, "--MF FILE ", "-MF FILE  ");
-    replace(help, "--MD", "-MD");
-    replace(help, "-W WARNING ...", "-W...         ");
-    return help;
+                    "is about twice as fast in batches and less exact",
+                    arguments.real)
+        .choices = {"double", "float"};
+    add_option(
+        command, "--memory-limit", "SIZE",
+        "bytes that one environment may take: 4G (the default), 512M, ...",
+        [&arguments](const std::string& bytes) { arguments.memory_limit = std::stoll(bytes); })
+        .kind = OptionKind::Bytes;
+    add_list_option(command, "--without", "PASS,...",
+                    "leave out optimisations, which are listed below; may be repeated",
+                    [&arguments](const std::string& pass) { arguments.without.push_back(pass); });
+    add_flag(command, "--fast-math",
+             "compute with reals as if they were not rounded, and never inf or nan",
+             arguments.fast_math);
+    add_flag(command, "--stats", "tell what each optimisation did; --stats=json as JSON",
+             [&arguments](const std::string& format) { arguments.statistics = format; });
 }
 
 Code warning_named(const std::string& name) {
@@ -291,7 +255,6 @@ Statistics statistics_format(const std::string& word) {
 }
 
 CompileOptions compile_options(const Arguments& arguments) {
-    if (arguments.inputs.empty()) throw usage("which problem? Name DOMAIN and INSTANCE");
     CompileOptions options;
     options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
     if (!arguments.output.empty()) options.output = arguments.output;
@@ -329,29 +292,20 @@ Options options_of(const Arguments& arguments) {
 
 }  // namespace
 
-CommandLine parse_command_line(int argc, char** argv) {
-    CLI::App program(overview, "rddlc");
-    Arguments arguments;
-    declare(program, arguments);
-    try {
-        std::vector<std::string> words = with_compiler_spelling(argc, argv);
-        std::ranges::reverse(words);  // as CLI11 takes them
-        program.parse(words);
-        return {options_of(arguments)};
-    } catch (const CLI::ParseError& error) {
-        if (error.get_name() == "CallForHelp") {
-            fmt::print("{}", help_text(program));
-            return {std::nullopt, success};
-        }
-        if (error.get_exit_code() == 0) {
-            std::ostringstream text;
-            program.exit(error, text, text);
-            fmt::print("{}", text.str());
-            return {std::nullopt, success};
-        }
-        tell("rddlc: error: {}\n'rddlc --help' shows the usage\n", error.what());
-        return {std::nullopt, usage_error};
-    }
+Command rddlc_command(std::function<ExitStatus(const Options&)> run) {
+    const auto arguments = std::make_shared<Arguments>();
+    Command command;
+    command.name = "rddlc";
+    command.summary = overview;
+    command.details = list_of_passes() + "\n" + examples;
+    add_file_options(command, *arguments);
+    add_stage_options(command, *arguments);
+    add_code_options(command, *arguments);
+    add_diagnostic_options(command, *arguments);
+    command.run = [arguments, run = std::move(run)] {
+        return run(options_of(*arguments));
+    };
+    return command;
 }
 
 }  // namespace rddlc::cli

@@ -1,14 +1,12 @@
 // The command line of rddlc.
 #pragma once
 
+#include "command_line/command_line.hpp"
 #include "driver/driver.hpp"
-#include "support/failure.hpp"
 #include "support/render.hpp"
 
-#include <filesystem>
+#include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace rddlc::cli {
 
@@ -22,12 +20,7 @@ struct Options {
     std::optional<Code> explained;  // --explain
 };
 
-// The options, or the exit status where there is nothing left to do: after --help, --version, or a
-// mistake that has been reported.
-struct CommandLine {
-    std::optional<Options> options;
-    ExitStatus status = success;
-};
-CommandLine parse_command_line(int argc, char** argv);
+// Its command line, which leads to `run` unless there is a mistake.
+Command rddlc_command(std::function<ExitStatus(const Options&)> run);
 
 }  // namespace rddlc::cli

@@ -1,6 +1,6 @@
-#include "problem_lookup.hpp"
+#include "problems/problem_lookup.hpp"
 
-#include "python_info.hpp"
+#include "python/python_info.hpp"
 #include "support/failure.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#include "random_policy.hpp"
+#include "rollouts/random_policy.hpp"
 
 #include "../runtime/tiny_simulator.hpp"
-#include "records_json.hpp"
+#include "formats/records_json.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "records_json.hpp"
+#include "formats/records_json.hpp"
 
 #include "../runtime/tiny_simulator.hpp"
 

@@ -1,4 +1,4 @@
-#include "replay_session.hpp"
+#include "rollouts/replay_session.hpp"
 
 #include "../runtime/tiny_simulator.hpp"
 

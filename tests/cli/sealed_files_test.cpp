@@ -1,4 +1,4 @@
-#include "sealed_files.hpp"
+#include "cache/sealed_files.hpp"
 
 #include "support/files.hpp"
 

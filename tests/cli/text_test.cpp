@@ -1,8 +1,8 @@
 // Tables, numbers and hashes.
-#include "progress.hpp"
-#include "sha256.hpp"
-#include "statistics.hpp"
-#include "table.hpp"
+#include "terminal/progress.hpp"
+#include "cache/sha256.hpp"
+#include "formats/statistics.hpp"
+#include "formats/table.hpp"
 
 #include <gtest/gtest.h>
 

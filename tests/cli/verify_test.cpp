@@ -1,13 +1,13 @@
 // What `rddl verify` compares, and whom it blames: with programs and engines that are altered on
 // purpose.
-#include "difference_place.hpp"
-#include "interpreted_simulator.hpp"
+#include "verify/difference_place.hpp"
+#include "engines/interpreted_simulator.hpp"
 #include "support/files.hpp"
-#include "verdict.hpp"
-#include "verified_problem.hpp"
-#include "verified_states.hpp"
-#include "verify_report.hpp"
-#include "walk_in_step.hpp"
+#include "verify/verdict.hpp"
+#include "verify/verified_problem.hpp"
+#include "verify/verified_states.hpp"
+#include "verify/verify_report.hpp"
+#include "verify/walk_in_step.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

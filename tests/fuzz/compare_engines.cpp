@@ -10,7 +10,7 @@
 // actions, or every other step those of the policy block, if there is one.
 #include "../conformance/stepping.hpp"
 #include "driver/driver.hpp"
-#include "interpreted_simulator.hpp"
+#include "engines/interpreted_simulator.hpp"
 
 #include <dlfcn.h>
 #include <nlohmann/json.hpp>

@@ -262,7 +262,7 @@ class Options(CommandTest):
         """Every option that takes one refuses what it would have to change, in a sentence."""
         run, replay, bench = ([RDDL, command, *PROBLEM, "--engine=interpreter"]
                               for command in ("run", "replay", "bench"))
-        ints = "x", "1e20", "1.0", "0x10", "+1", " 1", "99999999999999999999", "9" * 400, "nan"
+        ints = "x", "1e20", "1.5", "0x10", "+1", " 1", "99999999999999999999", "9" * 400, "nan"
         for command, option in ((run, "episodes"), (run, "seed"), (run, "horizon"), (run, "threads"),
                                 (run, "batch"), (replay, "seed"), (replay, "horizon"),
                                 (bench, "batch"), (bench, "threads")):

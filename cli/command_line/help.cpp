@@ -1,0 +1,94 @@
+#include "command_line/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace rddlc::cli {
+
+namespace {
+
+constexpr std::size_t text_column = 28;
+constexpr std::size_t page_width = 100;
+
+std::string indented(std::size_t width) {
+    return std::string(width, ' ');
+}
+
+// What it is called, and on its right what it is, in lines that fit the page.
+std::string entry(const std::string& name, const std::string& text) {
+    std::string out = "  " + name;
+    std::size_t column = out.size();
+    if (column + 2 > text_column) {
+        out += '\n';
+        column = 0;
+    }
+    out += indented(text_column - column);
+    column = text_column;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (column > text_column && column + 1 + word.size() > page_width) {
+            out += '\n' + indented(text_column);
+            column = text_column;
+        }
+        if (column > text_column) {
+            out += ' ';
+            ++column;
+        }
+        out += word;
+        column += word.size();
+    }
+    return out + '\n';
+}
+
+std::string name_of(const Option& option) {
+    std::string name = option.names;
+    for (std::size_t at = name.find(','); at != std::string::npos; at = name.find(',', at + 2))
+        name.insert(at + 1, " ");
+    if (!option.value_name.empty()) name += " " + option.value_name;
+    if (option.kind == OptionKind::Argument && option.is_list) name += " ...";
+    return name;
+}
+
+std::string usage(const Command& command, const std::string& full_name) {
+    std::string line = fmt::format("Usage: {} [OPTIONS]", full_name);
+    for (const Option& option : command.options)
+        if (option.kind == OptionKind::Argument)
+            line += option.is_required ? " " + name_of(option) : " [" + name_of(option) + "]";
+    return line + (command.commands.empty() ? "\n" : " COMMAND\n");
+}
+
+std::string arguments_text(const Command& command) {
+    std::string text;
+    for (const Option& option : command.options)
+        if (option.kind == OptionKind::Argument) text += entry(name_of(option), option.explanation);
+    return text.empty() ? text : "\nArguments:\n" + text;
+}
+
+std::string options_text(const Command& command, bool is_program) {
+    std::string text = "\nOptions:\n";
+    for (const Option& option : command.options)
+        if (option.kind != OptionKind::Argument) text += entry(name_of(option), option.explanation);
+    text += entry("-h, --help", "Show this page");
+    return is_program ? text + entry("--version", "Show the version") : text;
+}
+
+std::string commands_text(const Command& command) {
+    if (command.commands.empty()) return "";
+    std::string text = "\nCommands:\n";
+    for (const Command& each : command.commands) text += entry(each.name, each.summary);
+    return text;
+}
+
+}  // namespace
+
+std::string help_text(const Command& command, const std::string& full_name) {
+    const bool is_program = command.name == full_name;
+    std::string text = command.summary + "\n\n" + usage(command, full_name) +
+                       commands_text(command) + arguments_text(command) +
+                       options_text(command, is_program);
+    return command.details.empty() ? text : text + "\n" + command.details + "\n";
+}
+
+}  // namespace rddlc::cli

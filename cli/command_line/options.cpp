@@ -1,0 +1,98 @@
+#include "command_line/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace rddlc::cli {
+
+namespace {
+
+Option& add(Command& command, OptionKind kind, const std::string& names,
+            const std::string& value_name, const std::string& explanation,
+            std::function<void(const std::string&)> take) {
+    Option option;
+    option.kind = kind;
+    option.names = names;
+    option.value_name = value_name;
+    option.explanation = explanation;
+    option.take = std::move(take);
+    return command.options.emplace_back(std::move(option));
+}
+
+template <class Number>
+bool reads_as(std::string_view word, Number& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc{} && end == word.data() + word.size();
+}
+
+// 1e6 is an int, too; beyond 2^53 a double is none.
+template <class Number>
+bool reads_as_number(std::string_view word, Number& value) {
+    if (reads_as(word, value)) return true;
+    if constexpr (std::is_integral_v<Number>) {
+        double real = 0;
+        if (!reads_as(word, real) || std::trunc(real) != real || std::abs(real) >= 0x1p53)
+            return false;
+        if (!std::in_range<Number>(static_cast<std::int64_t>(real))) return false;
+        value = static_cast<Number>(real);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
+                     std::function<void(const std::string&)> take) {
+    return add(command, OptionKind::Argument, name, "", explanation, std::move(take));
+}
+
+Option& add_option(Command& command, const std::string& names, const std::string& value_name,
+                   const std::string& explanation, std::function<void(const std::string&)> take) {
+    return add(command, OptionKind::Value, names, value_name, explanation, std::move(take));
+}
+
+Option& add_list_option(Command& command, const std::string& names, const std::string& value_name,
+                        const std::string& explanation,
+                        std::function<void(const std::string&)> take) {
+    Option& option = add_option(command, names, value_name, explanation, std::move(take));
+    option.is_list = option.has_commas = true;
+    return option;
+}
+
+Option& add_flag(Command& command, const std::string& names, const std::string& explanation,
+                 std::function<void(const std::string&)> take) {
+    return add(command, OptionKind::Flag, names, "", explanation, std::move(take));
+}
+
+Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
+                     std::string& target) {
+    return add_argument(command, name, explanation,
+                        [&target](const std::string& value) { target = value; });
+}
+
+Option& add_flag(Command& command, const std::string& names, const std::string& explanation,
+                 bool& target) {
+    return add_flag(command, names, explanation, [&target](const std::string&) { target = true; });
+}
+
+template <class Number>
+Number number_of(const std::string& option, const std::string& word, Number least, Number most) {
+    Number value{};
+    if (reads_as_number(word, value) && value >= least && value <= most) return value;
+    throw UsageError(fmt::format("{}: '{}' is not {} from {} to {}", option, word,
+                                 std::is_integral_v<Number> ? "an int" : "a number", least, most));
+}
+template int number_of(const std::string&, const std::string&, int, int);
+template std::int64_t number_of(const std::string&, const std::string&, std::int64_t, std::int64_t);
+template std::uint64_t number_of(const std::string&, const std::string&, std::uint64_t,
+                                 std::uint64_t);
+template double number_of(const std::string&, const std::string&, double, double);
+
+}  // namespace rddlc::cli

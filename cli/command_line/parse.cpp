@@ -1,0 +1,204 @@
+#include "command_line/command_line.hpp"
+#include "support/diagnostic.hpp"
+#include "support/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <sstream>
+
+namespace rddlc::cli {
+
+namespace {
+
+std::vector<std::string> split(const std::string& names) {
+    std::vector<std::string> parts;
+    std::istringstream stream(names);
+    for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+    return parts;
+}
+
+// Compilers write long options with one dash, such as -MD; CLI11 wants two.
+bool has_one_dash(const std::string& name) {
+    return name.size() > 2 && name[0] == '-' && name[1] != '-';
+}
+
+std::string respelled_names(const Option& option) {
+    std::string all;
+    for (const std::string& name : split(option.names))
+        all += fmt::format("{}{}{}", all.empty() ? "" : ",", has_one_dash(name) ? "-" : "", name);
+    return all;
+}
+
+// -MD, and -MFfile as much as -MF file.
+std::string respelled_word(const Command& command, const std::string& word) {
+    for (const Option& option : command.options)
+        for (const std::string& name : split(option.names)) {
+            if (!has_one_dash(name) || !word.starts_with(name)) continue;
+            if (word.size() == name.size()) return "-" + word;
+            if (option.kind != OptionKind::Flag) return "-" + name + "=" + word.substr(name.size());
+        }
+    return word;
+}
+
+// What was said of an option.
+struct Answer {
+    const Option* option;
+    CLI::Option* handle = nullptr;
+    std::string value = {};
+    std::vector<std::string> values = {};  // of a list
+
+    void pass_on() const {
+        if (handle->count() == 0) return;
+        if (!option->is_list) return option->take(value);
+        for (const std::string& each : values) option->take(each);
+    }
+};
+
+// A command as CLI11 sees it.
+struct Declared {
+    const Command* command;
+    CLI::App* app;
+    std::deque<Answer> answers;  // do not move: CLI11 writes to them
+};
+
+void declare(Declared& declared, const Option& option) {
+    Answer& answer = declared.answers.emplace_back(Answer{&option});
+    const std::string names = respelled_names(option);
+    if (option.kind == OptionKind::Flag) {
+        answer.handle = declared.app->add_flag(names, answer.value);
+        answer.handle->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        return;
+    }
+    answer.handle = option.is_list ? declared.app->add_option(names, answer.values)
+                                   : declared.app->add_option(names, answer.value);
+    if (option.kind != OptionKind::Argument) answer.handle->allow_extra_args(false);
+    if (option.has_commas) answer.handle->delimiter(',');
+    if (option.kind == OptionKind::Bytes) answer.handle->transform(CLI::AsSizeValue(false));
+    if (!option.choices.empty()) answer.handle->check(CLI::IsMember(option.choices));
+}
+
+void declare(Declared& declared) {
+    for (const Option& option : declared.command->options) declare(declared, option);
+}
+
+std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
+    const auto near = did_you_mean(name, known);
+    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+}
+
+std::vector<std::string> option_names(const Command& command) {
+    std::vector<std::string> names = {"--help"};
+    for (const Option& option : command.options)
+        if (option.kind != OptionKind::Argument)
+            for (const std::string& name : split(option.names)) names.push_back(name);
+    return names;
+}
+
+std::vector<std::string> command_names(const Command& program) {
+    std::vector<std::string> names;
+    for (const Command& command : program.commands) names.push_back(command.name);
+    return names;
+}
+
+// What is wrong with words that CLI11 does not take, in words that help.
+std::string message_of(const CLI::ParseError& error, const std::vector<std::string>& left,
+                       const Command& program, const Command* chosen) {
+    const auto is_option = [](const std::string& word) {
+        return word.starts_with('-');
+    };
+    if (!chosen && !left.empty() && !is_option(left.front()))
+        return fmt::format("no command is called '{}'{}", left.front(),
+                           did_you_mean_text(left.front(), command_names(program)));
+    const auto unknown = std::find_if(left.begin(), left.end(), is_option);
+    if (unknown != left.end()) {
+        const std::string name = unknown->substr(0, unknown->find('='));
+        return fmt::format("unknown option '{}'{}", name,
+                           did_you_mean_text(name, option_names(chosen ? *chosen : program)));
+    }
+    if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
+    if (!chosen)
+        return fmt::format("name a command, such as '{} {}'", program.name,
+                           program.commands.front().name);
+    return error.what();
+}
+
+// Is not left to CLI11, which knows no options that are enough.
+void require_arguments(const Declared& declared) {
+    const auto was_given = [](const Answer& answer) {
+        return answer.handle->count() > 0;
+    };
+    for (const Answer& answer : declared.answers)
+        if (answer.option->is_enough && was_given(answer)) return;
+    for (const Answer& answer : declared.answers)
+        if (answer.option->is_required && !was_given(answer))
+            throw UsageError(answer.option->names + " is required");
+}
+
+// `help run` is `run --help`, as -h is; CLI11 takes the words from the back.
+std::vector<std::string> words_of(const Command& program, int argc, char** argv) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) words.push_back(respelled_word(program, argv[i]));
+    if (!program.commands.empty() && !words.empty() && words.front() == "help") {
+        words.erase(words.begin());
+        words.push_back("--help");
+    }
+    std::ranges::reverse(words);
+    return words;
+}
+
+ExitStatus run_declared(const Declared& declared) {
+    require_arguments(declared);
+    for (const Answer& answer : declared.answers) answer.pass_on();
+    return declared.command->run();
+}
+
+}  // namespace
+
+ExitStatus run_command_line(const Command& program, const std::string& version, int argc,
+                            char** argv) {
+    CLI::App app("", program.name);
+    app.set_version_flag("--version", "");
+    std::deque<Declared> all;
+    declare(all.emplace_back(Declared{&program, &app, {}}));
+    for (const Command& command : program.commands)
+        declare(all.emplace_back(Declared{&command, app.add_subcommand(command.name), {}}));
+    if (!program.commands.empty()) app.require_subcommand(1);
+
+    const auto chosen = [&]() -> const Declared* {
+        if (program.commands.empty()) return &all.front();
+        for (const Declared& declared : all)
+            if (declared.app != &app && declared.app->parsed()) return &declared;
+        return nullptr;
+    };
+    const auto full_name = [&] {
+        const Declared* const command = chosen();
+        const bool is_program = !command || command->command == &program;
+        return is_program ? program.name : program.name + " " + command->command->name;
+    };
+    const auto complain = [&](const std::string& message) {
+        tell("{}: error: {}\n'{} --help' shows the usage\n", program.name, message, full_name());
+        return usage_error;
+    };
+    try {
+        app.parse(words_of(program, argc, argv));
+        return run_declared(*chosen());
+    } catch (const CLI::CallForHelp&) {
+        const Declared* const command = chosen();
+        fmt::print("{}", help_text(command ? *command->command : program, full_name()));
+        return success;
+    } catch (const CLI::CallForVersion&) {
+        fmt::print("{} {}\n", program.name, version);
+        return success;
+    } catch (const CLI::ParseError& error) {
+        const Declared* const command = chosen();
+        return complain(
+            message_of(error, app.remaining(true), program, command ? command->command : nullptr));
+    } catch (const UsageError& error) {
+        return complain(error.what());
+    }
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,17 @@
+// The subcommands of `rddl`, one file each.
+#pragma once
+
+#include "command_line/command_line.hpp"
+
+namespace rddlc::cli {
+
+Command list_command();
+Command info_command();
+Command check_command();
+Command fmt_command();
+Command run_command();
+Command replay_command();
+Command bench_command();
+Command verify_command();
+
+}  // namespace rddlc::cli

@@ -1,0 +1,87 @@
+#include "commands/options.hpp"
+
+#include "driver/driver.hpp"
+
+namespace rddlc::cli {
+
+ProblemFiles ProblemArguments::files() const {
+    ProblemFiles files = find_files(first, second);
+    files.standard = standard;
+    files.memory_limit = memory_limit;
+    return files;
+}
+
+void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
+    add_argument(command, "DOMAIN", "Domain file, or NAME of a problem of rddlrepository",
+                 arguments.first)
+        .is_required = required;
+    add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
+    add_standard_option(command, arguments.standard);
+    add_option(
+        command, "--memory-limit", "SIZE",
+        "Bytes that simulators may take: 4G (default), 512M, ...",
+        [&arguments](const std::string& bytes) { arguments.memory_limit = std::stoll(bytes); })
+        .kind = OptionKind::Bytes;
+}
+
+void add_standard_option(Command& command, Standard& standard) {
+    add_option(command, "--std", "STANDARD",
+               "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions",
+               [&standard](const std::string& name) { standard = *standard_named(name); })
+        .choices = {"pyrddlgym", "rddlc"};
+}
+
+void add_extern_option(Command& command, LoadOptions& options, const std::string& explanation) {
+    add_repeated_option(command, "--extern", "FILE", explanation, options.externs);
+}
+
+void add_pass_options(Command& command, LoadOptions& options) {
+    add_list_option(command, "--without", "PASS,...",
+                    "Leave out optimisations; 'rddlc --help' lists them",
+                    [&options](const std::string& name) {
+                        if (const auto complaint = complaint_about_pass(name))
+                            throw UsageError(*complaint);
+                        options.passes.without.insert(name);
+                    });
+    add_flag(command, "--fast-math",
+             "Compute with reals as if they were not rounded, and never inf or nan",
+             options.passes.fast_math);
+}
+
+void add_cache_option(Command& command, LoadOptions& options) {
+    add_flag(command, "--no-cache", "Compile anew instead of using a simulator compiled before",
+             options.ignore_cache);
+}
+
+void add_engine_options(Command& command, LoadOptions& options) {
+    add_option(command, "--engine", "ENGINE",
+               "compiled (default), or interpreter, which needs no C++ compiler",
+               [&options](const std::string& name) {
+                   options.engine = name == "compiled" ? Engine::Compiled : Engine::Interpreter;
+               })
+        .choices = {"compiled", "interpreter"};
+    add_extern_option(command, options,
+                      "C++ header of the external functions; the interpreter takes a .so, too");
+    add_pass_options(command, options);
+    add_option(command, "--real", "TYPE", "What reals are computed in: double (default) or float",
+               [&options](const std::string& name) {
+                   options.real = name == "float" ? RealType::Float : RealType::Double;
+               })
+        .choices = {"double", "float"};
+    add_cache_option(command, options);
+}
+
+void add_preconditions_option(Command& command, Preconditions& preconditions) {
+    add_option(command, "--preconditions", "WHAT",
+               "Illegal actions: ignore (default) and warn take them, error refuses, noop does "
+               "nothing",
+               [&preconditions](const std::string& name) {
+                   preconditions = name == "warn"    ? Preconditions::Warn
+                                   : name == "error" ? Preconditions::Error
+                                   : name == "noop"  ? Preconditions::Noop
+                                                     : Preconditions::Ignore;
+               })
+        .choices = {"ignore", "warn", "error", "noop"};
+}
+
+}  // namespace rddlc::cli

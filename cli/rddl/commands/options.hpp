@@ -1,0 +1,64 @@
+// Options that several subcommands share, so that they are spelled and explained alike. What they
+// write to outlives the command.
+#pragma once
+
+#include "command_line/command_line.hpp"
+#include "engines/load_simulator.hpp"
+#include "problems/problem_lookup.hpp"
+#include "rollouts/violations.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace rddlc::cli {
+
+inline constexpr int most_threads = 4096;
+inline constexpr std::int64_t largest_batch = std::int64_t{1} << 24;
+inline constexpr std::int64_t longest_horizon = std::numeric_limits<std::int64_t>::max();
+
+// The positional arguments P.
+struct ProblemArguments {
+    std::string first;   // DOMAIN or NAME
+    std::string second;  // INSTANCE; may be empty for a file that holds both blocks
+    Standard standard = Standard::PyRddlGym;
+    std::int64_t memory_limit = default_memory_limit;
+
+    ProblemFiles files() const;
+};
+// These, --std and --memory-limit.
+void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required = true);
+
+// --seed; may be a std::optional
+template <class Seed>
+void add_seed_option(Command& command, Seed& seed, const std::string& explanation) {
+    add_number_option<std::uint64_t>(command, "--seed", "S", explanation, seed, 0,
+                                     std::numeric_limits<std::uint64_t>::max());
+}
+
+// --horizon; may be a std::optional
+template <class Horizon>
+void add_horizon_option(Command& command, Horizon& horizon, const std::string& explanation) {
+    add_number_option<std::int64_t>(command, "--horizon", "H", explanation, horizon, 0,
+                                    longest_horizon);
+}
+
+// --std
+void add_standard_option(Command& command, Standard& standard);
+
+// --extern
+void add_extern_option(Command& command, LoadOptions& options, const std::string& explanation);
+
+// --without, --fast-math
+void add_pass_options(Command& command, LoadOptions& options);
+
+// --no-cache
+void add_cache_option(Command& command, LoadOptions& options);
+
+// --engine, --extern, --without, --fast-math, --real, --no-cache
+void add_engine_options(Command& command, LoadOptions& options);
+
+// --preconditions
+void add_preconditions_option(Command& command, Preconditions& preconditions);
+
+}  // namespace rddlc::cli

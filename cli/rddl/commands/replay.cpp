@@ -1,0 +1,105 @@
+// rddl replay: steps that a file or another program asks for, line by line.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "formats/line_stream.hpp"
+#include "rollouts/replay_session.hpp"
+#include "rollouts/violations.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct ReplayCommandOptions {
+    ProblemArguments problem;
+    LoadOptions load;
+    ReplayOptions session;
+    std::string input = "-";
+    std::string output = "-";
+};
+
+// Tells of violated preconditions on stderr: the first with all circumstances, all as a number.
+class ViolationLog {
+  public:
+    ViolationLog(const ProblemFiles& files, const LoadOptions& load, Preconditions preconditions)
+        : explainer_(files, load), preconditions_(preconditions) {}
+
+    // The message in one line.
+    std::string add(const Violation& violation) {
+        const ViolationText text = explainer_.precondition(violation);
+        const char* const severity = preconditions_ == Preconditions::Error ? "error" : "warning";
+        if (count_++ == 0) tell(text.diagnostic(severity, ""));
+        return text.line();
+    }
+
+    void print_total() const {
+        if (count_ == 0) return;
+        tell("rddl: {} action{} violated a precondition: {}\n", count_, count_ == 1 ? "" : "s",
+             fate_of_illegal_actions(preconditions_));
+    }
+
+  private:
+    ViolationExplainer explainer_;
+    Preconditions preconditions_;
+    std::size_t count_ = 0;
+};
+
+ExitStatus replay(const ReplayCommandOptions& options) {
+    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    UsedFiles used = problem.used;
+    LineReader input(options.input, used);
+    LineWriter output(options.output, used);
+    ViolationLog log(problem.files, options.load, options.session.preconditions);
+    ReplayOptions session_options = options.session;
+    session_options.explain = [&](const Violation& violation) {
+        return log.add(violation);
+    };
+    ReplaySession session(*problem.simulator, session_options);
+    while (const auto line = input.next()) output.write(session.answer(*line));
+    output.finish();
+    log.print_total();
+    return is_interrupted() ? interrupted : success;
+}
+
+}  // namespace
+
+Command replay_command() {
+    const auto options = std::make_shared<ReplayCommandOptions>();
+    Command command;
+    command.name = "replay";
+    command.summary = "Make the steps that lines of JSON ask for";
+    command.details =
+        "An input line is {\"action\": {...}, \"state\": {...}}, both optional; the state (or a\n"
+        "part of it) is set before the step. The answer is {\"state\": {...}, \"observation\":\n"
+        "{...} or null, \"reward\": r, \"terminated\": b, \"truncated\": b}, or {\"error\": "
+        "\"...\"}\n"
+        "for a line that is refused. docs/traces.md tells all members. A trace of 'rddl run' is\n"
+        "an input, too. In a pipe every answer comes at once, so a program can drive this.\n\n"
+        "Examples:\n"
+        "  rddl replay domain.rddl instance.rddl --input actions.jsonl --output trace.jsonl\n"
+        "  echo '{\"action\": {\"throttle\": 1.0}}' | rddl replay domain.rddl instance.rddl\n"
+        "  echo '{\"repeat\": 1000}' | rddl replay SysAdmin_MDP_ippc2011 1 --seed 3";
+    add_problem_arguments(command, options->problem);
+    add_text_option(command, "--input", "FILE", "Lines of JSON; - (default) is standard input",
+                    options->input);
+    add_text_option(command, "--output", "FILE", "Answers; - (default) is standard output",
+                    options->output);
+    add_seed_option(command, options->session.seed,
+                    "Seed of all random numbers (the input's if it is a trace, else 0)");
+    add_horizon_option(command, options->session.horizon,
+                       "Steps an episode; 0: no horizon (the trace's or the instance's)");
+    add_preconditions_option(command, options->session.preconditions);
+    add_engine_options(command, options->load);
+    command.run = [options] {
+        return replay(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

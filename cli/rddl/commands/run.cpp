@@ -1,0 +1,317 @@
+// rddl run: whole episodes under a policy, and what came of them.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "formats/line_stream.hpp"
+#include "formats/statistics.hpp"
+#include "formats/table.hpp"
+#include "formats/trace.hpp"
+#include "rollouts/rollouts.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct RunOptions {
+    ProblemArguments problem;
+    std::optional<std::filesystem::path> policy_file;
+    LoadOptions load;
+    RolloutOptions rollouts;
+    std::string trace;
+    bool json = false;
+    bool quiet = false;
+};
+
+std::string_view name_of(Policy policy) {
+    switch (policy) {
+        case Policy::Random:
+            return "random";
+        case Policy::Noop:
+            return "noop";
+        case Policy::Rddl:
+            break;
+    }
+    return "rddl";
+}
+
+void choose_policy(RunOptions& options, const std::string& name) {
+    for (const Policy policy : {Policy::Random, Policy::Noop, Policy::Rddl}) {
+        if (name_of(policy) != name) continue;
+        options.rollouts.policy = policy;
+        return;
+    }
+    if (!is_path(name))
+        throw UsageError(
+            fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
+    options.rollouts.policy = Policy::Rddl;
+    options.policy_file = name;
+}
+
+struct Summary {
+    Statistics undiscounted_return, discounted_return, length;
+    std::int64_t episodes = 0;  // finished ones
+    std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0, refused = 0;
+    std::int64_t illegal_actions = 0;
+    double steps_per_second = 0;
+};
+
+Summary summarise(const Rollouts& rollouts) {
+    Summary summary;
+    std::vector<double> returns, discounted, lengths;
+    for (const Episode& episode : rollouts.episodes) {
+        if (!episode.finished) continue;
+        returns.push_back(episode.undiscounted_return);
+        discounted.push_back(episode.discounted_return);
+        lengths.push_back(static_cast<double>(episode.length));
+        summary.terminated += (episode.causes & RDDL_TERMINATED) != 0;
+        summary.horizon += (episode.causes & RDDL_TRUNCATED_HORIZON) != 0;
+        summary.invariant += (episode.causes & RDDL_TRUNCATED_INVARIANT) != 0;
+        summary.faulted += (episode.causes & RDDL_FAULTED) != 0;
+        summary.refused += episode.refused;
+        summary.illegal_actions += episode.illegal_actions;
+    }
+    summary.episodes = static_cast<std::int64_t>(returns.size());
+    summary.undiscounted_return = statistics_of(returns);
+    summary.discounted_return = statistics_of(discounted);
+    summary.length = statistics_of(lengths);
+    summary.steps_per_second =
+        rollouts.seconds > 0 ? static_cast<double>(rollouts.steps) / rollouts.seconds : 0;
+    return summary;
+}
+
+// "episode 3, step 7", of a fault or a violation.
+std::string when(const auto& event) {
+    return fmt::format("episode {}, step {}", event.episode, event.step);
+}
+
+// In the form of the compiler's messages; `count` illegal actions there were in all.
+void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
+                           Preconditions preconditions, ViolationExplainer& explainer) {
+    const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
+    const std::string place =
+        count == 1 ? fmt::format(" in {}", when(first))
+                   : fmt::format(" in {} (first of {} violations)", when(first), grouped(count));
+    tell(explainer.precondition(first.violation).diagnostic(severity, place));
+}
+
+std::string fault_line(const EpisodeFault& fault) {
+    return fmt::format("{}: {}", when(fault), fault.message);
+}
+
+std::string illegal_actions_line(std::int64_t count, Preconditions preconditions) {
+    const std::string text =
+        fmt::format("{} action{} violated a precondition", grouped(count), count == 1 ? "" : "s");
+    return count == 0 ? text : text + ": " + fate_of_illegal_actions(preconditions);
+}
+
+void print_summary(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
+                   const LoadedProblem& problem, ViolationExplainer& explainer) {
+    const rddl_problem& description = *problem.simulator->problem;
+    fmt::print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
+               name_of(options.rollouts.policy), options.rollouts.seed,
+               name_of(options.load.engine));
+    Table table({{""},
+                 {"mean", Align::Right},
+                 {"std", Align::Right},
+                 {"min", Align::Right},
+                 {"max", Align::Right}});
+    const auto add = [&](std::string what, const Statistics& s) {
+        table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
+                       number_text(s.minimum), number_text(s.maximum)});
+    };
+    add("return", summary.undiscounted_return);
+    add("discounted return", summary.discounted_return);
+    add("length", summary.length);
+    fmt::print("{}\n", table.text());
+    fmt::print(
+        "{} episode{}: {} terminated, {} at the horizon, {} broke an invariant, {} faulted\n",
+        grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
+        grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
+    if (rollouts.first_fault) fmt::print("first fault: {}\n", fault_line(*rollouts.first_fault));
+    if (const auto& first = rollouts.first_broken_invariant)
+        fmt::print("first broken invariant: {}: {}\n", when(*first),
+                   explainer.invariant(first->violation).line());
+    const Preconditions preconditions = options.rollouts.preconditions;
+    if (preconditions != Preconditions::Ignore || summary.illegal_actions > 0)
+        fmt::print("{}\n", illegal_actions_line(summary.illegal_actions, preconditions));
+    fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
+               seconds_text(rollouts.seconds), rate_text(summary.steps_per_second),
+               rollouts.threads, rollouts.threads == 1 ? "" : "s");
+}
+
+nlohmann::ordered_json to_json(const Statistics& s) {
+    return {{"mean", json_number(s.mean)},
+            {"std", json_number(s.deviation)},
+            {"min", json_number(s.minimum)},
+            {"max", json_number(s.maximum)}};
+}
+
+void print_json(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
+                const LoadedProblem& problem, ViolationExplainer& explainer) {
+    nlohmann::ordered_json out{{"problem", problem.files.name},
+                               {"policy", name_of(options.rollouts.policy)},
+                               {"engine", name_of(options.load.engine)},
+                               {"seed", options.rollouts.seed},
+                               {"episodes", summary.episodes},
+                               {"return", to_json(summary.undiscounted_return)},
+                               {"discounted_return", to_json(summary.discounted_return)},
+                               {"length", to_json(summary.length)},
+                               {"terminated", summary.terminated},
+                               {"truncated_horizon", summary.horizon},
+                               {"truncated_invariant", summary.invariant},
+                               {"faulted", summary.faulted},
+                               {"first_fault", nullptr},
+                               {"refused", summary.refused},
+                               {"illegal_actions", summary.illegal_actions},
+                               {"first_illegal_action", nullptr},
+                               {"first_broken_invariant", nullptr},
+                               {"steps", rollouts.steps},
+                               {"seconds", rollouts.seconds},
+                               {"steps_per_second", summary.steps_per_second},
+                               {"threads", rollouts.threads}};
+    if (rollouts.first_fault) out["first_fault"] = fault_line(*rollouts.first_fault);
+    if (const auto& first = rollouts.first_illegal_action)
+        out["first_illegal_action"] =
+            when(*first) + ": " + explainer.precondition(first->violation).line();
+    if (const auto& first = rollouts.first_broken_invariant)
+        out["first_broken_invariant"] =
+            when(*first) + ": " + explainer.invariant(first->violation).line();
+    fmt::print("{}\n", out.dump(2));
+}
+
+std::string header_line(const RunOptions& options, const LoadedProblem& problem,
+                        std::int64_t horizon) {
+    TraceHeader header;
+    header.problem = problem.files.name;
+    header.files = problem.files.all();
+    header.policy = name_of(options.rollouts.policy);
+    header.engine = name_of(options.load.engine);
+    header.seed = options.rollouts.seed;
+    header.episodes = options.rollouts.episodes;
+    header.horizon = horizon;
+    return trace_header_line(header, *problem.simulator->problem);
+}
+
+// An episode that nothing ends would keep the command busy for ever.
+void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
+    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
+        throw Failure(
+            "nothing ends an episode of this problem: it has no horizon, no termination "
+            "and no invariant",
+            "give one with --horizon", usage_error);
+}
+
+void require_policy_block(const rddl_simulator& simulator, const RunOptions& options) {
+    const rddl_policy* const policy = simulator.policy;
+    constexpr const char* hint =
+        "docs/policies.md tells how to write one: policy NAME { cpfs { ... }; }";
+    if (options.policy_file && (!policy || *options.policy_file != policy->source.file))
+        throw Failure(
+            fmt::format("there is no policy block in '{}'", options.policy_file->string()), hint);
+    if (!policy)
+        throw Failure("there is no policy block in the files of the problem",
+                      "name the file that has it: --policy=FILE.rddl");
+}
+
+ExitStatus run(const RunOptions& options) {
+    ProblemFiles files = options.problem.files();
+    files.policy = options.policy_file;
+    const LoadedProblem problem = load_problem(files, options.load);
+    if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator, options);
+    const rddl_problem& description = *problem.simulator->problem;
+    const std::int64_t horizon =
+        options.rollouts.horizon < 0 ? description.horizon : options.rollouts.horizon;
+    require_an_end(description, horizon);
+
+    std::optional<LineWriter> trace;
+    TraceSink sink;
+    if (!options.trace.empty()) {
+        trace.emplace(options.trace, problem.used);
+        trace->write(header_line(options, problem, horizon));
+        sink = [&](const std::string& lines) {
+            trace->write(lines);
+        };
+    }
+    RolloutOptions rollout_options = options.rollouts;
+    rollout_options.memory_limit = files.memory_limit;
+    const Rollouts rollouts =
+        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
+    if (trace) trace->finish();
+    if (rollouts.missing_threads > 0)
+        tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,
+             rollouts.threads + rollouts.missing_threads);
+
+    const Summary summary = summarise(rollouts);
+    ViolationExplainer explainer(problem.files, options.load);
+    if (const auto& first = rollouts.first_illegal_action)
+        report_illegal_action(*first, summary.illegal_actions, options.rollouts.preconditions,
+                              explainer);
+    if (options.json)
+        print_json(options, summary, rollouts, problem, explainer);
+    else if (!options.quiet && options.trace != "-")
+        print_summary(options, summary, rollouts, problem, explainer);
+    if (!is_interrupted()) return summary.refused > 0 ? diagnosed : success;
+    tell("rddl: interrupted after {} of {} episodes\n", summary.episodes,
+         options.rollouts.episodes);
+    return interrupted;
+}
+
+}  // namespace
+
+Command run_command() {
+    const auto options = std::make_shared<RunOptions>();
+    Command command;
+    command.name = "run";
+    command.summary = "Run whole episodes and summarise their returns";
+    command.details =
+        "Episode number e is environment e of the seed: its course does not depend on how many\n"
+        "episodes run, in which batches or on how many threads.\n\n"
+        "A random action that violates a precondition is repaired: values chosen at random fall "
+        "back\n"
+        "to their default until it is legal. If not even the default action is, some more actions\n"
+        "are tried, then the default action is taken and counted as illegal.\n\n"
+        "Examples:\n"
+        "  rddl run domain.rddl instance.rddl --episodes 1000\n"
+        "  rddl run MountainCar_ippc2023 1 --policy noop --json\n"
+        "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
+        "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl";
+    add_problem_arguments(command, options->problem);
+    add_option(command, "--policy", "POLICY",
+               "random (default): legal random actions; noop: default actions; rddl: the policy "
+               "block of the problem; FILE: the policy block in it",
+               [options](const std::string& name) { choose_policy(*options, name); });
+    RolloutOptions& rollouts = options->rollouts;
+    add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
+                                    1, 100'000'000);
+    add_seed_option(command, rollouts.seed, "Seed of all random numbers (0)");
+    add_horizon_option(command, rollouts.horizon,
+                       "Steps an episode; 0: no horizon (the instance's)");
+    add_number_option(command, "--threads", "T", "Threads (one per core)", rollouts.threads, 1,
+                      most_threads);
+    add_number_option<std::int64_t>(command, "--batch", "B",
+                                    "Episodes that a thread steps together", rollouts.batch, 1,
+                                    largest_batch);
+    add_preconditions_option(command, rollouts.preconditions);
+    add_engine_options(command, options->load);
+    add_text_option(command, "--trace", "FILE", "Write every step as a line of JSON; - is stdout",
+                    options->trace);
+    add_flag(command, "--json", "Print the summary as JSON", options->json);
+    add_flag(command, "--quiet", "Print neither progress nor summary", options->quiet);
+    command.run = [options] {
+        options->load.quiet = options->quiet;
+        return run(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,97 @@
+#include "formats/trace.hpp"
+
+#include "cache/sha256.hpp"
+#include "driver/version.hpp"
+#include "engines/faults.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace rddlc::cli {
+
+std::string trace_header_line(const TraceHeader& header, const rddl_problem& problem) {
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const auto& path : header.files)
+        files.push_back({{"path", path.string()}, {"sha256", sha256_of_file(path)}});
+    const nlohmann::ordered_json line{{"rddl_trace", 1},
+                                      {"rddlc", version},
+                                      {"problem", header.problem},
+                                      {"domain", problem.domain},
+                                      {"instance", problem.instance},
+                                      {"files", files},
+                                      {"policy", header.policy},
+                                      {"engine", header.engine},
+                                      {"seed", header.seed},
+                                      {"episodes", header.episodes},
+                                      {"horizon", header.horizon},
+                                      {"discount", problem.discount}};
+    return line.dump() + '\n';
+}
+
+std::string causes_json(std::uint8_t causes) {
+    std::string out;
+    const auto add = [&](int bit, const char* name) {
+        if (causes & bit) out += (out.empty() ? "\"" : ",\"") + std::string(name) + '"';
+    };
+    add(RDDL_TERMINATED, "terminated");
+    add(RDDL_TRUNCATED_HORIZON, "horizon");
+    add(RDDL_TRUNCATED_INVARIANT, "invariant");
+    add(RDDL_FAULTED, "fault");
+    return '[' + out + ']';
+}
+
+TraceLines::TraceLines(const rddl_simulator& simulator, const TraceFormat& format,
+                       std::int64_t environments)
+    : simulator_(simulator),
+      format_(format),
+      states_(static_cast<std::size_t>(environments) * format_.state.size()),
+      next_states_(states_.size()),
+      observations_(static_cast<std::size_t>(environments) * format_.observation.size()),
+      lines_(static_cast<std::size_t>(environments)) {}
+
+void TraceLines::before_step(const rddl_batch& batch) {
+    simulator_.get_state(&batch, 0, static_cast<std::int64_t>(lines_.size()), states_.data());
+}
+
+void TraceLines::after_step(const rddl_batch& batch) {
+    batch_ = &batch;
+    const auto count = static_cast<std::int64_t>(lines_.size());
+    simulator_.get_state(&batch, 0, count, next_states_.data());
+    if (simulator_.problem->partially_observed)
+        simulator_.get_observation(&batch, 0, count, observations_.data());
+}
+
+void TraceLines::add(std::size_t i, std::int64_t episode, std::int64_t step,
+                     const std::byte* action, double reward, std::uint8_t causes) {
+    std::string& line = lines_[i];
+    line += fmt::format(R"({{"episode":{},"step":{},"state":)", episode, step);
+    format_.state.write(line, states_.data() + i * format_.state.size());
+    line += R"(,"action":)";
+    format_.action.write_changes(line, action,
+                                 static_cast<const std::byte*>(simulator_.problem->default_action));
+    line += R"(,"reward":)";
+    write_real(line, reward);
+    line += R"(,"next_state":)";
+    format_.state.write(line, next_states_.data() + i * format_.state.size());
+    line += R"(,"observation":)";
+    if (simulator_.problem->partially_observed)
+        format_.observation.write(line, observations_.data() + i * format_.observation.size());
+    else
+        line += "null";
+    line += fmt::format(R"(,"terminated":{},"truncated":{},"causes":{})",
+                        (causes & RDDL_TERMINATED) != 0, (causes & ~RDDL_TERMINATED) != 0,
+                        causes_json(causes));
+    if (causes & RDDL_FAULTED) {
+        line += R"(,"fault":)";
+        write_string(line, fault_text(simulator_, *batch_, static_cast<std::int64_t>(i)));
+    }
+    line += "}\n";
+}
+
+std::string TraceLines::text() const {
+    std::string all;
+    for (const std::string& lines : lines_) all += lines;
+    return all;
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,59 @@
+#include "measure/random_course.hpp"
+
+#include "engines/batch.hpp"
+#include "rollouts/random_actions.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace rddlc::cli {
+
+namespace {
+
+constexpr std::int64_t least_steps = 2;
+constexpr std::int64_t most_steps = 2048;
+constexpr std::int64_t most_bytes = 32 << 20;
+
+}  // namespace
+
+rddl_batch_options course_options(std::int64_t environments) {
+    rddl_batch_options options{};
+    options.environment_count = environments;
+    options.thread_count = 1;
+    options.autoreset = RDDL_AUTORESET_SAME_STEP;
+    options.horizon = -1;
+    return options;
+}
+
+RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environments,
+                         double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    const std::int64_t step_bytes = environments * simulator.problem->action_size;
+    const std::int64_t limit =
+        std::clamp(most_bytes / std::max<std::int64_t>(step_bytes, 1), least_steps, most_steps);
+
+    rddl_batch_options options = course_options(environments);
+    options.thread_count = 0;
+    const Batch batch = create_batch(simulator, options);
+    RandomPolicy policy(*simulator.problem, 0);
+    RandomActions random(simulator, policy, environments);
+    const rddl_transition nothing{};
+
+    RandomCourse course{environments, 0, {}};
+    while (course.steps < limit &&
+           (course.steps < least_steps || (Clock::now() < end && !is_interrupted()))) {
+        const std::size_t used = course.actions.size();
+        course.actions.resize(used + static_cast<std::size_t>(step_bytes));
+        random.draw(
+            batch.get(), course.actions.data() + used, [](std::size_t) { return true; },
+            [](std::size_t i) { return static_cast<std::int64_t>(i); },
+            [&](std::size_t) { return course.steps; });
+        simulator.step(batch.get(), course.actions.data() + used, &nothing);
+        ++course.steps;
+    }
+    return course;
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,48 @@
+#include "problems/front_end.hpp"
+
+#include "support/failure.hpp"
+#include "support/program.hpp"
+#include "support/render.hpp"
+#include "terminal/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace rddlc::cli {
+
+Compilation compile_problem(const ProblemFiles& files, Stage last,
+                            const std::vector<std::filesystem::path>& extern_headers,
+                            const PassOptions& passes, RealType real) {
+    CompileOptions options;
+    options.inputs = files.all();
+    options.extern_headers = extern_headers;
+    options.stop_after = last;
+    options.standard = files.standard;
+    options.passes = passes;
+    options.real = real;
+    options.memory_limit = files.memory_limit;
+    return compile(options);
+}
+
+void print_diagnostics(const Compilation& compilation) {
+    RenderOptions options;
+    options.color = is_terminal(2);
+    tell(render(compilation.diagnostics, compilation.sources, options));
+}
+
+Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
+                               const std::vector<std::filesystem::path>& extern_headers,
+                               const PassOptions& passes, RealType real) {
+    Compilation compilation = compile_problem(files, last, extern_headers, passes, real);
+    give_up_on_errors(compilation);
+    return compilation;
+}
+
+void give_up_on_errors(const Compilation& compilation) {
+    if (!compilation.diagnostics.has_errors()) return;
+    print_diagnostics(compilation);
+    throw Diagnosed{};
+}
+
+}  // namespace rddlc::cli

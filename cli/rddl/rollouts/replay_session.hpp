@@ -1,0 +1,87 @@
+// Answers the lines of `rddl replay` (docs/traces.md), one environment behind them.
+#pragma once
+
+#include "engines/batch.hpp"
+#include "formats/records_json.hpp"
+#include "rollouts/violations.hpp"
+
+#include <rddl/simulator.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddlc::cli {
+
+struct ReplayOptions {
+    std::optional<std::uint64_t> seed = {};  // else that of the trace, else 0
+    std::optional<std::int64_t> horizon =
+        {};  // else that of the trace, else the instance's; 0: none
+    Preconditions preconditions = Preconditions::Ignore;
+    // Tells what is wrong, in one line; called for each violated precondition.
+    std::function<std::string(const Violation&)> explain = {};
+};
+
+class ReplaySession {
+  public:
+    // `simulator` must outlive the session.
+    ReplaySession(const rddl_simulator& simulator, ReplayOptions options);
+
+    // The answer with its line break; empty for blank lines and a trace's header.
+    std::string answer(std::string_view line);
+
+  private:
+    using Record = std::vector<std::byte>;
+
+    // What a line asks for, checked.
+    struct Request {
+        std::optional<std::int64_t> environment;  // to start an episode of
+        bool reset = false;                       // start another episode of the same one
+        bool steps = true;
+        std::optional<Record> state;
+        Record action;
+        std::optional<std::int64_t> samples;
+    };
+
+    std::string answer_object(const nlohmann::json& line);
+    void read_header(const nlohmann::json& header);
+    Request read_request(const nlohmann::json& line) const;
+    Record read_state(const nlohmann::json& values, bool fresh) const;
+    Record read_action(const nlohmann::json& values) const;
+
+    Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
+    void prepare(const Request& request);
+    void require_running() const;
+    // Empty if the action is legal, else what is wrong; may replace it.
+    std::string check_preconditions(Record& action) const;
+    std::string explain(std::int32_t precondition, const Record& action) const;
+
+    std::string describe_start() const;
+    std::string step(const Record& action);
+    std::string sample(const Record& action, std::int64_t count);
+    void add_samples(std::string& out, const Record& action, std::int64_t count);
+    void write_outcome(std::string& out, const rddl_batch& batch, std::int64_t place, double reward,
+                       std::uint8_t causes) const;
+
+    std::uint8_t causes() const;
+    Record state() const;
+
+    const rddl_simulator& simulator_;
+    const rddl_problem& problem_;
+    ReplayOptions options_;
+    std::uint64_t seed_;
+    std::int64_t horizon_;  // in force; 0: none
+    RecordLayout state_layout_, action_layout_, observation_layout_;
+    std::int64_t environment_ = 0;  // identity of the one that is stepped
+    std::int64_t next_sample_;      // identity of the next environment that draws a sample
+    Batch batch_;
+    Record initial_state_;
+};
+
+}  // namespace rddlc::cli
