@@ -15,7 +15,7 @@ install_packages "${build_packages[@]}" "${test_packages[@]}"
     --requirement tests/conformance/requirements.txt
 
 step "2/4 build"
-cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON
+cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON
 cmake --build build
 
 step "3/4 build with sanitizers"
