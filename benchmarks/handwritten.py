@@ -78,7 +78,8 @@ def build_references(options: argparse.Namespace) -> Path:
     options.folder.mkdir(parents=True, exist_ok=True)
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
     program = options.folder / "handwritten"
-    measuring = ("interrupt", "measurement", "random_course", "random_policy", "records_json")
+    measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "rollouts/random_policy",
+                 "formats/records_json")
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler"]
     libraries = [options.build / "compiler/support/librddlc_support.a", "-lfmt", "-ldl", "-pthread"]

@@ -1,8 +1,8 @@
 // Whether two simulators of one problem tell the same.
 #pragma once
 
-#include "batch.hpp"
-#include "random_course.hpp"
+#include "engines/batch.hpp"
+#include "measure/random_course.hpp"
 
 #include <rddl/simulator.h>
 

@@ -7,7 +7,7 @@
 // inflate. NAME is the name of the problem.
 #include "agreement.hpp"
 #include "cart_pole.hpp"
-#include "measurement.hpp"
+#include "measure/measurement.hpp"
 #include "mountain_car.hpp"
 #include "pendulum.hpp"
 #include "reservoir.hpp"

@@ -395,7 +395,7 @@ Spelled Expressions::spell(const ir::Node&, const ir::Load& load) {
         return {"rddl::at_own(" + text + ", " + several_->objects + ", " + arguments(load.indices) +
                     ")",
                 Level::Primary};
-    for (; next != load.indices.end() && unit_.facts_of(*next).uniform; ++next) {
+    for (; next != load.indices.end() && unit_.is_uniform(*next); ++next) {
         text += "[" + index(*next).text + "]";
     }
     if (next == load.indices.end()) return {text, Level::Primary};
@@ -408,7 +408,7 @@ bool Expressions::is_plain_index(ir::NodeId id) const {
     const ir::Node& node = unit_.program[id];
     if (named_.contains(id) || std::holds_alternative<ir::Index>(node.form)) return true;
     if (std::holds_alternative<ir::Constant>(node.form)) return true;
-    if (std::holds_alternative<ir::Load>(node.form)) return unit_.facts_of(id).uniform;
+    if (std::holds_alternative<ir::Load>(node.form)) return unit_.is_uniform(id);
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     return apply && (apply->op == Operator::Add || apply->op == Operator::Multiply) &&
            std::ranges::all_of(apply->operands,

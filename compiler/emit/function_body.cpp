@@ -30,7 +30,7 @@ bool is_binder(const ir::Node& node) {
 // Spelled by names alone; other elements than those at loop indices take a call.
 bool is_leaf(const Unit& unit, ir::NodeId id) {
     const auto is_uniform = [&](ir::NodeId index) {
-        return unit.facts_of(index).uniform;
+        return unit.is_uniform(index);
     };
     return match(
         unit.program[id].form, [](const ir::Constant&) { return true; },
@@ -100,22 +100,6 @@ std::string_view wish_for(const ir::Node& node) {
             break;
     }
     return "term";
-}
-
-// The same in all lanes, and spelled so: made of loop indices, constants and entries of constant
-// tables by operators alone.
-bool is_index_arithmetic(const Unit& unit, ir::NodeId id) {
-    const auto are_all = [&](const std::vector<ir::NodeId>& parts) {
-        return std::ranges::all_of(
-            parts, [&](ir::NodeId part) { return is_index_arithmetic(unit, part); });
-    };
-    const ir::Node& node = unit.program[id];
-    if (node.type != ir::Scalar::Int) return false;
-    return match(
-        node.form, [](const ir::Index&) { return true; }, [](const ir::Constant&) { return true; },
-        [&](const ir::Load& load) { return unit.facts_of(id).uniform && are_all(load.indices); },
-        [&](const ir::Apply& apply) { return !apply.place && are_all(apply.operands); },
-        [](const auto&) { return false; });
 }
 
 }  // namespace
@@ -268,7 +252,7 @@ bool FunctionBody::name_longest_part(ir::NodeId id) {
     std::vector<std::size_t> lengths;
     for (const ir::NodeId& part : parts) {
         const bool has_name = expressions_.is_named(part) || is_leaf(expressions_.unit(), part) ||
-                              is_index_arithmetic(expressions_.unit(), part);
+                              expressions_.unit().is_uniform(part);
         lengths.push_back(has_name ? 0 : length_within(part, longest_compared));
     }
     const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);
@@ -303,7 +287,7 @@ void FunctionBody::prepare_declaration(ir::NodeId id) {
 
 std::string FunctionBody::type_in_declaration(ir::NodeId id) {
     if (expressions_.is_over_several()) return "const auto ";
-    const bool is_index = is_index_arithmetic(expressions_.unit(), id);
+    const bool is_index = expressions_.unit().is_uniform(id);
     return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type)) + " ";
 }
 

@@ -20,9 +20,14 @@ struct Unit {
     const EmitOptions& options;
     Names names;
     std::vector<ir::Facts> facts;       // by NodeId
+    std::vector<bool> uniform_ints;     // by NodeId; is_uniform tells
     std::vector<bool> contains_branch;  // by NodeId: it is a lazy select, or has one inside
 
     const ir::Facts& facts_of(ir::NodeId id) const { return facts[id.index]; }
+
+    // An int that is spelled as one, not as one for each lane: made of loop indices, constants and
+    // entries of constant tables by operators alone. It may stand in array[i], and number a place.
+    bool is_uniform(ir::NodeId id) const { return uniform_ints[id.index]; }
 
     // The else-branch or the then-branch must not be evaluated unless taken.
     bool is_lazy(const ir::Select& select) const;

@@ -13,14 +13,15 @@
 namespace rddlc {
 namespace {
 
-std::string emitted(const std::string& text, const EmitOptions& options = {}) {
+std::string emitted(const std::string& text, const EmitOptions& options = {},
+                    const PassOptions& passes = {}) {
     Sources sources;
     Diagnostics diagnostics;
     const FileId file = sources.add("problem.rddl", text);
     const ast::Program tree = parse(sources, std::array{file}, diagnostics);
     const auto model = check(tree, sources, diagnostics);
     if (!model) throw std::logic_error(diagnostics.all().front().message);
-    return emit(optimise(ground(*model, diagnostics).value()), sources, options);
+    return emit(optimise(ground(*model, diagnostics).value(), passes), sources, options);
 }
 
 // A problem over `count` objects whose non-fluent W has a different value for each.
@@ -162,6 +163,18 @@ TEST(EmittedText, ManagesLongAndDeepExpressions) {
     text.replace(text.find("on'(?o)"), 0, "up' = ~up;\n");
     const std::string result = emitted(text);
     EXPECT_LT(result.size(), 1'000'000u);
+}
+
+// Packs compute an argmin in each lane, even if only constants decide it: it is no index in
+// brackets.
+TEST(EmittedText, IndexesByLanesWhatAnAggregationChooses) {
+    std::string text = problem(9);
+    text.replace(text.find("sum_"), 4, "W(argmin_{?c : o} [W(?c)]) + sum_");
+    PassOptions passes;
+    for (const PassDescription& pass : all_passes()) passes.without.emplace(pass.name);
+    const std::string result = emitted(text, {}, passes);
+    EXPECT_EQ(count(result, "rddl::at(W_, best)"), 1u) << functions(result);
+    EXPECT_EQ(count(result, "W_[best]"), 0u);
 }
 
 }  // namespace
