@@ -74,7 +74,9 @@ constexpr float to_float(std::int64_t a) {
 // Truncates; nan and what int cannot hold give the least int, as the conversion of x86 does.
 constexpr std::int64_t truncate_to_int(double a) {
 #if defined(__SSE2__) && defined(__x86_64__)
-    if (!std::is_constant_evaluated()) return _mm_cvttsd_si64(_mm_set_sd(a));
+    // g++ takes the greatest int for a number too great that it knows, not what the processor
+    // gives.
+    if (!std::is_constant_evaluated()) return _mm_cvttsd_si64(_mm_set_sd(unknown(a)));
 #endif
     constexpr double limit = 0x1p63;
     return a >= -limit && a < limit ? static_cast<std::int64_t>(a)

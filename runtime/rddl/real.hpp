@@ -55,7 +55,11 @@ constexpr float to_float(double a) {
 // The same number, which the C++ compiler does not know: functions of numbers that it knows are
 // computed by it, exactly, and not as the mathematical library does.
 inline double unknown(double a) {
+#ifdef __SSE2__
+    asm("" : "+x"(a));
+#else
     asm("" : "+m"(a));
+#endif
     return a;
 }
 

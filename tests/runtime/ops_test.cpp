@@ -105,6 +105,16 @@ TEST(Rounding, OfWhatDoesNotFitIsTheLeastInt) {
     EXPECT_EQ(round(0x1p63 - 1024), greatest - 1023);
 }
 
+// Known to the C++ compiler, or not.
+TEST(Rounding, OfAConstantIsThatOfAVariable) {
+    constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+    EXPECT_EQ(floor(1e19), least);
+    EXPECT_EQ(ceil(-1e300), least);
+    EXPECT_EQ(round(std::numeric_limits<double>::infinity()), least);
+    EXPECT_EQ(floor(std::nan("")), least);
+    EXPECT_EQ(floor(-2.5), -3);
+}
+
 TEST(Rounding, AsRealIsTheRealOfTheInt) {
     for (const double a : {0.0, -0.0, -0.3, 0.3, 2.5, -2.5, 0x1p62, 0x1p63, -0x1p63, -0x1.1p63,
                            0x1p80, infinity, -infinity, nan}) {
