@@ -11,7 +11,10 @@
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
 #   OPTIONS            more options for rddlc, such as -Werror
 #
-# A static library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
+# A static library is compiled for speed in any build type; a header takes the flags of those who include
+# it, and wants -O3. The library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
+include(${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake)
+
 function(rddl_add_simulator target)
   cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;POLICY;NAME" "EXTERN;OPTIONS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
@@ -55,8 +58,11 @@ function(rddl_add_simulator target)
     add_library(${target} INTERFACE ${output})
     target_include_directories(${target} INTERFACE ${folder})
     target_link_libraries(${target} INTERFACE rddlc::runtime)
+    rddl_add_needed_flags(${target} INTERFACE)
   else()
     add_library(${target} STATIC ${output})
     target_link_libraries(${target} PUBLIC rddlc::runtime)
+    rddl_add_needed_flags(${target} PRIVATE)
+    rddl_add_fast_flags(${target})
   endif()
 endfunction()

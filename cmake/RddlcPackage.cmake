@@ -14,4 +14,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/rddlcConfig.cmake
               ${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlAddSimulator.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake
         DESTINATION ${package_folder} COMPONENT rddlc)

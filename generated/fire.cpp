@@ -5,8 +5,8 @@
 //     sources   examples/fire/domain.rddl
 //               examples/fire/instance.rddl
 //
-// Use: compile with -std=c++20 -O2 -ffp-contract=off and rddlc's include folder. Link it and call
-// the extern "C" function
+// Use: compile with -std=c++20 -O3 -ffp-contract=off, with g++ -fno-tree-loop-distribute-patterns,
+// too, and rddlc's include folder. Link it and call the extern "C" function
 //
 //     rddl_simulator_fire_fire_1
 //

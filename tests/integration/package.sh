@@ -13,6 +13,9 @@ trap 'rm -rf "$work"' EXIT
 "$work/project/linked" | diff "$expected" -
 "$work/project/included" | diff "$expected" -
 
+# The project names no build type: its simulator is compiled for speed all the same, and rightly.
+for flag in -O3 -ffp-contract=off; do grep -q -e "$flag" "$work/project/build.ninja"; done
+
 # The installed program finds the installed headers.
 unset RDDLC_INCLUDE
 "$work/installed/bin/rddlc" "$source/problem.rddl" --extern "$source/functions.hpp" -o "$work/tank.so"
