@@ -44,10 +44,16 @@ class PassChecker:
             self.process = subprocess.Popen(
                 [self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
             )
-        self.process.stdin.write(json.dumps(request) + "\n")
-        self.process.stdin.flush()
-        line = self.process.stdout.readline()
+        line = self.line_for(request)
         return answer_of(json.loads(line)) if line else self.end_of_process()
+
+    def line_for(self, request: dict) -> str:
+        """Empty if the process ended, before the request or while it worked."""
+        try:
+            print(json.dumps(request), file=self.process.stdin, flush=True)
+        except BrokenPipeError:
+            return ""
+        return self.process.stdout.readline()
 
     def end_of_process(self) -> Answer:
         _, errors = self.process.communicate()
