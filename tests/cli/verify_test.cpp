@@ -1,8 +1,8 @@
 // What `rddl verify` compares, and whom it blames: with programs and engines that are altered on
 // purpose.
-#include "verify/difference_place.hpp"
 #include "engines/interpreted_simulator.hpp"
 #include "support/files.hpp"
+#include "verify/difference_place.hpp"
 #include "verify/verdict.hpp"
 #include "verify/verified_problem.hpp"
 #include "verify/verified_states.hpp"
@@ -105,12 +105,17 @@ void plant_wrong_pass(VerifiedProblem& problem, const ir::Program& wrong) {
     };
 }
 
-VerifyReport report_of(const VerifiedProblem& problem, const OutcomeComparison& comparison) {
-    VerifyReport report{problem, comparison, "P", 0, {}, {}, {}};
-    report.walk = walk_in_step(problem.engines, comparison, short_walk(problem));
+VerifyReport report_of(const VerifiedProblem& problem, const OutcomeComparison& comparison,
+                       const WalkOptions& options) {
+    VerifyReport report{problem, comparison, "P", options.seed, {}, {}, {}};
+    report.walk = walk_in_step(problem.engines, comparison, options);
     if (report.walk.disagreement)
-        report.verdict = judge(problem, comparison, *report.walk.disagreement, 0);
+        report.verdict = judge(problem, comparison, *report.walk.disagreement, options.seed);
     return report;
+}
+
+VerifyReport report_of(const VerifiedProblem& problem, const OutcomeComparison& comparison) {
+    return report_of(problem, comparison, short_walk(problem));
 }
 
 void expect_part(const std::string& text, const std::string& part) {
@@ -201,6 +206,24 @@ TEST_F(Verify, NamesTheConditionThatEndsTheEpisode) {
     expect_part(difference_text(report), "turns > 7070;");
 }
 
+TEST_F(Verify, BlamesAPassForWhatThePolicyDoes) {
+    const std::string policy =
+        "policy p { cpfs { pump(?t) = (?t == argmax_{?u : tank} [INFLOW(?u)]) ^ seen > 16.875; }; "
+        "}";
+    VerifiedProblem problem = load(problem_text + policy);
+    plant_wrong_pass(problem, altered(problem.plain, 16.875, 25.0));
+    const OutcomeComparison comparison(problem.description());
+    WalkOptions options = short_walk(problem);
+    options.policy = true;
+    const VerifyReport report = report_of(problem, comparison, options);
+    ASSERT_TRUE(report.walk.disagreement);
+    EXPECT_EQ(report.walk.disagreement->difference.what, Shown::Action);
+    EXPECT_EQ(report.verdict->pass, "wrong");
+    const std::string text = difference_text(report);
+    expect_part(text, "the engines differ in pump(");
+    expect_part(text, "pump(?t) = (?t == argmax_{?u : tank} [INFLOW(?u)]) ^ seen > 16.875;");
+}
+
 TEST_F(Verify, TellsOfAPassThatMakesNoValidProgram) {
     VerifiedProblem problem = load();
     const Pipeline pipeline = [](ir::Program plain, const TellProgram& tell) {
@@ -218,21 +241,56 @@ TEST_F(Verify, TellsOfAPassThatMakesNoValidProgram) {
 
 // ----------------------------------------------------------------------------------- wrong engine
 
-TEST_F(Verify, BlamesTheEmittedCodeIfTheInterpreterAgrees) {
-    VerifiedProblem problem = load();
-    problem.busy_passes.clear();  // there is nothing to compile without
-    problem.engines.push_back({.name = "planted",
-                               .simulator = interpreted(problem, altered(problem.plain, 7.5, 7.25)),
-                               .compiled = true,
-                               .reference = 1});
+// A compiled engine that is wrong as long as a pass runs.
+class WrongCode : public Verify {
+  protected:
+    VerifiedProblem load_wrong(const std::string& pass, std::vector<std::string> busy_passes) {
+        VerifiedProblem problem = load();
+        problem.compile = [&, pass, right = interpreted(problem, problem.plain),
+                           wrong = interpreted(problem, altered(problem.plain, 7.5, 7.25))](
+                              const LoadOptions& options, int) {
+            ++compilations_;
+            return options.passes.without.contains(pass) ? right : wrong;
+        };
+        problem.engines.push_back({.name = "planted",
+                                   .simulator = problem.compile({}, 1),
+                                   .compiled = true,
+                                   .reference = 1});
+        problem.busy_passes = std::move(busy_passes);
+        compilations_ = 0;
+        return problem;
+    }
+
+    int compilations_ = 0;
+};
+
+TEST_F(WrongCode, IsFoundWhereTheInterpreterAgrees) {
+    const VerifiedProblem problem = load_wrong("culprit", {"late", "culprit", "early"});
     const OutcomeComparison comparison(problem.description());
     const VerifyReport report = report_of(problem, comparison);
     ASSERT_TRUE(report.walk.disagreement);
     EXPECT_EQ(report.walk.disagreement->engine, 2u);
     EXPECT_TRUE(report.verdict->emitted_code);
     EXPECT_FALSE(report.verdict->pass);
+    EXPECT_EQ(report.verdict->avoided_by, "culprit");
+    EXPECT_EQ(compilations_, 2) << "one without 'late', one without 'culprit'";
+    const std::string text = difference_text(report);
+    expect_part(text, "the emitted code is to blame");
+    expect_part(text, "note: planted: ");
+    expect_part(text, "--without=culprit");
+    EXPECT_EQ(text.find("--without=late"), std::string::npos);
+}
+
+TEST_F(WrongCode, IsToldWhereNoPassAvoidsIt) {
+    const VerifiedProblem problem = load_wrong("none of these", {"late", "early"});
+    const OutcomeComparison comparison(problem.description());
+    const VerifyReport report = report_of(problem, comparison);
+    ASSERT_TRUE(report.verdict);
+    EXPECT_TRUE(report.verdict->emitted_code);
+    EXPECT_FALSE(report.verdict->avoided_by);
+    EXPECT_EQ(compilations_, 2);
     expect_part(difference_text(report), "the emitted code is to blame");
-    expect_part(difference_text(report), "note: planted: ");
+    EXPECT_EQ(difference_text(report).find("--without="), std::string::npos);
 }
 
 TEST_F(Verify, RepeatsAStepWithItsRandomNumbers) {

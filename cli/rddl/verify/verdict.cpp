@@ -35,8 +35,7 @@ std::optional<std::string> find_avoiding_pass(const VerifiedProblem& problem,
         LoadOptions load = problem.load;
         load.passes.without.insert(pass);
         VerifiedEngine other = wrong;
-        other.simulator = compiled_for_verification(problem.files, load,
-                                                    std::max(1, wrong.simulator->lane_count));
+        other.simulator = problem.compile(load, std::max(1, wrong.simulator->lane_count));
         if (agrees(other)) return pass;
     }
     return std::nullopt;

@@ -59,8 +59,26 @@ void add_interpreters(VerifiedProblem& problem) {
                                .tolerance = tolerance});
 }
 
+Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int lanes) {
+    const ExternFiles externs = extern_files(load.externs);
+    CompileOptions options;
+    options.inputs = files.all();
+    options.extern_headers = externs.headers;
+    options.stop_after = Stage::Emit;
+    options.standard = files.standard;
+    options.passes = load.passes;
+    options.lane_count = lanes;
+    const Compilation compilation = compile(options);
+    give_up_on_errors(compilation);
+    // What is compiled once for all simulators has batches of the usual packs.
+    const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
+    return compiled_simulator(compilation.text,
+                              {files.name, load.ignore_cache, load.quiet, externs.headers, usual})
+        .simulator;
+}
+
 void add_compiled(VerifiedProblem& problem, int lanes, bool first) {
-    const Simulator simulator = compiled_for_verification(problem.files, problem.load, lanes);
+    const Simulator simulator = problem.compile(problem.load, lanes);
     const auto add = [&](std::string name, bool one_by_one, int lane_count) {
         problem.engines.push_back(
             {std::move(name), simulator, one_by_one, lane_count, true, optimised, Tolerance{}});
@@ -84,24 +102,6 @@ std::int64_t VerifiedProblem::environments() const {
     return most + 3;
 }
 
-Simulator compiled_for_verification(const ProblemFiles& files, const LoadOptions& load, int lanes) {
-    const ExternFiles externs = extern_files(load.externs);
-    CompileOptions options;
-    options.inputs = files.all();
-    options.extern_headers = externs.headers;
-    options.stop_after = Stage::Emit;
-    options.standard = files.standard;
-    options.passes = load.passes;
-    options.lane_count = lanes;
-    const Compilation compilation = compile(options);
-    give_up_on_errors(compilation);
-    // What is compiled once for all simulators has batches of the usual packs.
-    const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
-    return compiled_simulator(compilation.text,
-                              {files.name, load.ignore_cache, load.quiet, externs.headers, usual})
-        .simulator;
-}
-
 VerifiedProblem load_for_verification(const ProblemFiles& files, const LoadOptions& load,
                                       const EngineChoice& choice) {
     const ExternFiles externs = extern_files(load.externs);
@@ -123,7 +123,8 @@ VerifiedProblem load_for_verification(const ProblemFiles& files, const LoadOptio
                             {},
                             {},
                             {},
-                            {}};
+                            {},
+                            std::bind_front(compiled_with, files)};
     problem.library = external_library(problem.plain, files, load);
     problem.invalid = invalid_program(problem.plain, problem.pipeline);
     if (problem.invalid) return problem;

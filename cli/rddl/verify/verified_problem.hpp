@@ -8,11 +8,15 @@
 #include "verify/blame_pass.hpp"
 #include "verify/verified_engine.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rddlc::cli {
+
+// The compiled simulator of other options, with packs of so many environments.
+using CompileAgain = std::function<Simulator(const LoadOptions& load, int lanes)>;
 
 struct VerifiedProblem {
     ProblemFiles files;
@@ -25,6 +29,7 @@ struct VerifiedProblem {
     std::vector<std::string> rounding;      // those of them that may round reals differently
     std::optional<InvalidProgram> invalid;  // then there are no engines
     std::vector<VerifiedEngine> engines;  // the plain interpreter, the optimised one, compiled ones
+    CompileAgain compile;
 
     const rddl_problem& description() const { return *engines.front().simulator->problem; }
     // So many that packs are filled, and others in part.
@@ -39,8 +44,5 @@ struct EngineChoice {
 // Prints the diagnostics and throws Diagnosed if there are errors.
 VerifiedProblem load_for_verification(const ProblemFiles& files, const LoadOptions& load,
                                       const EngineChoice& choice);
-
-// The compiled simulator of other options.
-Simulator compiled_for_verification(const ProblemFiles& files, const LoadOptions& load, int lanes);
 
 }  // namespace rddlc::cli
