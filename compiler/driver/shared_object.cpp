@@ -65,6 +65,12 @@ std::optional<ProcessResult> run_compiler(const std::vector<std::string>& comman
     return run_process(command, {"LC_ALL=C"});
 }
 
+// Beside this thread if the system has another one, else when the result is asked for. The command
+// is copied: where no thread starts, libstdc++ 12 moves from its arguments a second time.
+std::future<std::optional<ProcessResult>> start_compiler(const std::vector<std::string>& command) {
+    return std::async(run_compiler, command);
+}
+
 // The compiler and what all its calls have in common. What is hidden is called without a detour
 // through a table of the linker; fused multiply-adds would give other last digits than the
 // interpreter.
@@ -156,7 +162,7 @@ std::vector<std::string> part_command(const Part& part, const fs::path& source,
     return command;
 }
 
-// For every instruction set, all at once if there can be threads, and linked. What is not zero is
+// For every instruction set, at once, and linked. What is not zero is
 // the status of one of the compilers.
 std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::path& output) {
     std::vector<std::future<std::optional<ProcessResult>>> running;
@@ -166,7 +172,7 @@ std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::
     for (const Part& part : parts) {
         objects.push_back(output.string() + "." + part.name + ".o");
         linking.push_back(objects.back().string());
-        running.push_back(std::async(run_compiler, part_command(part, source, objects.back())));
+        running.push_back(start_compiler(part_command(part, source, objects.back())));
     }
     std::optional<ProcessResult> result = ProcessResult{};
     for (auto& one : running) {
@@ -240,8 +246,8 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
 
 bool prepare_runtime(const fs::path& folder) {
     const fs::path runtime = runtime_include_folder().value_or("") / "rddl";
-    auto header = std::async(run_compiler,
-                             header_command(runtime / "simulator.hpp", folder / precompiled_name));
+    auto header =
+        start_compiler(header_command(runtime / "simulator.hpp", folder / precompiled_name));
     const auto batches =
         run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name));
     UsedFiles used;

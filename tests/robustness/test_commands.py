@@ -4,6 +4,7 @@ import os
 import resource
 import subprocess
 import unittest
+from pathlib import Path
 
 from commands import (DIAGNOSED, EXAMPLES, RDDL, RDDLC, ROOT, SUCCESS, USAGE, CommandTest,
                       no_disk_space)
@@ -147,6 +148,18 @@ class Blame(CommandTest):
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertEqual(result.status, SUCCESS, result)
         self.assertRegex(result.errors, "the system gives no more than [0-9]+ of 600 threads")
+
+    def test_a_system_without_threads(self):
+        library = os.environ.get("NO_THREADS", Path(RDDLC).parents[1] / "tests/robustness/libno_threads.so")
+        for words in ([RDDLC, *PROBLEM, "-o", "sim.so"],
+                      [RDDL, "run", *PROBLEM, "--episodes=100", "--threads=2"],
+                      [RDDL, "bench", *PROBLEM, "--seconds=0.01", "--threads=2"],
+                      [RDDL, "verify", *PROBLEM, "--steps=100", "--no-pyrddlgym"],
+                      [RDDL, "check", *PROBLEM]):
+            result = self.run_command(*words, environment={
+                "LD_PRELOAD": str(library), "NO_THREADS_OF": Path(words[0]).name,
+                "XDG_CACHE_HOME": str(self.folder / "cache")})
+            self.assertEqual(result.status, SUCCESS, f"{words}\n{result}")
 
     def test_full_standard_streams(self):
         for words in ([RDDLC, "--help"], [RDDL, "--help"], [RDDL, "run", "--help"],
