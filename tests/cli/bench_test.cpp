@@ -47,7 +47,8 @@ void expect_speeds(const json& measurements) {
 }
 
 TEST_F(Bench, TellsAsJson) {
-    const json bench = run_json(std::string(briefly) + "--batch 16,7 --threads 3 --json");
+    const json bench =
+        run_json(std::string(briefly) + "--batch 16,7 --threads 3 --json --no-cache");
     EXPECT_EQ(bench["problem"], "domain.rddl instance.rddl");
     EXPECT_EQ(bench["engine"], "compiled");
     EXPECT_EQ(bench["real"], "double");

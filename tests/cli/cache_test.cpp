@@ -33,7 +33,12 @@ std::ptrdiff_t occurrences(std::string_view part, const std::string& text) {
     return count;
 }
 
-TEST_F(Program, CompilesOnceAndRepairsTheCache) {
+class Cache : public Program {
+  protected:
+    Cache() { use_own_cache(); }
+};
+
+TEST_F(Cache, CompilesOnceAndRepairsTheCache) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet";
     ASSERT_EQ(run(run_it).status, 0);
     const auto kept = shared_objects(cache());
@@ -63,7 +68,7 @@ TEST_F(Program, CompilesOnceAndRepairsTheCache) {
     EXPECT_EQ(shared_objects(cache()).size(), 2u);
 }
 
-TEST_F(Program, PreparesForAllProblemsOnce) {
+TEST_F(Cache, PreparesForAllProblemsOnce) {
     write_file(folder_ / "log.sh", "echo \"$@\" >>log; exec c++ \"$@\"");
     const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
     const std::string compiler = "CXX='sh log.sh'";
@@ -75,7 +80,7 @@ TEST_F(Program, PreparesForAllProblemsOnce) {
     EXPECT_EQ(occurrences("-include", log), 2) << log;
 }
 
-TEST_F(Program, KeepsWhatIsPreparedForTheLatestToolchains) {
+TEST_F(Cache, KeepsWhatIsPreparedForTheLatestToolchains) {
     for (const char* name : {"a", "b", "c", "d"})
         write_file(cache() / "rddlc" / (std::string(name) + ".runtime") / "batches.o", "");
     std::filesystem::permissions(cache() / "rddlc", std::filesystem::perms::owner_all);
@@ -84,7 +89,7 @@ TEST_F(Program, KeepsWhatIsPreparedForTheLatestToolchains) {
     EXPECT_FALSE(std::filesystem::exists(cache() / "rddlc" / "a.runtime"));
 }
 
-TEST_F(Program, CompilesWithoutAPrecompiledHeader) {
+TEST_F(Cache, CompilesWithoutAPrecompiledHeader) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
     // A compiler that makes none is not asked again.
     write_file(folder_ / "log.sh",
@@ -94,7 +99,7 @@ TEST_F(Program, CompilesWithoutAPrecompiledHeader) {
     EXPECT_EQ(occurrences("c++-header", read_file(folder_ / "log")), 1);
 }
 
-TEST_F(Program, RepairsWhatIsLinked) {
+TEST_F(Cache, RepairsWhatIsLinked) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
     ASSERT_EQ(run(run_it).status, 0);
     const auto object = prepared_folders(cache()).at(0) / "batches.o";
@@ -105,7 +110,7 @@ TEST_F(Program, RepairsWhatIsLinked) {
     EXPECT_EQ(read_file(object).size(), intact.size());
 }
 
-TEST_F(Program, RemovesWhatKilledCompilationsLeave) {
+TEST_F(Cache, RemovesWhatKilledCompilationsLeave) {
     const auto left = cache() / "rddlc" / "building-1", used = cache() / "rddlc" / "building-2";
     write_file(left / "runtime" / "simulator.hpp.gch", "large");
     write_file(used / "simulator.cpp", "of a process that is alive");
@@ -118,7 +123,7 @@ TEST_F(Program, RemovesWhatKilledCompilationsLeave) {
     close(lock);
 }
 
-TEST_F(Program, LoadsNothingThatOthersMayHaveWritten) {
+TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
     namespace fs = std::filesystem;
     const std::string run_it = "run domain.rddl instance.rddl --quiet";
     const fs::path folder = cache() / "rddlc";
@@ -148,7 +153,7 @@ TEST_F(Program, LoadsNothingThatOthersMayHaveWritten) {
     EXPECT_NE(outcome.err.find("belongs to another user"), std::string::npos) << outcome.err;
 }
 
-TEST_F(Program, FillsTheCacheInSeveralProcessesAtOnce) {
+TEST_F(Cache, FillsTheCacheInSeveralProcessesAtOnce) {
     const std::string both =
         fmt::format("({0}) & first=$!; ({0}) & second=$!; wait $first && wait $second",
                     command("run domain.rddl instance.rddl --quiet") + " >/dev/null");

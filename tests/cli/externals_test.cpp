@@ -88,6 +88,7 @@ TEST_F(Externals, AreTheSameForBothEngines) {
 }
 
 TEST_F(Externals, AreCompiledAgainWhenTheHeaderOrWhatItIncludesChanges) {
+    use_own_cache();
     for (const std::string engine : {"compiled", "interpreter"}) {
         std::filesystem::remove_all(cache());
         const std::string options = "--extern functions.hpp --engine " + engine;

@@ -1,4 +1,5 @@
-// The rddl program as a user runs it, in a folder of its own with a small problem and a cache.
+// The rddl program as a user runs it, in a folder of its own with a small problem. What it compiles
+// is kept for all tests, but for those of the cache.
 #pragma once
 
 #include <fmt/format.h>
@@ -88,9 +89,11 @@ class Program : public testing::Test {
         return nlohmann::json::parse(outcome.out);
     }
     std::string stderr_file() const { return (folder_ / "stderr").string(); }
-    std::filesystem::path cache() const { return folder_ / "cache"; }
+    const std::filesystem::path& cache() const { return cache_; }
+    void use_own_cache() { cache_ = folder_ / "cache"; }
 
     std::filesystem::path folder_;
+    std::filesystem::path cache_ = RDDL_TEST_CACHE;
 };
 
 }  // namespace rddlc::cli

@@ -1,8 +1,8 @@
 #include "rollouts/rollouts.hpp"
 
 #include "../runtime/tiny_simulator.hpp"
-#include "rollouts/replay_session.hpp"
 #include "formats/trace.hpp"
+#include "rollouts/replay_session.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

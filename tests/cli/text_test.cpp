@@ -1,8 +1,8 @@
 // Tables, numbers and hashes.
-#include "terminal/progress.hpp"
 #include "cache/sha256.hpp"
 #include "formats/statistics.hpp"
 #include "formats/table.hpp"
+#include "terminal/progress.hpp"
 
 #include <gtest/gtest.h>
 

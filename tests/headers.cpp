@@ -1,0 +1,1 @@
+// Nothing: a target has headers precompiled only if it has a file.
