@@ -1,27 +1,33 @@
-# What simulators are compiled with, as far as the compiler takes it: compiler/driver/cpp_compiler.cpp
-# asks for the same flags and says why.
+# What simulators are compiled with, by rddl_add_simulator and by rddlc and rddl at run time
+# (compiler/driver/cpp_compiler.cpp), as far as the compiler takes it. Global, as functions are: who calls
+# rddl_add_simulator may be another folder than the one that includes this.
+
+# For right results in all code that includes the runtime: the same digits as the interpreter's, and no
+# copies of loops over constant tables, in which GCC 12 is wrong (rddl/tables.hpp).
+set_property(GLOBAL PROPERTY RDDL_NEEDED_FLAGS
+  -ffp-contract=off -fno-tree-loop-distribute-patterns)
+
+# For speed. Lanes are vectors already: GCC would put numbers of one environment together as well, which
+# costs more than it gains where they then wait for each other, as in a polynomial. It would keep the
+# coefficients of polynomials that are evaluated twice in registers (gcse), and numbers elsewhere. The
+# body of a loop over several objects stands in two calls (rddl/objects.hpp), which GCC would take for a
+# reason to inline neither.
+set_property(GLOBAL PROPERTY RDDL_FAST_FLAGS
+  -O3 -fno-tree-slp-vectorize -fno-gcse --param=max-inline-insns-single=400)
+
 include(CheckCXXCompilerFlag)
 
-# rddl_add_flags_if_taken(<target> PRIVATE|INTERFACE <flag> ...)
-function(rddl_add_flags_if_taken target visibility)
-  foreach(flag IN LISTS ARGN)
-    string(MAKE_C_IDENTIFIER "RDDL_TAKES_${flag}" taken)
-    set(CMAKE_REQUIRED_QUIET TRUE)
-    check_cxx_compiler_flag("${flag}" ${taken})
-    if(${taken})
-      target_compile_options(${target} ${visibility} ${flag})
-    endif()
+# rddl_add_flags(<target> PRIVATE|INTERFACE RDDL_NEEDED_FLAGS|RDDL_FAST_FLAGS ...)
+function(rddl_add_flags target visibility)
+  set(CMAKE_REQUIRED_QUIET TRUE)
+  foreach(property IN LISTS ARGN)
+    get_property(flags GLOBAL PROPERTY ${property})
+    foreach(flag IN LISTS flags)
+      string(MAKE_C_IDENTIFIER "RDDL_TAKES_${flag}" taken)
+      check_cxx_compiler_flag("${flag}" ${taken})
+      if(${taken})
+        target_compile_options(${target} ${visibility} ${flag})
+      endif()
+    endforeach()
   endforeach()
-endfunction()
-
-# For right results in all code that includes the runtime.
-function(rddl_add_needed_flags target visibility)
-  rddl_add_flags_if_taken(${target} ${visibility}
-    -ffp-contract=off -fno-tree-loop-distribute-patterns)
-endfunction()
-
-# For speed, whatever the build type.
-function(rddl_add_fast_flags target)
-  rddl_add_flags_if_taken(${target} PRIVATE
-    -O3 -fno-tree-slp-vectorize -fno-gcse --param=max-inline-insns-single=400)
 endfunction()

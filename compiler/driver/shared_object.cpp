@@ -72,14 +72,12 @@ std::future<std::optional<ProcessResult>> start_compiler(const std::vector<std::
 }
 
 // The compiler and what all its calls have in common. What is hidden is called without a detour
-// through a table of the linker; fused multiply-adds would give other last digits than the
-// interpreter.
+// through a table of the linker.
 std::vector<std::string> compiler_command(Processors processors) {
     std::vector<std::string> command = cpp_compiler();
-    const std::vector<std::string> faster = optional_flags(command);
-    command.insert(command.end(),
-                   {"-std=c++20", "-O3", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off"});
-    command.insert(command.end(), faster.begin(), faster.end());
+    const std::vector<std::string> flags = simulator_flags(command);
+    command.insert(command.end(), {"-std=c++20", "-fPIC", "-fvisibility=hidden"});
+    command.insert(command.end(), flags.begin(), flags.end());
     const char* const level = processors == Processors::LikeThis ? processor_level() : nullptr;
     if (level) command.push_back("-march=" + std::string(level));
     if (const auto folder = runtime_include_folder()) command.push_back("-I" + folder->string());

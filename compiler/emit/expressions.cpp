@@ -53,7 +53,8 @@ const Expressions::SeveralObjects& Expressions::enter(ir::Nest nest) {
     std::string wish;
     for (const ir::VariableId variable : nest.variables)
         wish += (wish.empty() ? "" : "_") + unit_.program[variable].name;
-    return several_.emplace(std::move(nest), scope_.claim("several"), scope_.claim(wish));
+    several_ = {std::move(nest), scope_.claim("several"), scope_.claim(wish)};
+    return *several_;
 }
 
 void Expressions::name(ir::NodeId id, const std::string& name) {

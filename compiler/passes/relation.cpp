@@ -36,9 +36,9 @@ std::vector<Axis> chained(std::vector<Axis> first, const std::vector<Axis>& last
 }
 
 void sort_tuples(Relation& relation) {
-    std::ranges::sort(relation.tuples);
-    const auto repeated = std::ranges::unique(relation.tuples);
-    relation.tuples.erase(repeated.begin(), repeated.end());
+    auto& tuples = relation.tuples;
+    std::ranges::sort(tuples);
+    tuples.erase(std::unique(tuples.begin(), tuples.end()), tuples.end());
 }
 
 // Every tuple with all values of the axes that it lacks.

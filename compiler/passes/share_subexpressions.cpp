@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -171,7 +170,8 @@ class Sharing {
             return bound_.contains(id);
         };
         std::set<ir::NodeId> reads_stored, fixed;
-        for (const auto& [id, use] : std::views::reverse(uses)) {
+        for (auto use = uses.rbegin(); use != uses.rend(); ++use) {
+            const ir::NodeId id = use->first;
             const ir::Node& node = program_[id];
             const auto buffer = ir::buffer_read_by(node);
             const auto reads = [&](ir::NodeId operand) {

@@ -59,8 +59,8 @@ TEST_F(SharedObject, passes_no_flag_that_the_compiler_does_not_take) {
                                "done\n"
                                "exec c++ \"$@\"\n";
     fs::permissions(compiler, fs::perms::owner_all);
-    const std::vector<std::string> some = optional_flags({compiler.string()});
-    const std::vector<std::string> all = optional_flags({folder_ / "no-compiler"});
+    const std::vector<std::string> some = simulator_flags({compiler.string()});
+    const std::vector<std::string> all = simulator_flags({folder_ / "no-compiler"});
     EXPECT_TRUE(std::ranges::count(all, "-fno-gcse"));
     EXPECT_FALSE(std::ranges::count(some, "-fno-gcse"));
     EXPECT_LE(some.size(), all.size() - 1);
