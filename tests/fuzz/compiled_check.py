@@ -8,7 +8,7 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from passes_check import Finding
+from passes_check import Finding, is_contradictory
 from rddl_problem import Problem
 
 LEVELS = ("x86-64", "x86-64-v3", "x86-64-v4")  # SSE2, AVX2, AVX-512
@@ -28,11 +28,15 @@ class CompiledChecker:
     def check(self, problems: dict[int, Problem], counts: Counter) -> dict[int, Finding]:
         """What is wrong, by seed."""
         with tempfile.TemporaryDirectory(prefix="fuzz-") as name:
-            folder, found = Path(name), {}
+            folder, found, good = Path(name), {}, []
             for seed, problem in problems.items():
-                if text := self.emit(seed, problem, folder):
+                text = self.emit(seed, problem, folder)
+                if is_contradictory(text):
+                    counts["contradictory"] += 1
+                elif text:
                     found[seed] = Finding("emission fails", text)
-            good = [seed for seed in problems if seed not in found]
+                else:
+                    good.append(seed)
             errors = self.compile(good, folder)
             if errors and len(good) == 1:
                 found[good[0]] = Finding("compilation fails", errors)

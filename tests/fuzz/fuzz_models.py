@@ -37,6 +37,7 @@ from reduce import reduce
 FLAVOURS = ("plain", "random", "wild", "finite", "wild")  # by seed
 ONE_IN = 20  # problems that pass through all stages, printing and emitting included
 BATCHES = {"passes": 100, "compiled": 12, "reference": 10}
+OUTCOMES = "accepted", "too large", "contradictory", "rejected", "crashed"
 KEPT = 3  # failures of one kind that are reduced
 
 
@@ -194,7 +195,7 @@ class Run:
         if self.mode == "reference":
             text += f"{counts['steps']} steps, {counts['values']} values, {counts['refused']} steps refused; "
         else:
-            text += ", ".join(f"{counts[o]} {o}" for o in ("accepted", "too large", "rejected", "crashed") if counts[o]) + "; "
+            text += ", ".join(f"{counts[o]} {o}" for o in OUTCOMES if counts[o]) + "; "
         return text + f"{len(self.result.failures)} differ" + self.table()
 
     def table(self) -> str:

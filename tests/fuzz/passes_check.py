@@ -1,6 +1,7 @@
 """Asks fuzz_passes whether the passes keep their contracts on a problem (contracts.hpp)."""
 
 import json
+import re
 import signal
 import subprocess
 from dataclasses import dataclass, field
@@ -21,7 +22,7 @@ class Finding:
 
 @dataclass
 class Answer:
-    outcome: str  # accepted, too large, rejected, crashed
+    outcome: str  # accepted, too large, contradictory, rejected, crashed
     changed: dict[str, int] = field(default_factory=dict)  # runs of passes that changed something
     findings: list[Finding] = field(default_factory=list)
 
@@ -68,7 +69,14 @@ class PassChecker:
             self.process.wait()
 
 
+def is_contradictory(diagnostics: str) -> bool:
+    """Whether all that is wrong is that constraints of a fluent's values exclude each other, as drawn ones may."""
+    return set(re.findall(r" error: .* \[(E[0-9]+)\]", diagnostics)) == {"E0602"}
+
+
 def answer_of(answer: dict) -> Answer:
+    if is_contradictory(answer["error"]):
+        return Answer("contradictory")
     findings = [Finding(kind_of(b["pass"], b["text"]), f"{b['pass']}: {b['text']}") for b in answer["breaches"]]
     if answer["error"]:
         kind = "rejected" if answer["outcome"] == "rejected" else "internal error"

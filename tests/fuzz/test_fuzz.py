@@ -84,6 +84,18 @@ class OfPasses(unittest.TestCase):
         self.assertEqual(self.checker.ask({"text": "domain"}).outcome, "crashed")
         self.assertEqual(self.checker.ask({"text": "domain"}).outcome, "rejected")
 
+    def test_knows_constraints_that_exclude_each_other(self):
+        text = """domain d {
+            pvariables { x : { state-fluent, real, default = 0.0 }; };
+            cpfs { x' = x; };
+            reward = x;
+            state-invariants { x >= 2; x <= MOST; };
+        }
+        non-fluents n { domain = d; }
+        instance i { domain = d; non-fluents = n; horizon = 3; discount = 1.0; }"""
+        for most, outcome in ("3", "accepted"), ("1", "contradictory"), ("nobody", "rejected"):
+            self.assertEqual(self.checker.ask({"text": text.replace("MOST", most)}).outcome, outcome)
+
     def test_each_pass_changes_something_in_a_model_of_a_hundred(self):
         """Of those in which it runs, with slack: in one of 200 at least."""
         changed, models = Counter(), Counter()
