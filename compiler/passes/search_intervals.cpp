@@ -162,49 +162,65 @@ class Tabulation {
 
 // -------------------------------------------------------------- one object in each piece
 
-// The object that fulfils the condition in each piece.
-std::optional<OnlyObject> only_object(ir::Program& program, ir::Builder& builder,
-                                      const Condition& condition, ir::VariableId variable,
-                                      double& left) {
-    const ir::Facts facts = builder.facts(condition.id);
-    const bool is_only_variable = facts.free_variables == std::vector{variable};
-    if (facts.uniform || !is_only_variable || facts.may_fault) return std::nullopt;
-    if (!compares_one_number(builder, condition.id)) return std::nullopt;
-    const ir::LocalId local{program.local_count++};
-    const ir::Evaluator evaluator(program);
-    --program.local_count;
-    const auto pieces = pieces_of(builder, evaluator, condition.id);
-    Trying trying(builder, evaluator, local);
-    if (!pieces || !trying.is_affordable(condition.id, *pieces, left)) return std::nullopt;
-    const auto tried = trying.of(condition.id, *pieces, {variable});
-    if (!tried) return std::nullopt;
+// The object that fulfils a condition in each piece.
+class ObjectsOfPieces {
+  public:
+    explicit ObjectsOfPieces(Report& report) : report_(report) {}
 
-    std::vector<ir::Value> objects, exists;
-    for (const std::vector<ir::Value>& values : *tried) {
-        const auto count = std::ranges::count(values, ir::Value(condition.needed));
-        if (count > 1) return std::nullopt;
-        const auto object = std::ranges::find(values, ir::Value(condition.needed));
-        objects.emplace_back(count == 0 ? std::int64_t{0} : object - values.begin());
-        exists.emplace_back(count == 1);
+    // Always of the same program.
+    std::optional<OnlyObject> find(ir::Program& program, ir::Builder& builder,
+                                   const Condition& condition, ir::VariableId variable) {
+        const ir::Facts facts = builder.facts(condition.id);
+        const bool is_only_variable = facts.free_variables == std::vector{variable};
+        if (facts.uniform || !is_only_variable || facts.may_fault) return std::nullopt;
+        if (!compares_one_number(builder, condition.id)) return std::nullopt;
+        know(program);
+        const auto pieces = pieces_of(builder, *evaluator_, condition.id);
+        Trying trying(builder, *evaluator_, local_);
+        if (!pieces || !trying.is_affordable(condition.id, *pieces, left_)) return std::nullopt;
+        const auto tried = trying.of(condition.id, *pieces, {variable});
+        if (!tried) return std::nullopt;
+
+        std::vector<ir::Value> objects, exists;
+        for (const std::vector<ir::Value>& values : *tried) {
+            const auto count = std::ranges::count(values, ir::Value(condition.needed));
+            if (count > 1) return std::nullopt;
+            const auto object = std::ranges::find(values, ir::Value(condition.needed));
+            objects.emplace_back(count == 0 ? std::int64_t{0} : object - values.begin());
+            exists.emplace_back(count == 1);
+        }
+        ++report_["aggregations replaced by the object of an interval"];
+        const ir::NodeId place = search(builder, *pieces);
+        return OnlyObject{
+            builder.load(new_table(builder, *pieces, "-object", std::move(objects)), {place}),
+            builder.load(new_table(builder, *pieces, "-is-there", std::move(exists)), {place})};
     }
-    const ir::NodeId place = search(builder, *pieces);
-    return OnlyObject{
-        builder.load(new_table(builder, *pieces, "-object", std::move(objects)), {place}),
-        builder.load(new_table(builder, *pieces, "-is-there", std::move(exists)), {place})};
-}
+
+  private:
+    // The tables are packed once, not for each condition.
+    void know(ir::Program& program) {
+        if (evaluator_) return evaluator_->know_added_tables();
+        local_ = ir::LocalId{program.local_count++};
+        evaluator_.emplace(program);
+        --program.local_count;
+    }
+
+    Report& report_;
+    std::optional<ir::Evaluator> evaluator_;
+    ir::LocalId local_{};  // stands for a number that is tried
+    double left_ = affordable_in_all;
+};
 
 }  // namespace
 
 ir::Program search_intervals(ir::Program program, Report& report) {
     program = Tabulation(std::move(program), report).run();
-    double left = affordable_in_all;
-    return take_only_objects(
-        std::move(program), [&](ir::Program& changed, ir::Builder& builder,
-                                const Condition& condition, ir::VariableId variable) {
-            const auto object = only_object(changed, builder, condition, variable, left);
-            if (object) ++report["aggregations replaced by the object of an interval"];
-            return object;
-        });
+    ObjectsOfPieces objects(report);
+    return take_only_objects(std::move(program),
+                             [&](ir::Program& changed, ir::Builder& builder,
+                                 const Condition& condition, ir::VariableId variable) {
+                                 return objects.find(changed, builder, condition, variable);
+                             });
 }
 
 }  // namespace rddlc::passes
