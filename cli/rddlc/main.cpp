@@ -22,9 +22,7 @@ void print_times(const Compilation& compilation) {
 void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
                        const RenderOptions& options) {
     tell(render(diagnostics, sources, options));
-    const std::string counts = summary(diagnostics);
-    const bool is_text = options.format == DiagnosticsFormat::Text;
-    if (is_text && !counts.empty()) tell("{}\n", counts);
+    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(diagnostics));
 }
 
 std::string statistics(const Compilation& compilation, Statistics format) {

@@ -1,12 +1,11 @@
 #include "options.hpp"
 
 #include "driver/explain.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -176,9 +175,7 @@ DiagnosticOptions diagnostic_options(const Arguments& arguments) {
 }
 
 bool use_color(const std::string& when) {
-    if (when != "auto") return when == "always";
-    const char* no_color = std::getenv("NO_COLOR");
-    return ::isatty(STDERR_FILENO) != 0 && (!no_color || *no_color == '\0');
+    return when == "auto" ? tells_in_color() : when == "always";
 }
 
 // The last one that something to be printed needs.

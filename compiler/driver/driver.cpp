@@ -217,13 +217,17 @@ std::optional<std::string> complaint_about_pass(std::string_view name) {
     return complaint;
 }
 
-std::string summary(const Diagnostics& diagnostics) {
+std::string closing_lines(const Diagnostics& diagnostics) {
+    const auto& all = diagnostics.all();
     const std::size_t errors = diagnostics.error_count();
-    const std::size_t warnings = diagnostics.all().size() - errors;
+    const std::size_t warnings = all.size() - errors;
     if (errors == 0 && warnings == 0) return "";
-    if (errors == 0) return counted(warnings, "warning");
-    if (warnings == 0) return counted(errors, "error");
-    return counted(errors, "error") + ", " + counted(warnings, "warning");
+    if (errors == 0) return counted(warnings, "warning") + "\n";
+    const auto first = std::ranges::find_if(
+        all, [&](const Diagnostic& each) { return diagnostics.is_error(each); });
+    return fmt::format("{}{}\n'rddlc --explain {}' tells more\n", counted(errors, "error"),
+                       warnings == 0 ? "" : ", " + counted(warnings, "warning"),
+                       to_string(first->code));
 }
 
 }  // namespace rddlc

@@ -77,7 +77,8 @@ Compilation compile(const CompileOptions& options);
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 
-// "2 errors, 1 warning"; empty if there are neither.
-std::string summary(const Diagnostics& diagnostics);
+// What stands below diagnostics: how many there are, and how to learn more of the first error. Empty
+// if there are none.
+std::string closing_lines(const Diagnostics& diagnostics);
 
 }  // namespace rddlc

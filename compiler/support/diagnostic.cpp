@@ -16,11 +16,13 @@ std::optional<Code> parse_code(std::string_view text) {
     const auto is_digit = [](char c) {
         return c >= '0' && c <= '9';
     };
-    if (text.size() != 5 || (text[0] != 'E' && text[0] != 'W')) return std::nullopt;
+    if (text.size() != 5) return std::nullopt;
+    const char letter = text[0] == 'e' ? 'E' : text[0] == 'w' ? 'W' : text[0];
+    if (letter != 'E' && letter != 'W') return std::nullopt;
     if (!std::all_of(text.begin() + 1, text.end(), is_digit)) return std::nullopt;
     int number = 0;
     for (const char digit : text.substr(1)) number = number * 10 + (digit - '0');
-    return Code{text[0], number};
+    return Code{letter, number};
 }
 
 Diagnostic&& Diagnostic::note(Span place, std::string text) && {

@@ -20,7 +20,7 @@ struct Code {
     auto operator<=>(const Code&) const = default;
 };
 std::string to_string(Code code);
-// "E0203" -> Code; nothing for any other form.
+// "E0203", "e0203" -> Code; nothing for any other form.
 std::optional<Code> parse_code(std::string_view text);
 
 struct Note {

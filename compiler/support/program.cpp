@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -69,6 +70,15 @@ int run_program(std::string_view name, std::string_view version,
     } catch (const std::exception& error) {
         return tell_own_mistake(name, version, error.what());
     }
+}
+
+bool is_terminal(int descriptor) {
+    return ::isatty(descriptor) == 1;
+}
+
+bool tells_in_color() {
+    const char* const no_color = std::getenv("NO_COLOR");
+    return is_terminal(STDERR_FILENO) && (!no_color || *no_color == '\0');
 }
 
 void tell(std::string_view text) {

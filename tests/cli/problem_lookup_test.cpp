@@ -125,5 +125,25 @@ TEST(PythonInfo, SurvivesAnything) {
     EXPECT_EQ(read_python_info("{'a': 'b\\").at("a"), "b\\");
 }
 
+TEST_F(Lookup, FoldersHoldADomainAndItsInstances) {
+    const fs::path snow = root_ / "archive/competitions/IPPC2030/Snow/p3";
+    EXPECT_EQ(find_files(snow.string(), "2").instance, snow / "instance2.rddl");
+    EXPECT_EQ(find_files(snow.string() + "/", "1").instance, snow / "instance.rddl");
+    EXPECT_EQ(find_files(snow.string(), (snow / "instance2.rddl").string()).instance,
+              snow / "instance2.rddl");
+    EXPECT_EQ(failure(snow.string(), ""), "which instance of " + snow.string() + "? | it has 1, 2");
+    const fs::path lonely = root_ / "archive/Lonely";
+    EXPECT_EQ(find_files(lonely.string(), "").domain, lonely / "domain.rddl");
+    EXPECT_EQ(find_files(lonely.string(), "").instance, lonely / "instance0.rddl");
+    EXPECT_EQ(failure((root_ / "archive").string(), "1"),
+              "there is no domain.rddl in '" + (root_ / "archive").string() +
+                  "' | name the files: DOMAIN INSTANCE");
+}
+
+TEST_F(Lookup, NamesMayBeToldByTheirBeginning) {
+    EXPECT_NE(failure("Chess", "1").find("| did you mean 'Chess_arcade'?"), std::string::npos);
+    EXPECT_NE(failure("snow", "1").find("| did you mean 'Snow_p3_ippc2030'?"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rddlc::cli

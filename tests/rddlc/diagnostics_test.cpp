@@ -39,7 +39,8 @@ TEST_F(DiagnosticsOptions, SilenceWarningsOrMakeThemErrors) {
     EXPECT_EQ(rddlc(with({"-Wno-" + code})).output, "");
     EXPECT_EQ(rddlc(with({"-Werror"})).status, 1);
     EXPECT_EQ(rddlc(with({"-Werror=" + code})).status, 1);
-    EXPECT_TRUE(rddlc(with({"-Werror"})).output.ends_with("\n1 error\n"));
+    EXPECT_TRUE(rddlc(with({"-Werror"}))
+                    .output.ends_with("\n1 error\n'rddlc --explain " + code + "' tells more\n"));
     EXPECT_EQ(rddlc(with({"-Werror", "-Wno-" + code})).status, 0);
 }
 

@@ -11,7 +11,8 @@ constexpr Code warning{'W', 210};
 TEST(Code, IsReadAndWritten) {
     EXPECT_EQ(to_string(error), "E0203");
     EXPECT_EQ(parse_code("W0210"), warning);
-    for (const auto* bad : {"", "E", "E020", "E02033", "X0203", "e0203", "E02a3"})
+    EXPECT_EQ(parse_code("e0203"), error) << "as people type it";
+    for (const auto* bad : {"", "E", "E020", "E02033", "X0203", "E02a3"})
         EXPECT_FALSE(parse_code(bad)) << bad;
 }
 

@@ -130,6 +130,8 @@ ExitStatus check(const CheckOptions& options) {
         return check_problems(require_repository().problems, options.verbose);
     }
     if (problem.first.empty()) throw Failure("name a problem, or say --all", "", usage_error);
+    if (problem.second.empty() && std::filesystem::is_directory(problem.first))
+        return check_problems({problem_in(problem.first)}, options.verbose);
     if (problem.second.empty() && !is_path(problem.first)) {
         const Repository repository = require_repository();
         return check_problems({find_problem(repository, problem.first)}, options.verbose);
@@ -149,6 +151,7 @@ Command check_command() {
         "Examples:\n"
         "  rddl check domain.rddl instance.rddl\n"
         "  rddl check Wildfire_MDP_ippc2014      all instances of a problem\n"
+        "  rddl check my_problem/                all instances in a folder\n"
         "  rddl check --all                      the whole of rddlrepository";
     add_problem_arguments(command, options->problem, false);
     add_extern_option(command, options->load,

@@ -94,7 +94,7 @@ ExitStatus format_one(const FormatOptions& options, const std::string& path) {
     const std::optional<std::string> text =
         format_file(sources, *file, diagnostics, options.standard);
     if (!text) {
-        tell(render(diagnostics, sources, {.color = is_terminal(2)}));
+        tell(render(diagnostics, sources, {.color = tells_in_color()}));
         return diagnosed;
     }
     const Formatted formatted{path, sources[*file].text(), *text};

@@ -12,7 +12,9 @@ ProblemFiles ProblemArguments::files() const {
 }
 
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
-    add_argument(command, "DOMAIN", "Domain file, or NAME of a problem of rddlrepository",
+    add_argument(command, "DOMAIN",
+                 "Domain file, folder of a domain.rddl and its instances, or NAME of a problem of "
+                 "rddlrepository",
                  arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);

@@ -3,7 +3,6 @@
 #include "support/failure.hpp"
 #include "support/program.hpp"
 #include "support/render.hpp"
-#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 
@@ -27,8 +26,9 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
 
 void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
-    options.color = is_terminal(2);
+    options.color = tells_in_color();
     tell(render(compilation.diagnostics, compilation.sources, options));
+    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation.diagnostics));
 }
 
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,

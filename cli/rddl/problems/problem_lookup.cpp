@@ -57,6 +57,15 @@ void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
     problem.name = fmt::format("{}", fmt::join(parts, "_"));
 }
 
+std::vector<std::string> instances_in(const fs::path& folder) {
+    std::vector<std::string> all;
+    for (const auto& file : fs::directory_iterator(folder))
+        if (const auto instance = instance_of(file.path())) all.push_back(*instance);
+    std::sort(all.begin(), all.end(), instance_before);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
 RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) {
     RepositoryProblem problem;
     problem.folder = folder;
@@ -68,11 +77,7 @@ RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) 
     if (problem.name.empty()) name_by_folder(problem, folder.lexically_relative(archive));
     if (problem.context.empty()) problem.context = standalone;
     if (problem.context != standalone) problem.name += "_" + problem.context;
-    for (const auto& file : fs::directory_iterator(folder))
-        if (const auto instance = instance_of(file.path())) problem.instances.push_back(*instance);
-    auto& all = problem.instances;
-    std::sort(all.begin(), all.end(), instance_before);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    problem.instances = instances_in(folder);
     return problem;
 }
 
@@ -98,7 +103,17 @@ fs::path installed_repository() {
     return ask_python("python3");
 }
 
+// `instance` may be empty if there is only one.
+ProblemFiles find_in_folder(const fs::path& folder, const std::string& instance) {
+    const RepositoryProblem problem = problem_in(folder);
+    const bool is_clear = instance.empty() && problem.instances.size() == 1;
+    return find_instance(problem, is_clear ? problem.instances.front() : instance);
+}
+
 ProblemFiles find_paths(const std::string& domain, const std::string& instance) {
+    std::error_code ignored;
+    if (fs::is_directory(domain, ignored) && !is_path(instance))
+        return find_in_folder(domain, instance);
     if (instance.empty()) return {domain, domain, std::nullopt};
     return {domain + " " + instance, domain, instance};
 }
@@ -150,16 +165,52 @@ Repository require_repository() {
         "install it with 'pip install rddlrepository' or set RDDL_REPOSITORY to its folder");
 }
 
+namespace {
+
+bool begins_with(std::string_view name, std::string_view beginning) {
+    const auto same = [](unsigned char a, unsigned char b) {
+        return std::tolower(a) == std::tolower(b);
+    };
+    return name.size() >= beginning.size() &&
+           std::ranges::equal(name.substr(0, beginning.size()), beginning, same);
+}
+
+// Names that begin like this one, else the one that is nearest.
+std::string hint_of_names(std::string_view name, const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    std::vector<std::string> near;
+    for (const std::string& each : names)
+        if (!name.empty() && begins_with(each, name)) near.push_back("'" + each + "'");
+    const std::size_t more = near.size() - std::min(near.size(), most);
+    if (more > 0) near.resize(most);
+    if (near.empty())
+        if (const auto nearest = did_you_mean(name, names)) near.push_back("'" + *nearest + "'");
+    if (near.empty()) return "'rddl list' shows their names; a file's name ends with .rddl";
+    return fmt::format("did you mean {}{}?", fmt::join(near, ", "),
+                       more == 0 ? "" : fmt::format(" or one of {} more", more));
+}
+
+}  // namespace
+
+RepositoryProblem problem_in(const fs::path& folder) {
+    RepositoryProblem problem;
+    problem.name = folder.string();
+    problem.folder = folder;
+    problem.instances = instances_in(folder);
+    if (!fs::exists(problem.domain_file()))
+        throw Failure(fmt::format("there is no domain.rddl in '{}'", problem.name),
+                      "name the files: DOMAIN INSTANCE");
+    return problem;
+}
+
 const RepositoryProblem& find_problem(const Repository& repository, std::string_view name) {
     std::vector<std::string> names;
     for (const RepositoryProblem& problem : repository.problems) {
         if (problem.name == name) return problem;
         names.push_back(problem.name);
     }
-    const auto near = did_you_mean(name, names);
     throw Failure(fmt::format("no problem of {} is called '{}'", repository.folder.string(), name),
-                  near ? fmt::format("did you mean '{}'?", *near)
-                       : "'rddl list' shows their names; a file's name ends with .rddl");
+                  hint_of_names(name, names));
 }
 
 ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view instance) {
@@ -173,8 +224,9 @@ ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view in
 }
 
 bool is_path(const std::string& text) {
+    std::error_code ignored;
     return text.ends_with(".rddl") || text.find('/') != std::string::npos ||
-           fs::is_regular_file(text);
+           fs::exists(text, ignored);
 }
 
 ProblemFiles find_files(const std::string& first, const std::string& second) {

@@ -51,14 +51,18 @@ Repository require_repository();
 // or else from the folder.
 Repository scan_repository(const std::filesystem::path& folder);
 
+// A domain.rddl and its instances in a folder of the user. Fails if there is none.
+RepositoryProblem problem_in(const std::filesystem::path& folder);
+
 // Fails, with the names that are near, if there is no such problem.
 const RepositoryProblem& find_problem(const Repository& repository, std::string_view name);
 ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view instance);
 
-// Whether the user means a file: it exists, ends with .rddl or has a '/'.
+// Whether the user means a file or a folder: it exists, ends with .rddl or has a '/'.
 bool is_path(const std::string& text);
 
-// `first` and `second` as the user gave them; `second` may be empty.
+// `first` and `second` as the user gave them: two files; a file that holds both blocks; a folder or
+// a name of the repository, and which instance. `second` may be empty.
 ProblemFiles find_files(const std::string& first, const std::string& second);
 
 }  // namespace rddlc::cli

@@ -3,17 +3,12 @@
 #include "support/program.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace rddlc::cli {
-
-bool is_terminal(int file_descriptor) {
-    return isatty(file_descriptor) == 1;
-}
 
 Progress::Progress(std::string what, std::int64_t total, bool shown)
     : what_(std::move(what)), total_(std::max<std::int64_t>(total, 1)), shown_(shown) {}

@@ -1,14 +1,14 @@
 // A progress bar on stderr: on a terminal only, so that pipes and logs stay clean.
 #pragma once
 
+#include "support/program.hpp"
+
 #include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
 
 namespace rddlc::cli {
-
-bool is_terminal(int file_descriptor);
 
 class Progress {
   public:
