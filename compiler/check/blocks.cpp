@@ -155,6 +155,15 @@ void warn_of_other_domain(const Last<ast::DomainName>& named, const ast::Domain&
                        .note(domain.name.span, "the domain"));
 }
 
+void warn_of_other_non_fluents(const Last<ast::NonFluentsName>& named, const ast::Name& taken,
+                               Context& context) {
+    if (!named.node || named.node->name.text == taken.text) return;
+    context.report(diagnose(other_non_fluents, named.node->name.span,
+                            fmt::format("this names the non-fluents '{}', but they are '{}'",
+                                        named.node->name.text, taken.text))
+                       .note(taken.span, "the non-fluents"));
+}
+
 void take_domain(const ast::Domain& domain, Blocks& blocks, Context& context) {
     const DomainSections sections = choose_sections(domain.sections, context);
     require_section(sections.pvariables, "pvariables", "domain", domain.name.span,
@@ -210,6 +219,7 @@ void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blo
             blocks.objects = own.objects.node;
             blocks.non_fluents = own.non_fluents.node;
             warn_of_other_domain(own.domain, *blocks.domain, context);
+            warn_of_other_non_fluents(sections.non_fluents_name, block->name, context);
             if (sections.objects.node)
                 context.report(
                     diagnose(ignored_objects, sections.objects.span,

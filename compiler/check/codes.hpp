@@ -44,6 +44,7 @@ inline constexpr Code unused_variable{'W', 203};
 inline constexpr Code long_body{'W', 204};
 inline constexpr Code other_domain{'W', 205};
 inline constexpr Code ignored_objects{'W', 206};
+inline constexpr Code other_non_fluents{'W', 207};
 
 // 03xx: types
 inline constexpr Code bool_needed{'E', 301};
@@ -61,6 +62,7 @@ inline constexpr Code object_action{'E', 312};
 
 inline constexpr Code type_fault{'W', 301};
 inline constexpr Code constant_condition{'W', 302};
+inline constexpr Code compared_comparison{'W', 303};
 
 // 04xx: CPFs and their dependencies
 inline constexpr Code missing_cpf{'E', 401};

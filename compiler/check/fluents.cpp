@@ -15,19 +15,30 @@ constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
 // Non-fluents take as much room as they have values other than the default.
 constexpr std::int64_t max_groundings_of_tables = std::int64_t{1} << 40;
 
+// What other languages call the types of values.
+std::string range_in_other_languages(const std::string& name) {
+    if (name == "float" || name == "double" || name == "number") return "real";
+    if (name == "integer" || name == "long" || name == "Int") return "int";
+    if (name == "boolean" || name == "Bool" || name == "logical") return "bool";
+    return "";
+}
+
 std::optional<model::ValueType> resolve_range(const ast::Name& range, Context& context) {
     if (range.text == "bool") return model::bool_type;
     if (range.text == "int") return model::int_type;
     if (range.text == "real") return model::real_type;
     if (const model::TypeId* id = find(context.names.types, range.text))
         return model::ValueType{model::ValueType::Kind::Object, *id};
+    const std::string meant = range_in_other_languages(range.text);
+    const auto names = [&] {
+        std::vector<std::string> all = keys(context.names.types);
+        all.insert(all.end(), {"bool", "int", "real"});
+        return all;
+    };
     context.report(
         diagnose(unknown_type, range.span, fmt::format("type '{}' is not declared", range.text))
-            .with_hint(suggestion(context, range.text, [&] {
-                std::vector<std::string> names = keys(context.names.types);
-                names.insert(names.end(), {"bool", "int", "real"});
-                return names;
-            })));
+            .with_hint(meant.empty() ? suggestion(context, range.text, names)
+                                     : fmt::format("'{}' is written '{}'", range.text, meant)));
     return std::nullopt;
 }
 

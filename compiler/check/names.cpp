@@ -1,6 +1,7 @@
 #include "check/names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -52,16 +53,25 @@ std::vector<std::string> candidates(const ast::Reference& reference, const Conte
 
 }  // namespace
 
+std::string hint_for_bool(std::string_view name) {
+    if (name == "True" || name == "TRUE") return fmt::format("'{}' is written 'true'", name);
+    if (name == "False" || name == "FALSE") return fmt::format("'{}' is written 'false'", name);
+    return "";
+}
+
 void report_unknown_name(const ast::Reference& reference, Scope& scope) {
     Context& context = scope.context;
     const std::string& name = reference.name.text;
     const std::string subtraction = as_subtraction(name, context);
     const std::string call = hint_for_call(name);
+    const std::string truth = hint_for_bool(name);
     const bool is_call = !call.empty() && !reference.arguments.empty();
     Diagnostic diagnostic{is_call ? round_brackets : unknown_name, reference.name.span,
                           fmt::format("'{}' is not {}", name, is_call ? "a fluent" : "declared")};
     if (!call.empty())
         diagnostic.hint = call;
+    else if (!truth.empty())
+        diagnostic.hint = truth;
     else if (!subtraction.empty())
         diagnostic.hint =
             fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name);
@@ -70,6 +80,17 @@ void report_unknown_name(const ast::Reference& reference, Scope& scope) {
     else
         diagnostic.hint = suggestion(context, name, [&] { return candidates(reference, context); });
     context.report(std::move(diagnostic));
+}
+
+std::string suggestion_or_list(const Context& context, std::string_view name,
+                               const std::vector<std::string>& names) {
+    constexpr std::size_t most = 10;
+    std::string meant = suggestion(context, name, [&] { return names; });
+    if (!meant.empty() || names.empty()) return meant;
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most));
+    return fmt::format("there {} {}{}", names.size() == 1 ? "is" : "are",
+                       fmt::join(names.begin(), end, ", "),
+                       names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
 }
 
 std::vector<std::string> as_literals(std::vector<std::string> names) {

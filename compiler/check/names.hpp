@@ -4,12 +4,20 @@
 #include "check/scope.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rddlc::checking {
 
 // With the likely cause: a misspelling, "a-b" without blanks, a function with round brackets.
 void report_unknown_name(const ast::Reference& reference, Scope& scope);
+
+// For "True" and the like; else empty.
+std::string hint_for_bool(std::string_view name);
+
+// The name that is meant, else which there are. Empty if there are none.
+std::string suggestion_or_list(const Context& context, std::string_view name,
+                               const std::vector<std::string>& names);
 
 // The literals a domain may use, without "@".
 std::vector<std::string> enumerated_members(const Context& context);

@@ -49,7 +49,7 @@ struct BinaryPlace {
     Operator op;
     Span span;  // of the whole
     Span op_span;
-    const ast::Expr& right;
+    const ast::Expr &left, &right;
 
     std::string left_operand() const {
         return fmt::format("the left operand of '{}'", source_name_of(op));
@@ -84,6 +84,12 @@ Typed check_arithmetic(const BinaryPlace& place, Typed left, Typed right, Scope&
     return apply_converted(place.op, std::move(*left), std::move(*right), type, type, place.span);
 }
 
+// An order of its own, not one in parentheses.
+bool is_comparison(const ast::Expr& expression) {
+    const auto* binary = std::get_if<ast::Binary>(&expression.node);
+    return binary && is_order(operator_of(binary->op));
+}
+
 Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
     if (!left || !right) return std::nullopt;
     const bool objects = is_object(left->type) || is_object(right->type);
@@ -101,6 +107,13 @@ Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope&
                                  .with_hint("only '==' and '~=' compare objects"));
         return std::nullopt;
     }
+    if (is_order(place.op) && is_comparison(place.left) && !is_comparison(place.right))
+        scope.context.report(diagnose(compared_comparison, place.span,
+                                      fmt::format("this compares the truth of the left comparison, "
+                                                  "0 or 1, with the right side of '{}'",
+                                                  source_name_of(place.op)))
+                                 .with_hint("a range is written 'a < b ^ b < c'; parentheses "
+                                            "around the left comparison silence this"));
     model::ValueType type = objects ? left->type : promoted(left->type, right->type);
     if (is_order(place.op) && type == model::bool_type) type = model::int_type;
     return apply_converted(place.op, std::move(*left), std::move(*right), type, model::bool_type,
@@ -129,7 +142,16 @@ bool never_settles(Operator op, const model::Expr& first) {
     return constant && constant->value == model::Value{op == Operator::And};
 }
 
+bool is_number(const Typed& operand) {
+    return operand && (operand->type == model::int_type || operand->type == model::real_type);
+}
+
 Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
+    if (place.op == Operator::And && is_number(left) && is_number(right)) {
+        scope.context.report(diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
+                                 .with_hint("'^' is 'and'; a power is written 'pow[x, y]'"));
+        return std::nullopt;
+    }
     const bool swap = right_goes_first(place.right);
     left = require_number(std::move(left), place.left_operand(), scope);
     right = require_number(std::move(right), place.right_operand(), scope);
@@ -201,7 +223,8 @@ Typed check_unary(const ast::Unary& unary, Span span, Scope& scope) {
 }
 
 Typed check_binary(const ast::Binary& binary, Span span, Scope& scope) {
-    const BinaryPlace place{operator_of(binary.op), span, binary.op_span, *binary.right};
+    const BinaryPlace place{operator_of(binary.op), span, binary.op_span, *binary.left,
+                            *binary.right};
     Typed left = check_expression(*binary.left, scope);
     Typed right = check_expression(*binary.right, scope);
     return combine(place, std::move(left), std::move(right), scope);

@@ -101,8 +101,8 @@ Typed check_literal(const ast::Literal& literal, Span span, Scope& scope) {
         return check_object("@" + literal.name, *object, span, scope);
     scope.context.report(
         diagnose(unknown_literal, span, fmt::format("no type has the member '@{}'", literal.name))
-            .with_hint(suggestion(scope.context, "@" + literal.name,
-                                  [&] { return as_literals(enumerated_members(scope.context)); })));
+            .with_hint(suggestion_or_list(scope.context, "@" + literal.name,
+                                          as_literals(enumerated_members(scope.context)))));
     return std::nullopt;
 }
 

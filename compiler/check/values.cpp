@@ -1,6 +1,7 @@
 #include "check/values.hpp"
 
 #include "check/initial_draws.hpp"
+#include "check/names.hpp"
 #include "check/types.hpp"
 #include "support/match.hpp"
 
@@ -79,8 +80,9 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                : fmt::format("the unknown name '{}'", symbol.name);
     std::string hint;
     if (!object && fluent.range.kind == Kind::Object)
-        hint = suggestion(context, symbol.name,
-                          [&] { return context.type(fluent.range.type).objects; });
+        hint = suggestion_or_list(context, symbol.name, context.type(fluent.range.type).objects);
+    else if (!object && fluent.range == model::bool_type)
+        hint = hint_for_bool(symbol.name);
     report_value(code, span, fluent, found, std::move(hint), context);
     return std::nullopt;
 }

@@ -80,6 +80,27 @@ std::string single_or_double_equals(const SyntaxError& error) {
     return "";
 }
 
+std::string operators_of_other_languages(const SyntaxError& error) {
+    const std::string found = error.found().getText();
+    const std::string before = error.before(1) != nullptr ? error.before(1)->getText() : "";
+    const bool is_next = error.index + 1 < error.tokens.size();
+    const std::string next = is_next ? error.tokens[error.index + 1]->getText() : "";
+    if (found == "=" && next == "<") return "'at most' is written '<='";
+    if (found == ">" && before == "=") return "'at least' is written '>='";
+    return "";
+}
+
+// COST-1.0 is the name COST-1 and .0.
+std::string minus_in_a_name(const SyntaxError& error) {
+    const Token* name = error.before(1);
+    if (!is(name, Parser::ID) || !error.found().getText().starts_with('.')) return "";
+    const std::string text = name->getText();
+    const std::size_t minus = text.rfind('-');
+    if (minus == std::string::npos || minus == 0) return "";
+    return fmt::format("write '{} - {}{}' with blanks: a '-' may be part of a name",
+                       text.substr(0, minus), text.substr(minus + 1), error.found().getText());
+}
+
 std::string parentheses_of_if(const SyntaxError& error) {
     const bool after = is(error.before(1), Parser::IF) || is(error.before(1), Parser::SWITCH);
     const bool before_then = is(&error.found(), Parser::THEN);
@@ -150,7 +171,7 @@ std::vector<std::string> expected_words(const SyntaxError& error) {
 }
 
 std::string misspelt_word(const SyntaxError& error) {
-    if (!is(&error.found(), Parser::ID)) return "";
+    if (!is(&error.found(), Parser::ID) && !is(&error.found(), Parser::FLUENT_KIND)) return "";
     const auto meant = did_you_mean(error.found().getText(), expected_words(error));
     return meant ? fmt::format("did you mean '{}'?", *meant) : "";
 }
@@ -170,7 +191,9 @@ std::string hint_for(const SyntaxError& error) {
         round_brackets_of_a_function,
         square_brackets_of_a_distribution,
         binder_form,
+        operators_of_other_languages,
         single_or_double_equals,
+        minus_in_a_name,
         else_is_compulsory,
         parentheses_of_if,
         random_vector_is_whole,
