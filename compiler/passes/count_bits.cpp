@@ -296,8 +296,9 @@ class Counting {
             return value ? bits : inverted(bits);
         }
         const Connective form = connective(id, value);
-        return joined(form.op, word_of(nest, form.a.id, form.a.value, word),
-                      word_of(nest, form.b.id, form.b.value, word));
+        const ir::NodeId a = word_of(nest, form.a.id, form.a.value, word);
+        const ir::NodeId b = word_of(nest, form.b.id, form.b.value, word);
+        return joined(form.op, a, b);
     }
 
     // Whether its words are 0 where there are no elements.

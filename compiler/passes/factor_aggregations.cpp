@@ -123,8 +123,8 @@ class Factoring {
         }
         const ir::NodeId number = joined(Operator::Multiply, numbers);
         if (conditions.empty()) return number;
-        return builder_.select(joined(Operator::And, conditions), number,
-                               builder_.constant(std::int64_t{0}));
+        const ir::NodeId condition = joined(Operator::And, conditions);
+        return builder_.select(condition, number, builder_.constant(std::int64_t{0}));
     }
 
     ir::NodeId joined(Operator op, const Factors& factors) {

@@ -95,11 +95,11 @@ TEST(CountBits, NeedsOneKnownValueForEachPlace) {
     EXPECT_EQ(counted("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ~= p(?u)]"),
               "int(exists[o in obj](bit_xor(p-bits[o], bits(state.p, 0)) != 0))");
     EXPECT_EQ(counted("forall_{?o : obj, ?u : obj} [LINK(?o, ?u) | (p(?u) ^ ~LINK(?u, ?o))]"),
-              "int(forall[o in obj](bit_and(p-bits-2[o], "
-              "bit_or(bit_xor(bits(state.p, 0), -1), p-bits[o])) == 0))");
+              "int(forall[o in obj](bit_and(p-bits[o], "
+              "bit_or(bit_xor(bits(state.p, 0), -1), p-bits-2[o])) == 0))");
     EXPECT_EQ(counted("exists_{?o : obj, ?u : obj} [(LINK(?o, ?u) | HEAVY(?o)) ^ p(?u) ^ "
                       "(LINK(?u, ?o) | HEAVY(?u))]"),
-              "int(exists[o in obj](bit_and(bit_and(p-bits-2[o], bits(state.p, 0)), p-bits[o]) "
+              "int(exists[o in obj](bit_and(bit_and(p-bits[o], bits(state.p, 0)), p-bits-2[o]) "
               "!= 0))");
 }
 
