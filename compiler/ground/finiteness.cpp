@@ -18,14 +18,14 @@ bool has_finite_values(const model::Fluent& fluent) {
     return fluent.values.all_of([](const model::Value& v) { return std::isfinite(as_real(v)); });
 }
 
-bool is_small_whole_number(const model::Expr& expr) {
-    if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
-        return is_small_whole_number(*convert->operand);
-    }
-    const auto* constant = std::get_if<model::Constant>(&expr.node);
-    if (!constant) return false;
-    const double value = as_real(constant->value);
-    return value >= 0 && value <= 16 && value == std::floor(value);
+// The values that the instance fixes.
+std::optional<ir::Range> range_of(const model::Fluent& fluent) {
+    if (fluent.role != Role::NonFluent || !has_finite_values(fluent)) return std::nullopt;
+    const double common = as_real(fluent.values.common());
+    ir::Range range{common, common};
+    for (const auto& [index, value] : fluent.values.exceptions())
+        range = ir::join(range, {as_real(value), as_real(value)});
+    return range;
 }
 
 }  // namespace
@@ -33,6 +33,7 @@ bool is_small_whole_number(const model::Expr& expr) {
 Finiteness::Finiteness(const model::Model& model) : model_(model) {
     for (const model::Fluent& fluent : model.fluents) {
         fluent_is_finite_.push_back(has_finite_values(fluent));
+        ranges_.push_back(range_of(fluent));
     }
     for (const model::InitialDraw& draw : model.initial_draws) {
         if (!is_finite(draw.value)) fluent_is_finite_[draw.fluent] = false;
@@ -59,7 +60,13 @@ bool Finiteness::is_finite(const model::Expr& expr) const {
         [&](const model::Apply& form) { return is_finite(form); },
         [&](const model::Aggregate& form) { return is_finite(form); },
         [](const model::External&) { return false; },
+        [&](const model::Sample& form) {
+            return all_finite(expr) &&
+                   ir::draws_finite(form.distribution, ranges_of(form.parameters));
+        },
         [&](const model::RandomVector& form) {
+            // Student's tails are as heavy as its degrees of freedom are few.
+            if (form.distribution == VectorDistribution::MultivariateStudent) return false;
             return std::ranges::all_of(form.arguments, [&](const model::VectorReference& argument) {
                 return fluent_is_finite_[argument.fluent];
             });
@@ -77,9 +84,7 @@ bool Finiteness::is_finite(const model::Apply& form) const {
         return is_finite(operand);
     };
     if (!std::ranges::all_of(form.operands, finite)) return false;
-    if (form.op == Operator::Divide) return is_never_zero(form.operands.back());
-    if (form.op == Operator::Power) return is_small_whole_number(form.operands.back());
-    return ir::keeps_finite(form.op);
+    return ir::keeps_finite(form.op, ranges_of(form.operands));
 }
 
 bool Finiteness::is_finite(const model::Aggregate& form) const {
@@ -92,18 +97,21 @@ bool Finiteness::is_finite(const model::Aggregate& form) const {
     return is_finite(*form.body);
 }
 
-// Constants and non-fluents without a zero.
-bool Finiteness::is_never_zero(const model::Expr& expr) const {
-    if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
-        return is_never_zero(*convert->operand);
-    }
-    if (const auto* constant = std::get_if<model::Constant>(&expr.node)) {
-        return as_real(constant->value) != 0;
-    }
+std::vector<std::optional<ir::Range>> Finiteness::ranges_of(
+    const std::vector<model::Expr>& operands) const {
+    std::vector<std::optional<ir::Range>> ranges;
+    for (const model::Expr& operand : operands) ranges.push_back(range_of_value(operand));
+    return ranges;
+}
+
+// Of constants and non-fluents.
+std::optional<ir::Range> Finiteness::range_of_value(const model::Expr& expr) const {
+    if (const auto* convert = std::get_if<model::Convert>(&expr.node))
+        return range_of_value(*convert->operand);
+    if (const auto* constant = std::get_if<model::Constant>(&expr.node))
+        return ir::Range{as_real(constant->value), as_real(constant->value)};
     const auto* reference = std::get_if<model::Reference>(&expr.node);
-    if (!reference || model_.fluents[reference->fluent].role != Role::NonFluent) return false;
-    return model_.fluents[reference->fluent].values.all_of(
-        [](const model::Value& v) { return as_real(v) != 0; });
+    return reference ? ranges_[reference->fluent] : std::nullopt;
 }
 
 }  // namespace rddlc::grounding

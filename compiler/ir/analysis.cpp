@@ -135,18 +135,12 @@ class Collector {
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
         if (type == Scalar::Int) facts_.range = range_of_ints(apply, ranges);
         if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
-        const bool divides = apply.op == Operator::Divide && is_never_zero(ranges.back());
-        const bool is_root = is_power_or_root(apply.op) && is_never_negative(ranges.front()) &&
-                             is_never_negative(ranges.back());
-        facts_.finite &= divides || is_root || keeps_finite(apply.op);
+        facts_.finite &= keeps_finite(apply.op, ranges);
     }
 
     bool is_square(const Apply& apply) const {
         return apply.op == Operator::Multiply && apply.operands[0] == apply.operands[1] &&
                facts_.finite;
-    }
-    static bool is_power_or_root(Operator op) {
-        return op == Operator::Power || op == Operator::Sqrt;
     }
     static bool is_never_negative(const std::optional<Range>& range) {
         return range && range->lower >= 0;
@@ -229,6 +223,7 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
+        facts_.finite &= draws_finite(sample.distribution, ranges);
         facts_.cost += 20;
     }
 
@@ -269,10 +264,6 @@ class Collector {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();
         return operands[0] && operands[0]->lower > 0;
-    }
-
-    static bool is_never_zero(const std::optional<Range>& range) {
-        return range && (range->lower > 0 || range->upper < 0);
     }
 
     // Also of what may overflow.

@@ -31,6 +31,12 @@ bool is_finite(Range range) {
 bool is_probability(Range range) {
     return range.lower >= 0 && range.upper <= 1;
 }
+bool is_at_least(const std::optional<Range>& range, double least) {
+    return range && range->lower >= least;
+}
+bool is_whole_number(double value) {
+    return value == std::floor(value);
+}
 bool is_positive(Range range) {
     return range.lower > 0 && std::isfinite(range.upper);
 }
@@ -67,14 +73,23 @@ std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>>
     }
 }
 
-bool keeps_finite(Operator op) {
+bool keeps_finite(Operator op, std::span<const std::optional<Range>> operands) {
+    constexpr double least_divisor = 1e-30, most_factors = 16;
+    const std::optional<Range>& first = operands.front();
+    const std::optional<Range>& last = operands.back();
     switch (op) {
         case Operator::Divide:
+            return last && (last->lower >= least_divisor || last->upper <= -least_divisor);
+        case Operator::Power: {
+            if (!last || last->lower < 0 || last->upper > most_factors) return false;
+            const bool is_whole = last->lower == last->upper && is_whole_number(last->lower);
+            return is_whole || is_at_least(first, 0);
+        }
+        case Operator::Sqrt:
+            return is_at_least(first, 0);
         case Operator::FloorModuloReal:
-        case Operator::Power:
         case Operator::Exp:
         case Operator::Ln:
-        case Operator::Sqrt:
         case Operator::Acos:
         case Operator::Asin:
         case Operator::Cosh:
@@ -83,6 +98,24 @@ bool keeps_finite(Operator op) {
         case Operator::LnGamma:
         case Operator::Gamma:
             return false;
+        default:
+            return true;
+    }
+}
+
+// By the uniform number that is nearest to 0, which is 2^-53, or 2^-24 of floats; -ln of it is 37.
+bool draws_finite(Distribution distribution, std::span<const std::optional<Range>> parameters) {
+    const std::optional<Range>& first = parameters.front();
+    const std::optional<Range>& last = parameters.back();
+    switch (distribution) {
+        case Distribution::Weibull:
+            return is_at_least(first, 0.1);  // 37^10
+        case Distribution::Pareto:
+            return is_at_least(first, 1);  // e^37
+        case Distribution::Student:
+            return is_at_least(first, 1);  // a normal by the root of a chi-square by its degrees
+        case Distribution::Gompertz:
+            return is_at_least(first, 1e-30) && is_at_least(last, 1e-30);  // a quotient by each
         default:
             return true;
     }

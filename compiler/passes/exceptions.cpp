@@ -8,8 +8,10 @@
 namespace rddlc::passes {
 namespace {
 
-// In operations (Facts::cost), of evaluating one expression for many assignments.
+// In operations (Facts::cost), of evaluating one expression for many assignments, and of all that
+// is evaluated: a second or two.
 constexpr double affordable_cost = 4e6;
+constexpr double affordable_in_all = 1e8;
 // Tables in which most elements are exceptions are looked through up to this size.
 constexpr std::int64_t most_elements = std::int64_t{1} << 22;
 // Relations with more of all possible tuples than this do not help.
@@ -42,10 +44,13 @@ bool is_sparse(const Relation& relation) {
 
 }  // namespace
 
-std::optional<Relation> Exceptions::of(ir::NodeId id, const ir::Value& value) const {
+Exceptions::Exceptions(const ir::Builder& builder, const ir::Evaluator& evaluator)
+    : builder_(builder), evaluator_(evaluator), left_(affordable_in_all) {}
+
+std::optional<Relation> Exceptions::of(ir::NodeId id, const ir::Value& value) {
     const ir::Node& node = program()[id];
     const auto all = volume(axes_of(id));
-    if (facts(id).uniform && all && is_affordable(id, static_cast<double>(*all))) {
+    if (facts(id).uniform && all && affords(id, static_cast<double>(*all))) {
         return by_trying_all(id, value);
     }
     Found found = match(
@@ -74,7 +79,7 @@ std::optional<ir::Value> Exceptions::evaluate(ir::NodeId id, std::span<const Axi
     return evaluator_.value_unless_fault(id, frame);
 }
 
-std::optional<Relation> Exceptions::by_trying_all(ir::NodeId id, const ir::Value& value) const {
+std::optional<Relation> Exceptions::by_trying_all(ir::NodeId id, const ir::Value& value) {
     Relation result{axes_of(id), {}};
     for (std::int64_t tuple = 0; tuple < *volume(result.axes); ++tuple) {
         const auto found = evaluate(id, result.axes, tuple);
@@ -85,13 +90,13 @@ std::optional<Relation> Exceptions::by_trying_all(ir::NodeId id, const ir::Value
 }
 
 // Without the tuples for which the node has that value, where they can be told.
-Relation Exceptions::narrowed(Relation relation, ir::NodeId id, const ir::Value& value) const {
+Relation Exceptions::narrowed(Relation relation, ir::NodeId id, const ir::Value& value) {
     const auto is_known = [&](ir::VariableId variable) {
         return relation.has(variable);
     };
     const bool possible = facts(id).uniform &&
                           std::ranges::all_of(facts(id).free_variables, is_known) &&
-                          is_affordable(id, static_cast<double>(relation.count()));
+                          affords(id, static_cast<double>(relation.count()));
     if (!possible) return relation;
     std::erase_if(relation.tuples, [&](std::int64_t tuple) {
         const auto found = evaluate(id, relation.axes, tuple);
@@ -100,8 +105,11 @@ Relation Exceptions::narrowed(Relation relation, ir::NodeId id, const ir::Value&
     return relation;
 }
 
-bool Exceptions::is_affordable(ir::NodeId id, double times) const {
-    return std::max(facts(id).cost, 1.0) * times <= affordable_cost;
+bool Exceptions::affords(ir::NodeId id, double times) {
+    const double cost = std::max(facts(id).cost, 1.0) * times;
+    if (cost > affordable_cost || cost > left_) return false;
+    left_ -= cost;
+    return true;
 }
 
 std::vector<Axis> Exceptions::axes_of(ir::NodeId id) const {
@@ -114,7 +122,7 @@ std::vector<Axis> Exceptions::axes_of(ir::NodeId id) const {
 
 // ---------------------------------------------------------------------------------- tables
 
-std::optional<Relation> Exceptions::of(const ir::Load& load, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Load& load, const ir::Value& value) {
     const ir::Buffer& table = program()[load.buffer];
     if (table.storage != ir::Storage::Constant) return std::nullopt;
     std::vector<Axis> axes;  // of the table; a fixed index has the size 1 and no variable
@@ -143,8 +151,7 @@ std::optional<Relation> Exceptions::of(const ir::Load& load, const ir::Value& va
 
 // Where all tables have their common elements, the expression has one value: if it is the given
 // one, then the exceptions are among those of the tables.
-std::optional<Relation> Exceptions::of_common_elements(ir::NodeId id,
-                                                       const ir::Value& value) const {
+std::optional<Relation> Exceptions::of_common_elements(ir::NodeId id, const ir::Value& value) {
     const Found found = exceptions_of_tables(id);
     if (!found || !is_sparse(*found)) return std::nullopt;
     const Found all = unite(Relation{axes_of(id), {}}, *found);
@@ -159,7 +166,7 @@ std::optional<Relation> Exceptions::of_common_elements(ir::NodeId id,
 
 // The assignments for which some table of the expression has not its common element; none where
 // objects are used otherwise than to choose elements.
-std::optional<Relation> Exceptions::exceptions_of_tables(ir::NodeId id) const {
+std::optional<Relation> Exceptions::exceptions_of_tables(ir::NodeId id) {
     const ir::Node& node = program()[id];
     if (facts(id).free_variables.empty()) return Relation{};
     if (std::holds_alternative<ir::Index>(node.form)) return std::nullopt;
@@ -179,12 +186,12 @@ std::optional<Relation> Exceptions::exceptions_of_tables(ir::NodeId id) const {
 
 // ----------------------------------------------------------------------------- expressions
 
-std::optional<Relation> Exceptions::of(const ir::Convert& convert, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Convert& convert, const ir::Value& value) {
     const auto before = before_conversion(value, program()[convert.operand].type);
     return before ? of(convert.operand, *before) : std::nullopt;
 }
 
-std::optional<Relation> Exceptions::of(const ir::Apply& apply, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Apply& apply, const ir::Value& value) {
     const ir::NodeId a = apply.operands.front();
     const ir::NodeId b = apply.operands.back();
     switch (apply.op) {
@@ -214,7 +221,7 @@ std::optional<Relation> Exceptions::of(const ir::Apply& apply, const ir::Value& 
 }
 
 // Of a loop index with something that does not depend on it: there is one such index for each.
-std::optional<Relation> Exceptions::of_equality(ir::NodeId a, ir::NodeId b) const {
+std::optional<Relation> Exceptions::of_equality(ir::NodeId a, ir::NodeId b) {
     const auto* index = std::get_if<ir::Index>(&program()[a].form);
     if (!index) {
         index = std::get_if<ir::Index>(&program()[b].form);
@@ -224,7 +231,7 @@ std::optional<Relation> Exceptions::of_equality(ir::NodeId a, ir::NodeId b) cons
     if (std::ranges::binary_search(facts(b).free_variables, index->variable)) return std::nullopt;
     std::vector<Axis> axes = axes_of(b);
     const auto all = volume(axes);
-    if (!all || !is_affordable(b, static_cast<double>(*all))) return std::nullopt;
+    if (!all || !affords(b, static_cast<double>(*all))) return std::nullopt;
     const Axis last{index->variable, program()[index->variable].size};
     Relation result{axes, {}};
     result.axes.push_back(last);
@@ -241,8 +248,7 @@ std::optional<Relation> Exceptions::of_equality(ir::NodeId a, ir::NodeId b) cons
 }
 
 // 0 * x is 0 where x is finite, and no fault where x has none.
-std::optional<Relation> Exceptions::of_product(ir::NodeId a, ir::NodeId b,
-                                               const ir::Value& zero) const {
+std::optional<Relation> Exceptions::of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero) {
     const auto is_harmless = [&](ir::NodeId id) {
         return facts(id).finite && !facts(id).may_fault;
     };
@@ -252,7 +258,7 @@ std::optional<Relation> Exceptions::of_product(ir::NodeId a, ir::NodeId b,
     return std::nullopt;
 }
 
-std::optional<Relation> Exceptions::of(const ir::Select& select, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Select& select, const ir::Value& value) {
     if (facts(select.condition).may_fault) return std::nullopt;
     const Found first = both(select.condition, false, select.then_value, value);
     if (!first) return std::nullopt;
@@ -262,7 +268,7 @@ std::optional<Relation> Exceptions::of(const ir::Select& select, const ir::Value
 }
 
 // Combining that value with itself gives it again.
-std::optional<Relation> Exceptions::of(const ir::Reduce& reduce, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Reduce& reduce, const ir::Value& value) {
     if (reduce.bounds) return std::nullopt;
     switch (reduce.op) {
         case Reduction::ForAll:
@@ -285,7 +291,7 @@ std::optional<Relation> Exceptions::of(const ir::Reduce& reduce, const ir::Value
 }
 
 // A coin that always falls on one side, as its probability is 0.
-std::optional<Relation> Exceptions::of(const ir::Sample& sample, const ir::Value& value) const {
+std::optional<Relation> Exceptions::of(const ir::Sample& sample, const ir::Value& value) {
     if (sample.distribution != Distribution::Bernoulli || std::get<bool>(value)) {
         return std::nullopt;
     }
@@ -295,8 +301,7 @@ std::optional<Relation> Exceptions::of(const ir::Sample& sample, const ir::Value
 // --------------------------------------------------------------------------- combinations
 
 // Of something that has the value wherever both operands have it.
-std::optional<Relation> Exceptions::either(ir::NodeId a, ir::NodeId b,
-                                           const ir::Value& value) const {
+std::optional<Relation> Exceptions::either(ir::NodeId a, ir::NodeId b, const ir::Value& value) {
     const Found first = of(a, value);
     if (!first) return std::nullopt;
     const Found second = of(b, value);
@@ -308,7 +313,7 @@ std::optional<Relation> Exceptions::either(ir::NodeId a, ir::NodeId b,
 // evaluated, so where it may fault only its own exceptions count; `b` only cannot fault, or is
 // evaluated only where `a` is an exception.
 std::optional<Relation> Exceptions::both(ir::NodeId a, const ir::Value& value_of_a, ir::NodeId b,
-                                         const ir::Value& value_of_b) const {
+                                         const ir::Value& value_of_b) {
     if (facts(a).may_fault) return of(a, value_of_a);
     const Found first = of(a, value_of_a);
     const Found second = of(b, value_of_b);

@@ -21,12 +21,11 @@ namespace rddlc::passes {
 class Exceptions {
   public:
     // Both must outlive this. The evaluator is of the builder's program; nodes may be added later.
-    Exceptions(const ir::Builder& builder, const ir::Evaluator& evaluator)
-        : builder_(builder), evaluator_(evaluator) {}
+    Exceptions(const ir::Builder& builder, const ir::Evaluator& evaluator);
 
     // For all other assignments, evaluating the node gives `value` and no fault; a zero may have
     // either sign. None where nothing useful is known.
-    std::optional<Relation> of(ir::NodeId id, const ir::Value& value) const;
+    std::optional<Relation> of(ir::NodeId id, const ir::Value& value);
 
     // The value of a uniform node for a tuple of axes that hold all its variables; none if it
     // faults.
@@ -36,30 +35,32 @@ class Exceptions {
   private:
     using Found = std::optional<Relation>;
 
-    Found of(const ir::Load& load, const ir::Value& value) const;
-    Found of(const ir::Convert& convert, const ir::Value& value) const;
-    Found of(const ir::Apply& apply, const ir::Value& value) const;
-    Found of(const ir::Select& select, const ir::Value& value) const;
-    Found of(const ir::Reduce& reduce, const ir::Value& value) const;
-    Found of(const ir::Sample& sample, const ir::Value& value) const;
-    Found of_common_elements(ir::NodeId id, const ir::Value& value) const;
-    Found exceptions_of_tables(ir::NodeId id) const;
-    Found of_equality(ir::NodeId a, ir::NodeId b) const;
-    Found of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero) const;
+    Found of(const ir::Load& load, const ir::Value& value);
+    Found of(const ir::Convert& convert, const ir::Value& value);
+    Found of(const ir::Apply& apply, const ir::Value& value);
+    Found of(const ir::Select& select, const ir::Value& value);
+    Found of(const ir::Reduce& reduce, const ir::Value& value);
+    Found of(const ir::Sample& sample, const ir::Value& value);
+    Found of_common_elements(ir::NodeId id, const ir::Value& value);
+    Found exceptions_of_tables(ir::NodeId id);
+    Found of_equality(ir::NodeId a, ir::NodeId b);
+    Found of_product(ir::NodeId a, ir::NodeId b, const ir::Value& zero);
 
-    Found either(ir::NodeId a, ir::NodeId b, const ir::Value& value) const;
+    Found either(ir::NodeId a, ir::NodeId b, const ir::Value& value);
     Found both(ir::NodeId a, const ir::Value& value_of_a, ir::NodeId b,
-               const ir::Value& value_of_b) const;
-    Relation narrowed(Relation relation, ir::NodeId id, const ir::Value& value) const;
-    Found by_trying_all(ir::NodeId id, const ir::Value& value) const;
+               const ir::Value& value_of_b);
+    Relation narrowed(Relation relation, ir::NodeId id, const ir::Value& value);
+    Found by_trying_all(ir::NodeId id, const ir::Value& value);
 
     std::vector<Axis> axes_of(ir::NodeId id) const;
-    bool is_affordable(ir::NodeId id, double times) const;
+    // Whether an expression may be evaluated so often: for it, and for all of the program.
+    bool affords(ir::NodeId id, double times);
     const ir::Program& program() const { return builder_.program(); }
     const ir::Facts& facts(ir::NodeId id) const { return builder_.facts(id); }
 
     const ir::Builder& builder_;
     const ir::Evaluator& evaluator_;
+    double left_;  // in operations (Facts::cost), that may be spent on evaluating expressions
 };
 
 }  // namespace rddlc::passes

@@ -4,6 +4,7 @@
 #include "passes/constant_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -55,31 +56,36 @@ double evaluations(const ir::Program& program, const ir::Facts& facts) {
     return count;
 }
 
-// Has it only values that the instance fixes, and none of them is 0? `left` is what may be spent.
-bool is_never_zero(const ir::Program& program, const ir::Evaluator& evaluator, ir::NodeId id,
-                   const std::vector<ir::Facts>& all, double& left) {
+// Has it only values that the instance fixes, by all of which a finite number may be divided?
+// `left` is what may be spent.
+bool is_safe_divisor(const ir::Program& program, const ir::Evaluator& evaluator, ir::NodeId id,
+                     const std::vector<ir::Facts>& all, double& left) {
     const ir::Facts& facts = all[id.index];
     const double cost = facts.cost * evaluations(program, facts);
     if (!facts.uniform || cost > affordable_cost || cost > left) return false;
     left -= cost;
     const auto values = constant_values(evaluator, program, id, facts.free_variables);
-    return values && std::ranges::find(*values, ir::Value(0.0)) == values->end() &&
-           std::ranges::all_of(*values, is_finite);
+    return values && std::ranges::all_of(*values, [](const ir::Value& value) {
+               const double divisor = std::get<double>(value);
+               const std::optional range{ir::Range{divisor, divisor}};
+               return std::isfinite(divisor) &&
+                      ir::keeps_finite(Operator::Divide, std::array{range, range});
+           });
 }
 
-// The quotients that are finite since their divisors are never zero.
+// The quotients that are finite since their divisors are never zero, or near it.
 std::set<ir::NodeId> safe_quotients(const ir::Program& program) {
     const std::vector<ir::Facts> facts = ir::all_facts(program);
     const ir::Evaluator evaluator(program);
-    std::map<ir::NodeId, bool> never_zero;  // by divisor
+    std::map<ir::NodeId, bool> divisors;
     double left = affordable_in_all;
     std::set<ir::NodeId> safe;
     for (std::uint32_t index = 0; index < program.nodes.size(); ++index) {
         const auto* apply = std::get_if<ir::Apply>(&program.nodes[index].form);
         if (!apply || apply->op != Operator::Divide) continue;
         const ir::NodeId divisor = apply->operands.back();
-        const auto [known, is_new] = never_zero.try_emplace(divisor, false);
-        if (is_new) known->second = is_never_zero(program, evaluator, divisor, facts, left);
+        const auto [known, is_new] = divisors.try_emplace(divisor, false);
+        if (is_new) known->second = is_safe_divisor(program, evaluator, divisor, facts, left);
         if (known->second) safe.insert({index});
     }
     return safe;

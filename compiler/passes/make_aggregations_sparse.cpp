@@ -21,6 +21,8 @@ constexpr double cheap_loop = 12;
 constexpr double most_empty_rows = 1e6;
 // In operations, of computing one table of entries.
 constexpr double affordable_cost = 1e8;
+// Of all aggregations: each takes a few numbers in the emitted text.
+constexpr std::int64_t most_entries = std::int64_t{1} << 20;
 
 // The aggregation that is being rewritten: its objects are those of an entry now.
 struct Scope {
@@ -193,7 +195,9 @@ class Rewriting {
             if (!found->has(*variable))
                 nest.body = builder_.reduce(reduce.op, *variable, nest.body);
         }
+        if (scope.relation.count() > entries_left_) return std::nullopt;
         if (!is_worthwhile(scope, nest.body)) return std::nullopt;
+        entries_left_ -= scope.relation.count();
         ++report_["aggregations made sparse"];
         name(scope, nest.body);
         return over_entries(reduce.op, nest.body, scope);
@@ -345,6 +349,7 @@ class Rewriting {
     Exceptions exceptions_;
     EntryTables tables_;
     Scope everything_;
+    std::int64_t entries_left_ = most_entries;
     std::string name_;  // of what is being rewritten
     Span span_;
 };

@@ -23,6 +23,15 @@ TEST(Product, IsZeroWhereTheFirstFactorIs) {
     EXPECT_EQ(lowered("f * exp[f]"), "select(action.f == 0.0, action.f, action.f * exp(action.f))");
 }
 
+TEST(Product, KnowsDrawsAndQuotientsBeyondAllReals) {
+    EXPECT_EQ(lowered("x * Weibull(2.0, 1.0)"), "state.x * sample weibull@0[0](2.0, 1.0)");
+    EXPECT_EQ(lowered("x * Weibull(0.001, 1.0)"),
+              "select(state.x == 0.0, state.x, state.x * sample weibull@0[0](0.001, 1.0))");
+    EXPECT_EQ(lowered("x * (x / 0." + std::string(40, '0') + "1)"),
+              "select(state.x == 0.0, state.x, state.x * (state.x / 1e-41))");
+    EXPECT_EQ(lowered("x * sqrt[2.0]"), "state.x * 1.4142135623730951");
+}
+
 TEST(Product, DoesNotEvaluateAFallibleFactorAtZero) {
     EXPECT_EQ(lowered("n * pow[n, n]"),
               "real(select(state.n == 0, state.n, state.n * power@0[0](state.n, state.n)))");
