@@ -52,6 +52,8 @@ struct Answer {
 
     void pass_on() const {
         if (handle->count() == 0) return;
+        if (option->kind == OptionKind::Value && !option->is_list && value.empty())
+            throw UsageError(option->names + " is given no value");
         if (!option->is_list) return option->take(value);
         for (const std::string& each : values) option->take(each);
     }
@@ -137,10 +139,25 @@ void require_arguments(const Declared& declared) {
             throw UsageError(answer.option->names + " is required");
 }
 
+// `--trace=$FILE` without a FILE would take the next word for its value.
+void require_value(const Command& program, const std::string& word) {
+    if (!word.ends_with('=')) return;
+    const std::string name = word.substr(0, word.size() - 1);
+    const auto knows = [&](const Command& command) {
+        const std::vector<std::string> names = option_names(command);
+        return std::ranges::find(names, name) != names.end();
+    };
+    if (knows(program) || std::ranges::any_of(program.commands, knows))
+        throw UsageError(name + " is given no value");
+}
+
 // `help run` is `run --help`, as -h is; CLI11 takes the words from the back.
 std::vector<std::string> words_of(const Command& program, int argc, char** argv) {
     std::vector<std::string> words;
-    for (int i = 1; i < argc; ++i) words.push_back(respelled_word(program, argv[i]));
+    for (int i = 1; i < argc; ++i) {
+        require_value(program, argv[i]);
+        words.push_back(respelled_word(program, argv[i]));
+    }
     if (!program.commands.empty() && !words.empty() && words.front() == "help") {
         words.erase(words.begin());
         words.push_back("--help");

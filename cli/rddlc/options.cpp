@@ -27,6 +27,7 @@ constexpr const char* examples =
 // What the command line says, as it says it.
 struct Arguments {
     std::vector<std::string> inputs;
+    std::string policy;
     std::string output;
     std::vector<std::string> extern_headers;
     std::vector<std::string> print;
@@ -74,7 +75,8 @@ void add_file_options(Command& command, Arguments& arguments) {
     add_input(command, "DOMAIN", "domain file, or one that holds the instance, too", arguments);
     command.options.back().is_required = true;
     add_input(command, "INSTANCE", "instance file", arguments);
-    add_input(command, "POLICY", "file with a policy block", arguments);
+    add_argument(command, "POLICY", "file with a policy block, which alone is taken from it",
+                 arguments.policy);
     add_text_option(command, "-o", "FILE",
                     "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ text "
                     "goes to standard output",
@@ -254,6 +256,7 @@ Statistics statistics_format(const std::string& word) {
 CompileOptions compile_options(const Arguments& arguments) {
     CompileOptions options;
     options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
+    if (!arguments.policy.empty()) options.policy = arguments.policy;
     if (!arguments.output.empty()) options.output = arguments.output;
     options.extern_headers = extern_headers(arguments);
     options.print = printed_forms(arguments);

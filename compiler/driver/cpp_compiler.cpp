@@ -19,12 +19,12 @@ Words words_of(const char* text) {
     return words;
 }
 
-// Compiles nothing with them.
+// Compiles nothing with them. A compiler that is interrupted has refused nothing.
 bool takes(Words command, const Words& flags) {
     command.insert(command.end(), flags.begin(), flags.end());
     command.insert(command.end(), {"-Werror", "-fsyntax-only", "-x", "c++", "/dev/null"});
     const auto result = run_process(command);
-    return result && result->status == 0;
+    return result && (result->status == 0 || result->was_killed());
 }
 
 Words ask(const Words& compiler) {

@@ -17,6 +17,7 @@
 #include "model/print.hpp"
 #include "parse/parse.hpp"
 #include "passes/passes.hpp"
+#include "support/match.hpp"
 
 #include <fmt/format.h>
 
@@ -99,6 +100,26 @@ EmitOptions emit_options(const CompileOptions& options) {
             .extern_headers = include_paths(options)};
 }
 
+// A policy may come in the file of a whole problem, which is not the one that is compiled.
+void take_policy_alone(ast::Program& tree, FileId file, const Sources& sources,
+                       Diagnostics& diagnostics) {
+    const auto is_of_file = [&](const ast::Block& block) {
+        return match(block, [](const auto& any) { return any.span; }).file == file;
+    };
+    const auto is_policy_of_file = [&](const ast::Block& block) {
+        return is_of_file(block) && std::holds_alternative<ast::Policy>(block);
+    };
+    if (std::ranges::none_of(tree.blocks, is_policy_of_file))
+        diagnostics.report(
+            Diagnostic{no_policy_block,
+                       {},
+                       fmt::format("there is no policy block in '{}'", sources[file].path())}
+                .with_hint("write one: policy NAME { cpfs { ... }; }"));
+    std::erase_if(tree.blocks, [&](const ast::Block& block) {
+        return is_of_file(block) && !std::holds_alternative<ast::Policy>(block);
+    });
+}
+
 void run_stages(Run& run) {
     Compilation& result = run.result;
     Diagnostics& diagnostics = result.diagnostics;
@@ -111,8 +132,10 @@ void run_stages(Run& run) {
 
     // Text -> what was written.
     const Standard standard = run.options.standard;
-    const auto tree = run.measure(
-        Stage::Parse, [&] { return parse(result.sources, files, diagnostics, standard); });
+    auto tree = run.measure(Stage::Parse,
+                            [&] { return parse(result.sources, files, diagnostics, standard); });
+    if (diagnostics.has_errors()) return;
+    if (run.options.policy) take_policy_alone(tree, files.back(), result.sources, diagnostics);
     if (diagnostics.has_errors()) return;
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;

@@ -33,7 +33,8 @@ std::optional<Form> form_named(std::string_view name);
 Stage stage_of(Form form);  // the stage that makes it
 
 struct CompileOptions {
-    std::vector<std::filesystem::path> inputs;  // domain and instance, or one file with both
+    std::vector<std::filesystem::path> inputs;    // domain and instance, or one file with both
+    std::optional<std::filesystem::path> policy;  // of which the policy block alone is taken
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
     // C++ headers that define the external functions.
@@ -77,8 +78,8 @@ Compilation compile(const CompileOptions& options);
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 
-// What stands below diagnostics: how many there are, and how to learn more of the first error. Empty
-// if there are none.
+// What stands below diagnostics: how many there are, and how to learn more of the first error.
+// Empty if there are none.
 std::string closing_lines(const Diagnostics& diagnostics);
 
 }  // namespace rddlc

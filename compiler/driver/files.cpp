@@ -51,8 +51,10 @@ std::optional<OutputKind> output_kind(const fs::path& path) {
 
 std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources, UsedFiles& used,
                                 Diagnostics& diagnostics) {
+    std::vector<fs::path> inputs = options.inputs;
+    if (options.policy) inputs.push_back(*options.policy);
     std::vector<FileId> files;
-    for (const fs::path& input : options.inputs) {
+    for (const fs::path& input : inputs) {
         const auto file = sources.load(input);
         used.add(input);
         if (file) {

@@ -1,6 +1,7 @@
 #include "driver/process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,19 +9,40 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
 #include <string_view>
 
 namespace rddlc {
 namespace {
 
-std::string read_all(int descriptor) {
-    std::string text;
-    std::array<char, 4096> buffer;
-    while (true) {
-        const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-        if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
-        if (count == 0 || (count < 0 && errno != EINTR)) return text;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_output = std::size_t{1} << 24;
+
+// Until there is something to read, or the output ends. False when the time is over before.
+bool wait_for_output(int descriptor, std::optional<Clock::time_point> end) {
+    while (end) {
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(*end - Clock::now()).count();
+        if (left <= 0) return false;
+        pollfd output{descriptor, POLLIN, 0};
+        const int most = static_cast<int>(std::min<std::int64_t>(left, 1'000'000));
+        if (::poll(&output, 1, most) > 0) return true;
     }
+    return true;
+}
+
+// False when the time was over before the output was.
+bool read_all(int descriptor, std::optional<Clock::time_point> end, std::string& text) {
+    std::array<char, 4096> buffer;
+    while (wait_for_output(descriptor, end)) {
+        const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+        if (count > 0 && text.size() < most_output)
+            text.append(buffer.data(), static_cast<std::size_t>(count));
+        if (count == 0 || (count < 0 && errno != EINTR)) return true;
+    }
+    return false;
 }
 
 int wait_for(pid_t process) {
@@ -54,7 +76,8 @@ std::vector<std::string> environment_with(std::vector<std::string> variables) {
 }  // namespace
 
 std::optional<ProcessResult> run_process(const std::vector<std::string>& command,
-                                         const std::vector<std::string>& environment) {
+                                         const std::vector<std::string>& environment,
+                                         std::optional<std::chrono::seconds> limit) {
     std::array<int, 2> ends;  // to read from, to write to
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
 
@@ -72,7 +95,9 @@ std::optional<ProcessResult> run_process(const std::vector<std::string>& command
     std::optional<ProcessResult> result;
     if (error == 0) {
         result.emplace();
-        result->output = read_all(ends[0]);
+        const auto end = limit ? std::optional(Clock::now() + *limit) : std::nullopt;
+        result->timed_out = !read_all(ends[0], end, result->output);
+        if (result->timed_out) ::kill(process, SIGKILL);
         result->status = wait_for(process);
     }
     ::close(ends[0]);

@@ -1,6 +1,7 @@
 // Running another program, without a shell in between.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,12 +10,16 @@ namespace rddlc {
 
 struct ProcessResult {
     int status;          // its exit status; 128 + the signal that ended it
-    std::string output;  // what it wrote on its standard output and error
+    std::string output;  // what it wrote on its standard output and error: the first megabytes
+    bool timed_out = false;
+
+    bool was_killed() const { return status >= 128; }
 };
 
-// Looks command[0] up in PATH and waits for it. `environment` holds variables, "LC_ALL=C", in place
-// of ours. Nothing, with errno set, if it does not start.
+// Looks command[0] up in PATH and waits for it, but no longer than `limit`. `environment` holds
+// variables, "LC_ALL=C", in place of ours. Nothing, with errno set, if it does not start.
 std::optional<ProcessResult> run_process(const std::vector<std::string>& command,
-                                         const std::vector<std::string>& environment = {});
+                                         const std::vector<std::string>& environment = {},
+                                         std::optional<std::chrono::seconds> limit = {});
 
 }  // namespace rddlc

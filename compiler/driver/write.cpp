@@ -22,6 +22,7 @@ std::string escaped(const std::string& path) {
 std::string dependency_rule(const CompileOptions& options) {
     std::string rule = escaped(options.output->string()) + ":";
     for (const auto& input : options.inputs) rule += " \\\n  " + escaped(input.string());
+    if (options.policy) rule += " \\\n  " + escaped(options.policy->string());
     for (const auto& header : with_included_files(options.extern_headers)) {
         rule += " \\\n  " + escaped(header.string());
     }

@@ -49,8 +49,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{"run domain.rddl instance.rddl --episodes 0", "--episodes: "},
                     Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: "},
                     Misuse{"run domain.rddl instance.rddl --engine fast", "--engine: "},
+                    Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
+                           "--trace is given no value"},
+                    Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
                     Misuse{"check", "name a problem, or say --all"},
                     Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+
+TEST_F(Program, TellsOfFilesWhoseNamesAreNoUtf8) {
+    const std::string name = "d\xff.rddl";
+    write_file(folder_ / name, tanks_domain);
+    const std::string problem = "'" + name + "' instance.rddl --engine interpreter ";
+    EXPECT_EQ(run_json("run " + problem + "--json")["episodes"], 1);
+    EXPECT_EQ(run("run " + problem + "--quiet --trace t.jsonl").status, 0);
+    EXPECT_TRUE(read_file(folder_ / "t.jsonl").starts_with("{\"rddl_trace\":1"));
+    EXPECT_EQ(run_json("info '" + name + "' instance.rddl --json")["files"][0],
+              "d\xEF\xBF\xBD.rddl");
+    EXPECT_EQ(run("bench " + problem + "--json --seconds 0.01").status, 0);
+}
 
 // ----------------------------------------------------------------------------- finding problems
 

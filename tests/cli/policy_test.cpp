@@ -91,6 +91,19 @@ TEST_F(PolicyProgram, RunsTheBlockOfTheProblem) {
     EXPECT_EQ(without_speed(run_json(run_it + "rddl")), from_file);
 }
 
+TEST_F(PolicyProgram, TakesNothingButThePolicyFromItsFile) {
+    const std::string policy =
+        "policy p { cpfs { pump(?t) = water(?t) < 3.0; power = @low; extra = 0.0; }; }\n";
+    write_file(folder_ / "policy.rddl", policy);
+    std::string other = tanks_domain;  // in which pumps are stronger
+    other.replace(other.find("then 2.0"), 8, "then 9.0");
+    write_file(folder_ / "other.rddl", other + tanks_instance + policy);
+    const std::string run_it =
+        on_tanks("run", "--engine interpreter --episodes 20 --json --policy ");
+    EXPECT_EQ(without_speed(run_json(run_it + "other.rddl")),
+              without_speed(run_json(run_it + "policy.rddl")));
+}
+
 TEST_F(PolicyProgram, SaysWhatIsMissing) {
     const std::string run_it = on_tanks("run", "--engine interpreter --policy ");
     const Outcome none = run(run_it + "rddl");

@@ -5,7 +5,7 @@ import re
 import unittest
 from pathlib import Path
 
-from commands import EXAMPLES, LOOKING, RDDLC, SUCCESS, CommandTest
+from commands import EXAMPLES, LOOKING, RDDL, RDDLC, SUCCESS, CommandTest
 
 TEN_MEGABYTES = 10_000_000
 PROBLEM = EXAMPLES[1] / "domain.rddl", EXAMPLES[1] / "instance.rddl"
@@ -26,6 +26,13 @@ class Files(CommandTest):
         for looking in LOOKING:
             result = self.run_command(*looking, "secret.rddl", PROBLEM[1], **nobody)
             self.assert_refused(result, "Permission denied [E0901]")
+
+    def test_policies_without_one(self):
+        for words in ([RDDLC, *PROBLEM, PROBLEM[0]],
+                      [RDDL, "run", *PROBLEM, "--engine=interpreter", "--policy", PROBLEM[0]],
+                      [RDDL, "info", *PROBLEM, "--policy", PROBLEM[0]]):
+            self.assert_refused(self.run_command(*words), "there is no policy block in")
+            self.assert_refused(self.run_command(*words), "E0911")
 
     def test_broken_device(self):
         self.assert_all_refuse("/proc/self/mem", PROBLEM[1], code="Input/output error [E0901]")

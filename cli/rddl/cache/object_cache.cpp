@@ -69,7 +69,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     write_file(source, text, used);
     const auto prepared =
         options.links_batches ? prepared_runtime(target.parent_path(), toolchain) : std::nullopt;
-    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+    give_up_if_interrupted();
     Diagnostics diagnostics;
     bool built = false;
     try {
@@ -77,11 +77,11 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
                                     diagnostics, prepared);
     } catch (const std::logic_error&) {
         // Ctrl-C reaches the compiler, too.
-        if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+        give_up_if_interrupted();
         throw;
     }
     if (!built) {
-        if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+        give_up_if_interrupted();
         tell(render(diagnostics, {}, {}));
         if (!options.extern_headers.empty()) throw Diagnosed{};
         throw Failure("the simulator cannot be compiled", "--engine=interpreter needs no compiler");
@@ -94,6 +94,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
 
 CachedObject cached_object(const std::string& text, const CacheOptions& options) {
     const std::string toolchain = toolchain_text();
+    give_up_if_interrupted();
     const fs::path target = cache_folder() / (content_key(text, toolchain, options) + ".so");
     if (!options.ignore_cache && is_sealed(target)) return {target, std::nullopt};
     const CompilingMessage message(options.what, !options.quiet);

@@ -6,6 +6,7 @@
 #include "driver/shared_object.hpp"
 #include "driver/work_folder.hpp"
 #include "support/files.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,6 +65,7 @@ void remove_old(const fs::path& cache) {
 std::string toolchain_text() {
     const auto command =
         shared_object_command("simulator.cpp", "simulator.so", Processors::LikeThis);
+    give_up_if_interrupted();
     return fmt::format("{}\n{}\n{}", runtime_text(), fmt::join(command, " "),
                        compiler_version(command));
 }

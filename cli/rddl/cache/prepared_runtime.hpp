@@ -10,7 +10,7 @@ namespace rddlc::cli {
 
 // What compiled code depends on, besides its own text: the runtime's headers, the compiler's
 // command line and its version.
-std::string toolchain_text();
+std::string toolchain_text();  // fails on an interrupt
 
 // The folder within `cache` that prepare_runtime (driver/shared_object.hpp) fills for that
 // toolchain, now or earlier, intact; nothing if it cannot. Those of other toolchains are removed

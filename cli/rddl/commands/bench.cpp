@@ -3,6 +3,7 @@
 #include "commands/options.hpp"
 #include "engines/batch.hpp"
 #include "measure/bench_report.hpp"
+#include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <algorithm>
@@ -117,7 +118,9 @@ ExitStatus bench(const BenchOptions& options) {
     report.memory_per_environment = memory_per_environment(simulator, largest);
     report.measurements = measure_all(simulator, batches, options);
     options.json ? print_json(report) : print_table(report);
-    return is_interrupted() ? interrupted : success;
+    if (!is_interrupted()) return success;
+    tell("rddl: interrupted before all was measured\n");
+    return interrupted;
 }
 
 void add_peer_options(Command& command, BenchOptions& options) {

@@ -2,6 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "engines/interpreted_simulator.hpp"
+#include "formats/json_text.hpp"
 #include "problems/description.hpp"
 #include "problems/front_end.hpp"
 
@@ -27,7 +28,7 @@ ExitStatus info(const InfoOptions& options) {
     description.simulator =
         interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
     if (options.json)
-        fmt::print("{}\n", description_json(description).dump(2));
+        fmt::print("{}", json_document(description_json(description)));
     else
         fmt::print("{}", description_text(description));
     return success;

@@ -1,5 +1,6 @@
 // rddl list: the problems of rddlrepository.
 #include "commands/commands.hpp"
+#include "formats/json_text.hpp"
 #include "formats/table.hpp"
 #include "problems/characteristics.hpp"
 #include "problems/front_end.hpp"
@@ -141,7 +142,7 @@ nlohmann::ordered_json problem_json(const ListedProblem& listed) {
 void print_json(const std::vector<ListedProblem>& all) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
     for (const ListedProblem& listed : all) out.push_back(problem_json(listed));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}", json_document(out));
 }
 
 ExitStatus list(const ListOptions& options) {

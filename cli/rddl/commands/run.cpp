@@ -1,6 +1,7 @@
 // rddl run: whole episodes under a policy, and what came of them.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/statistics.hpp"
 #include "formats/table.hpp"
@@ -186,7 +187,7 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
     if (const auto& first = rollouts.first_broken_invariant)
         out["first_broken_invariant"] =
             when(*first) + ": " + explainer.invariant(first->violation).line();
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}", json_document(out));
 }
 
 std::string header_line(const RunOptions& options, const LoadedProblem& problem,
@@ -211,14 +212,8 @@ void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
             "give one with --horizon", usage_error);
 }
 
-void require_policy_block(const rddl_simulator& simulator, const RunOptions& options) {
-    const rddl_policy* const policy = simulator.policy;
-    constexpr const char* hint =
-        "docs/policies.md tells how to write one: policy NAME { cpfs { ... }; }";
-    if (options.policy_file && (!policy || *options.policy_file != policy->source.file))
-        throw Failure(
-            fmt::format("there is no policy block in '{}'", options.policy_file->string()), hint);
-    if (!policy)
+void require_policy_block(const rddl_simulator& simulator) {
+    if (!simulator.policy)
         throw Failure("there is no policy block in the files of the problem",
                       "name the file that has it: --policy=FILE.rddl");
 }
@@ -227,7 +222,7 @@ ExitStatus run(const RunOptions& options) {
     ProblemFiles files = options.problem.files();
     files.policy = options.policy_file;
     const LoadedProblem problem = load_problem(files, options.load);
-    if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator, options);
+    if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator);
     const rddl_problem& description = *problem.simulator->problem;
     const std::int64_t horizon =
         options.rollouts.horizon < 0 ? description.horizon : options.rollouts.horizon;
@@ -245,7 +240,7 @@ ExitStatus run(const RunOptions& options) {
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
     const Rollouts rollouts =
-        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
+        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet && is_terminal(2));
     if (trace) trace->finish();
     if (rollouts.missing_threads > 0)
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,

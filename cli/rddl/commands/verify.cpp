@@ -1,6 +1,7 @@
 // rddl verify: the same steps by all engines, to see whether they agree.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "formats/json_text.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
 #include "verify/pyrddlgym_outcomes.hpp"
@@ -99,7 +100,7 @@ ExitStatus verify(const VerifyOptions& options) {
     const std::string words = options.problem.first +
                               (options.problem.second.empty() ? "" : " " + options.problem.second);
     if (problem.invalid) {
-        fmt::print("{}", options.json ? invalid_program_json(problem).dump(2) + "\n"
+        fmt::print("{}", options.json ? json_document(invalid_program_json(problem))
                                       : invalid_program_text(problem, words));
         return diagnosed;
     }
@@ -112,14 +113,15 @@ ExitStatus verify(const VerifyOptions& options) {
         report.verdict = judge(problem, comparison, *report.walk.disagreement, options.seed);
     report.pyrddlgym = ask_pyrddlgym(options, problem, comparison, report.walk, begin);
     if (options.json)
-        fmt::print("{}\n", report_json(report).dump(2, ' ', false,
-                                                    nlohmann::json::error_handler_t::replace));
+        fmt::print("{}", json_document(report_json(report)));
     else if (!report.agrees())
         fmt::print("{}", difference_text(report));
     else if (!options.quiet)
         fmt::print("{}", agreement_line(report));
     if (!report.agrees()) return diagnosed;
-    return report.walk.interrupted ? interrupted : success;
+    if (!report.walk.interrupted) return success;
+    tell("rddl: interrupted before all was compared\n");
+    return interrupted;
 }
 
 void choose_policy(VerifyOptions& options, const std::string& name) {

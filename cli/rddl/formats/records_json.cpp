@@ -1,5 +1,6 @@
 #include "formats/records_json.hpp"
 
+#include "formats/json_text.hpp"
 #include "support/diagnostic.hpp"
 
 #include <fmt/format.h>
@@ -83,7 +84,7 @@ std::string wrong_value(const RecordEntry& entry, const json& value, std::string
     constexpr std::size_t longest = 60;
     std::string text = value.is_array()    ? "an array"
                        : value.is_object() ? "a JSON object"
-                                           : value.dump();
+                                           : json_line(value);
     if (text.size() > longest) text = text.substr(0, longest) + "...";
     return fmt::format("'{}' takes {}, not {}{}", entry.name, expected_value(entry), text, why);
 }
@@ -291,7 +292,7 @@ void write_string(std::string& out, std::string_view text) {
     if (plain)
         ((out += '"') += text) += '"';
     else  // bytes that are not UTF-8 become U+FFFD
-        out += json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+        out += json_line(std::string(text));
 }
 
 }  // namespace rddlc::cli

@@ -3,6 +3,7 @@
 #include "cache/sha256.hpp"
 #include "driver/version.hpp"
 #include "engines/faults.hpp"
+#include "formats/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ std::string trace_header_line(const TraceHeader& header, const rddl_problem& pro
                                       {"episodes", header.episodes},
                                       {"horizon", header.horizon},
                                       {"discount", problem.discount}};
-    return line.dump() + '\n';
+    return json_line(line) + '\n';
 }
 
 std::string causes_json(std::uint8_t causes) {

@@ -1,5 +1,6 @@
 #include "measure/bench_report.hpp"
 
+#include "formats/json_text.hpp"
 #include "formats/statistics.hpp"
 #include "formats/table.hpp"
 
@@ -152,7 +153,7 @@ void print_table(const BenchReport& report) {
 }
 
 void print_json(const BenchReport& report) {
-    fmt::print("{}\n", to_json(report).dump(2));
+    fmt::print("{}", json_document(to_json(report)));
 }
 
 }  // namespace rddlc::cli

@@ -1,6 +1,7 @@
 #include "measure/peers.hpp"
 
 #include "driver/process.hpp"
+#include "driver/work_folder.hpp"
 #include "python/python_command.hpp"
 #include "support/failure.hpp"
 
@@ -103,9 +104,10 @@ PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
                          const PeerOptions& options) {
     const Peer& peer = peer_named(name);
     const std::string python = python_command(options.python);
+    const TemporaryFolder folder;
     const auto result =
         run_process({python, program_file(peer).string(), argument_of(files.domain),
-                     argument_of(files.instance.value_or("/dev/null")), "--seconds",
+                     argument_of(instance_for_python(files, folder.path())), "--seconds",
                      fmt::format("{}", options.seconds), "--cores", std::to_string(options.cores)});
     if (!result)
         throw Failure(fmt::format("cannot run '{}'", python),

@@ -14,7 +14,8 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
                             const std::vector<std::filesystem::path>& extern_headers,
                             const PassOptions& passes, RealType real) {
     CompileOptions options;
-    options.inputs = files.all();
+    options.inputs = files.inputs();
+    options.policy = files.policy;
     options.extern_headers = extern_headers;
     options.stop_after = last;
     options.standard = files.standard;

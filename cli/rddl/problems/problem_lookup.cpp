@@ -120,9 +120,14 @@ ProblemFiles find_paths(const std::string& domain, const std::string& instance) 
 
 }  // namespace
 
-std::vector<fs::path> ProblemFiles::all() const {
+std::vector<fs::path> ProblemFiles::inputs() const {
     std::vector<fs::path> files{domain};
     if (instance) files.push_back(*instance);
+    return files;
+}
+
+std::vector<fs::path> ProblemFiles::all() const {
+    std::vector<fs::path> files = inputs();
     if (policy) files.push_back(*policy);
     return files;
 }

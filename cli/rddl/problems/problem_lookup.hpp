@@ -20,6 +20,7 @@ struct ProblemFiles {
     Standard standard = Standard::PyRddlGym;           // in which they are written
     std::int64_t memory_limit = default_memory_limit;  // bytes that its simulators may take
 
+    std::vector<std::filesystem::path> inputs() const;  // without the policy
     std::vector<std::filesystem::path> all() const;
 };
 

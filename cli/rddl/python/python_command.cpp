@@ -1,5 +1,7 @@
 #include "python/python_command.hpp"
 
+#include "support/files.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -11,6 +13,15 @@ std::string python_command(const std::string& named) {
     return environment && *environment
                ? (std::filesystem::path(environment) / "bin/python").string()
                : "python3";
+}
+
+std::filesystem::path instance_for_python(const ProblemFiles& files,
+                                          const std::filesystem::path& folder) {
+    if (files.instance) return *files.instance;
+    const std::filesystem::path empty = folder / "no-instance.rddl";
+    UsedFiles used;
+    write_file(empty, "", used);
+    return empty;
 }
 
 }  // namespace rddlc::cli

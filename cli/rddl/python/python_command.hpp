@@ -1,11 +1,18 @@
-// Which Python runs programs of ours.
+// Which Python runs programs of ours, and what they are given.
 #pragma once
 
+#include "problems/problem_lookup.hpp"
+
+#include <filesystem>
 #include <string>
 
 namespace rddlc::cli {
 
 // `named` if it is not empty, else that of $VIRTUAL_ENV, else python3.
 std::string python_command(const std::string& named);
+
+// pyRDDLGym reads two files: beside one that holds both blocks an empty one, in `folder`.
+std::filesystem::path instance_for_python(const ProblemFiles& files,
+                                          const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli

@@ -43,4 +43,8 @@ bool is_interrupted() {
     return interrupt_seen;
 }
 
+void give_up_if_interrupted() {
+    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+}
+
 }  // namespace rddlc::cli

@@ -9,4 +9,8 @@ void catch_interrupts();
 
 bool is_interrupted();
 
+// While something is compiled: throws a Failure. Ctrl-C reaches the compiler, too, which then ends
+// as if it had failed.
+void give_up_if_interrupted();
+
 }  // namespace rddlc::cli

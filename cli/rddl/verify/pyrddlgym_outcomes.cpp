@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -191,12 +192,19 @@ PyRddlGymComparison compare_with_pyrddlgym(const ProblemFiles& files, const rddl
                    answers_file = folder.path() / "answers";
     write_questions(questions, comparison, samples);
     const std::string python = python_command(options.python);
+    // Reading a large problem takes it minutes.
+    const std::chrono::seconds limit{300 + static_cast<std::int64_t>(options.seconds)};
     const auto process =
         run_process({python, "-c", std::string(pyrddlgym_outcomes_program), files.domain.string(),
-                     files.instance.value_or("/dev/null").string(), questions.string(),
-                     answers_file.string(), fmt::format("{}", options.seconds)});
+                     instance_for_python(files, folder.path()).string(), questions.string(),
+                     answers_file.string(), fmt::format("{}", options.seconds)},
+                    {}, limit);
     if (!process) {
         result.not_compared = fmt::format("there is no '{}'", python);
+        return result;
+    }
+    if (process->timed_out) {
+        result.not_compared = fmt::format("'{}' has no end within {} s", python, limit.count());
         return result;
     }
     const std::vector<json> lines = read_answers(answers_file);

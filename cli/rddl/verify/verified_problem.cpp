@@ -62,7 +62,8 @@ void add_interpreters(VerifiedProblem& problem) {
 Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int lanes) {
     const ExternFiles externs = extern_files(load.externs);
     CompileOptions options;
-    options.inputs = files.all();
+    options.inputs = files.inputs();
+    options.policy = files.policy;
     options.extern_headers = externs.headers;
     options.stop_after = Stage::Emit;
     options.standard = files.standard;
