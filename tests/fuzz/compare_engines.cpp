@@ -5,12 +5,14 @@
 //       {"file": "problem.rddl", "entry": "rddl_simulator_fuzz_i7", "fast_math": false, "steps":
 //       12}
 //       {"lanes": 16, "instruction_set": "AVX2", "ends": 3, "faults": 1, "difference": ""}
+//       {"too_large": true}
 //
 // Environments start from the initial state, and now and then from a random one. They take random
 // actions, or every other step those of the policy block, if there is one.
 #include "../conformance/stepping.hpp"
 #include "driver/driver.hpp"
 #include "engines/interpreted_simulator.hpp"
+#include "twins.hpp"
 
 #include <dlfcn.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +32,10 @@ using namespace stepping;
 using nlohmann::json;
 using Simulator = std::shared_ptr<const rddl_simulator>;
 
+// Of a step; more would take the interpreter too long. As in exercise.hpp.
+constexpr double most_operations = 1e5;
+
+// Null for a problem that is too large.
 Simulator interpreted(const json& request) {
     rddlc::CompileOptions options;
     options.inputs = {request.at("file").get<std::string>()};
@@ -40,6 +46,7 @@ Simulator interpreted(const json& request) {
         options.passes.without.insert(name);
     rddlc::Compilation compilation = rddlc::compile(options);
     if (!compilation.program) throw std::runtime_error("rejected");
+    if (rddlc::fuzzing::step_cost(*compilation.program) > most_operations) return nullptr;
     return rddlc::cli::interpreted_simulator(*std::move(compilation.program),
                                              std::move(compilation.sources));
 }
@@ -102,6 +109,7 @@ std::string difference(const Engine& expected, const Engine& found) {
 
 json compare(void* object, const json& request) {
     const Simulator oracle = interpreted(request);
+    if (!oracle) return {{"too_large", true}};
     const rddl_simulator& simulator = compiled(object, request.at("entry").get<std::string>());
     const int lanes = simulator.lane_count, count = lanes + 5, steps = request.value("steps", 12);
     std::vector<Engine> engines;

@@ -82,6 +82,9 @@ class CompiledChecker:
         answers = [json.loads(line) for line in result.stdout.splitlines()]
         found = {}
         for seed, answer in zip(problems, answers):
+            if answer.get("too_large"):
+                counts["too large"] += 1
+                continue
             counts["accepted"] += 1
             counts[f"{answer.get('lanes')} lanes"] += 1
             counts[f"{answer.get('instruction_set')}"] += 1
