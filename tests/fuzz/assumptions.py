@@ -169,6 +169,30 @@ class Assumptions:
             counted = self.count(0) or counted
         return Expr("real", f"{self.pick(FACTORS)} * %s", (counted,), 10, UNSURE)
 
+    # ------------------------------------------------------------- finite operands, infinite results
+
+    def beyond_reals(self, depth: int) -> Expr | None:
+        """A product with what is inf now and then, though all in it is moderate; and with a bool, 0 for some."""
+        if not self.flavour.wild:
+            return None
+        tiny = self.pick(["0." + "0" * 320 + "1", "0." + "0" * 29 + "1", "0." + "0" * 40 + "1"])
+        exponent = self.pick(["400.0", "1000.0", "17.0", "16.0", "0.5", "(0.0 - 300.0)"])
+        shape = self.pick(["0.001", "0.01", "0.5", "1.0"])
+        forms = [f"pow[(if (%s) then 10.0 else 2.0), {exponent}]", f"(1.0 / (%s + {tiny}))"]
+        if self.flavour.draws:
+            forms += [f"(%s + {name})" for name in (
+                f"Weibull({shape}, 1.0)", f"Pareto({shape}, 1.0)", f"Student({shape})", f"Gompertz(1.0, {tiny})",
+            )]  # fmt: skip
+        def term(variables):
+            factor = Expr("real", self.pick(forms), (self.boolean(0),), 40, UNSURE, False)
+            zero = self.over("bool", variables, self.pick([None, ["non-fluent"]])) or self.boolean(0)
+            return Expr("real", self.pick(["%s * %s", "[%s] * %s"]), (zero, factor), 40, UNSURE, False)
+
+        found = self.over_objects(depth, "", term) if self.chance(0.7) else None
+        if found is None:
+            return Expr("real", "(%s)", (term([v for v, _ in self.scope]),), 40, UNSURE, False)
+        return Expr("real", f"(sum_{found[0]} [%s])", (found[1],), 40, UNSURE, False)
+
     # ------------------------------------------------------------------- objects that are bound
 
     def chosen_by_sums(self, depth: int) -> Expr | None:

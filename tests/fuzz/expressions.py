@@ -261,7 +261,7 @@ class Expressions:
         ]
         if rough:
             options += [(5, self.rough_function), (2, self.rough_division)]
-            options += [] if self.flavour.finite else [(2, self.edge_function)]
+            options += [] if self.flavour.finite else [(2, self.edge_function), (2, self.beyond_reals)]
         if self.flavour.draws:
             options.append((3 if rough else 0, self.continuous_draw))
         return self.pick_weighted(options)(depth - 1) or self.leaf("real", exact=not rough)
