@@ -79,7 +79,7 @@ def build_references(options: argparse.Namespace) -> Path:
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
     program = options.folder / "handwritten"
     measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "rollouts/random_policy",
-                 "formats/records_json")
+                 "formats/records_json", "formats/json_text")
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler"]
     libraries = [options.build / "compiler/support/librddlc_support.a", "-lfmt", "-ldl", "-pthread"]
