@@ -142,12 +142,25 @@ bool never_settles(Operator op, const model::Expr& first) {
     return constant && constant->value == model::Value{op == Operator::And};
 }
 
+bool is_arithmetic(Operator op) {
+    return op == Operator::Add || op == Operator::Subtract || op == Operator::Multiply ||
+           op == Operator::Divide;
+}
+
 bool is_number(const Typed& operand) {
     return operand && (operand->type == model::int_type || operand->type == model::real_type);
 }
 
+// x ^ 2, or x ^ 2 + y, of which the right side can be no bool on any path.
+bool is_meant_as_power(const BinaryPlace& place, const Typed& left, const Typed& right) {
+    if (place.op != Operator::And || !is_number(left) || !is_number(right)) return false;
+    const ast::Expr& inner = without_groups(place.right);
+    const auto* binary = std::get_if<ast::Binary>(&inner.node);
+    return is_constant(inner) || (binary && is_arithmetic(operator_of(binary->op)));
+}
+
 Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
-    if (place.op == Operator::And && is_number(left) && is_number(right)) {
+    if (is_meant_as_power(place, left, right)) {
         scope.context.report(diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
                                  .with_hint("'^' is 'and'; a power is written 'pow[x, y]'"));
         return std::nullopt;
