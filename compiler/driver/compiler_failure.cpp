@@ -74,7 +74,7 @@ bool names_a_mistake(const ProcessResult& failed) {
 }
 
 bool lacks_resources(const ProcessResult& failed) {
-    return failed.status >= 128 || lack_of(failed) != nullptr;
+    return failed.was_killed() || lack_of(failed) != nullptr;
 }
 
 bool is_our_mistake(const ProcessResult& failed, const std::function<bool()>& compiles_runtime) {
@@ -84,7 +84,7 @@ bool is_our_mistake(const ProcessResult& failed, const std::function<bool()>& co
 
 Diagnostic failing_compiler(const std::vector<std::string>& command, const ProcessResult& failed) {
     constexpr int most_lines = 20;
-    const std::string end = failed.status < 128
+    const std::string end = !failed.was_killed()
                                 ? fmt::format("ends with status {}", failed.status)
                                 : fmt::format("is ended by signal {}", failed.status - 128);
     Diagnostic diagnostic{.code = broken_cpp_compiler,

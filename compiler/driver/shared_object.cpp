@@ -86,7 +86,7 @@ std::vector<std::string> compiler_command(Processors processors) {
 
 // Not by a mistake in what it compiles if it was interrupted.
 bool is_refused(const std::optional<ProcessResult>& result) {
-    return result && result->status != 0 && result->status < 128;
+    return result && result->status != 0 && !result->was_killed();
 }
 
 // Names within a folder of what is prepared. Compilers look for the third when they are told to
@@ -160,8 +160,8 @@ std::vector<std::string> part_command(const Part& part, const fs::path& source,
     return command;
 }
 
-// For every instruction set, at once, and linked. What is not zero is
-// the status of one of the compilers.
+// For every instruction set, at once, and linked. What is not zero is the status of one of the
+// compilers.
 std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::path& output) {
     std::vector<std::future<std::optional<ProcessResult>>> running;
     std::vector<std::string> linking = compiler_command(Processors::Any);

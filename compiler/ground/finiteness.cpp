@@ -18,9 +18,9 @@ bool has_finite_values(const model::Fluent& fluent) {
     return fluent.values.all_of([](const model::Value& v) { return std::isfinite(as_real(v)); });
 }
 
-// The values that the instance fixes.
+// Of finite values that the instance fixes.
 std::optional<ir::Range> range_of(const model::Fluent& fluent) {
-    if (fluent.role != Role::NonFluent || !has_finite_values(fluent)) return std::nullopt;
+    if (fluent.role != Role::NonFluent) return std::nullopt;
     const double common = as_real(fluent.values.common());
     ir::Range range{common, common};
     for (const auto& [index, value] : fluent.values.exceptions())
@@ -33,7 +33,7 @@ std::optional<ir::Range> range_of(const model::Fluent& fluent) {
 Finiteness::Finiteness(const model::Model& model) : model_(model) {
     for (const model::Fluent& fluent : model.fluents) {
         fluent_is_finite_.push_back(has_finite_values(fluent));
-        ranges_.push_back(range_of(fluent));
+        ranges_.push_back(fluent_is_finite_.back() ? range_of(fluent) : std::nullopt);
     }
     for (const model::InitialDraw& draw : model.initial_draws) {
         if (!is_finite(draw.value)) fluent_is_finite_[draw.fluent] = false;

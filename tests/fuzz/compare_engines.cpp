@@ -12,6 +12,7 @@
 #include "../conformance/stepping.hpp"
 #include "driver/driver.hpp"
 #include "engines/interpreted_simulator.hpp"
+#include "exercise.hpp"
 #include "twins.hpp"
 
 #include <dlfcn.h>
@@ -32,9 +33,6 @@ using namespace stepping;
 using nlohmann::json;
 using Simulator = std::shared_ptr<const rddl_simulator>;
 
-// Of a step; more would take the interpreter too long. As in exercise.hpp.
-constexpr double most_operations = 1e5;
-
 // Null for a problem that is too large.
 Simulator interpreted(const json& request) {
     rddlc::CompileOptions options;
@@ -46,6 +44,7 @@ Simulator interpreted(const json& request) {
         options.passes.without.insert(name);
     rddlc::Compilation compilation = rddlc::compile(options);
     if (!compilation.program) throw std::runtime_error("rejected");
+    const double most_operations = rddlc::fuzzing::Exercise{}.most_operations;
     if (rddlc::fuzzing::step_cost(*compilation.program) > most_operations) return nullptr;
     return rddlc::cli::interpreted_simulator(*std::move(compilation.program),
                                              std::move(compilation.sources));

@@ -31,8 +31,9 @@ class Files(CommandTest):
         for words in ([RDDLC, *PROBLEM, PROBLEM[0]],
                       [RDDL, "run", *PROBLEM, "--engine=interpreter", "--policy", PROBLEM[0]],
                       [RDDL, "info", *PROBLEM, "--policy", PROBLEM[0]]):
-            self.assert_refused(self.run_command(*words), "there is no policy block in")
-            self.assert_refused(self.run_command(*words), "E0911")
+            result = self.run_command(*words)
+            self.assert_refused(result, "there is no policy block in")
+            self.assert_refused(result, "E0911")
 
     def test_broken_device(self):
         self.assert_all_refuse("/proc/self/mem", PROBLEM[1], code="Input/output error [E0901]")

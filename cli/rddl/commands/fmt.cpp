@@ -6,7 +6,6 @@
 #include "support/files.hpp"
 #include "support/program.hpp"
 #include "support/render.hpp"
-#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

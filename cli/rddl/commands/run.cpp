@@ -240,7 +240,7 @@ ExitStatus run(const RunOptions& options) {
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
     const Rollouts rollouts =
-        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet && is_terminal(2));
+        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
     if (trace) trace->finish();
     if (rollouts.missing_threads > 0)
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,

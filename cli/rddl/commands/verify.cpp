@@ -2,8 +2,8 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/json_text.hpp"
+#include "support/program.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/progress.hpp"
 #include "verify/pyrddlgym_outcomes.hpp"
 #include "verify/verdict.hpp"
 #include "verify/verified_problem.hpp"
@@ -64,7 +64,7 @@ Walk walk(const VerifiedProblem& problem, const OutcomeComparison& comparison,
     walk.end = std::max(begin + duration(share * options.seconds),
                         Clock::now() + duration(std::min(least_seconds, options.seconds)));
     walk.policy = options.policy;
-    walk.progress = !options.quiet && is_terminal(2);
+    walk.progress = !options.quiet;
     if (options.pyrddlgym) walk.most_samples = static_cast<std::size_t>(options.pyrddlgym_steps);
     if (!options.states.empty()) {
         const VerifiedEnvironments fresh(problem.engines.front(), 1, options.seed, -1);

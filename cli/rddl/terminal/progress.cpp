@@ -10,8 +10,10 @@
 
 namespace rddlc::cli {
 
-Progress::Progress(std::string what, std::int64_t total, bool shown)
-    : what_(std::move(what)), total_(std::max<std::int64_t>(total, 1)), shown_(shown) {}
+Progress::Progress(std::string what, std::int64_t total, bool wanted)
+    : what_(std::move(what)),
+      total_(std::max<std::int64_t>(total, 1)),
+      shown_(wanted && is_terminal(2)) {}
 
 Progress::~Progress() {
     if (drawn_) tell("\r\x1b[K");

@@ -1,8 +1,6 @@
 // A progress bar on stderr: on a terminal only, so that pipes and logs stay clean.
 #pragma once
 
-#include "support/program.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <mutex>
@@ -13,7 +11,7 @@ namespace rddlc::cli {
 class Progress {
   public:
     // `what` is a verb in its -ing form, `total` the amount of work.
-    Progress(std::string what, std::int64_t total, bool shown = is_terminal(2));
+    Progress(std::string what, std::int64_t total, bool wanted = true);
     ~Progress();  // wipes the bar
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
