@@ -1,5 +1,5 @@
 # rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [POLICY <file>] [EXTERN <header>...]
-#                    [NAME <name>] [HEADER] [OPTIONS <option>...])
+#                    [NAME <name>] [HEADER] [DETAILS] [OPTIONS <option>...])
 #
 # Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
 #
@@ -9,19 +9,35 @@
 #   EXTERN             C++ headers that define external functions, relative to the current source folder
 #   NAME               of the emitted file (default: the target's name)
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
+#   DETAILS            interm-fluents of the last step can be asked for, and objects that violate a precondition
 #   OPTIONS            more options for rddlc, such as -Werror
 #
 # A static library is compiled for speed in any build type; a header takes the flags of those who include
-# it, and wants -O3. The library exports `extern "C" const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`.
+# it, and wants -O3. The library exports `const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`, which
+# <NAME>.h declares for C and C++.
+#
+# rddl_compile_simulator(<target> <file>...)
+#
+# The static library of what rddlc has emitted before, with the flags that it needs: no rddlc is needed.
 include(${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake)
 
+function(rddl_compile_simulator target)
+  add_library(${target} STATIC ${ARGN})
+  target_link_libraries(${target} PUBLIC rddlc::runtime)
+  rddl_add_flags(${target} PRIVATE RDDL_NEEDED_FLAGS RDDL_FAST_FLAGS)
+endfunction()
+
 function(rddl_add_simulator target)
-  cmake_parse_arguments(ARG "HEADER" "DOMAIN;INSTANCE;POLICY;NAME" "EXTERN;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "HEADER;DETAILS" "DOMAIN;INSTANCE;POLICY;NAME" "EXTERN;OPTIONS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT ARG_DOMAIN)
     message(FATAL_ERROR "rddl_add_simulator(${target}): DOMAIN is missing")
+  endif()
+  if(NOT TARGET rddlc::rddlc)
+    message(FATAL_ERROR "rddl_add_simulator(${target}): only the runtime of rddlc is here, not the compiler. "
+      "Install that, too, or emit the text elsewhere and use rddl_compile_simulator.")
   endif()
   if(NOT ARG_NAME)
     set(ARG_NAME ${target})
@@ -46,10 +62,19 @@ function(rddl_add_simulator target)
     set(extension .hpp)
   endif()
   set(output ${folder}/${ARG_NAME}${extension})
+  set(products ${output})
+  set(more "")
+  if(NOT ARG_HEADER)
+    list(APPEND products ${folder}/${ARG_NAME}.h)
+    list(APPEND more --declare ${folder}/${ARG_NAME}.h)
+  endif()
+  if(ARG_DETAILS)
+    list(APPEND more --details)
+  endif()
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(
-    OUTPUT ${output}
-    COMMAND rddlc::rddlc ${inputs} ${externs} -o ${output} -MD -MF ${output}.d ${ARG_OPTIONS}
+    OUTPUT ${products}
+    COMMAND rddlc::rddlc ${inputs} ${externs} ${more} -o ${output} -MD -MF ${output}.d ${ARG_OPTIONS}
     DEPENDS rddlc::rddlc ${inputs} ${headers}
     DEPFILE ${output}.d
     COMMENT "Compiling ${ARG_DOMAIN} ${ARG_INSTANCE}" VERBATIM)
@@ -60,8 +85,7 @@ function(rddl_add_simulator target)
     target_link_libraries(${target} INTERFACE rddlc::runtime)
     rddl_add_flags(${target} INTERFACE RDDL_NEEDED_FLAGS)
   else()
-    add_library(${target} STATIC ${output})
-    target_link_libraries(${target} PUBLIC rddlc::runtime)
-    rddl_add_flags(${target} PRIVATE RDDL_NEEDED_FLAGS RDDL_FAST_FLAGS)
+    rddl_compile_simulator(${target} ${products})
+    target_include_directories(${target} INTERFACE ${folder})
   endif()
 endfunction()

@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include "driver/explain.hpp"
+#include "driver/files.hpp"
 #include "support/program.hpp"
 
 #include <fmt/format.h>
@@ -36,11 +37,13 @@ struct Arguments {
     bool line_directives = false;
     bool dependencies = false;
     std::string dependency_file;
+    std::string declaration_file;
     std::vector<std::string> warnings;  // behind -W
     bool no_warnings = false;
     std::string format = "text";
     std::string color = "auto";
     std::string standard = "pyrddlgym";
+    bool details = false;
     std::string lanes = "16";
     std::string real = "double";
     std::int64_t memory_limit = default_memory_limit;
@@ -85,6 +88,10 @@ void add_file_options(Command& command, Arguments& arguments) {
                         "include FILE, a C++ header that defines the external functions; may be "
                         "repeated",
                         arguments.extern_headers);
+    add_text_option(command, "--declare", "FILE",
+                    "also write FILE, a header for C and C++ that declares the function which the "
+                    ".cpp exports",
+                    arguments.declaration_file);
     add_flag(command, "-MD", "write a rule for make and ninja beside the output: FILE.d",
              arguments.dependencies);
     add_text_option(command, "-MF", "FILE", "name the file of -MD", arguments.dependency_file);
@@ -123,6 +130,10 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
 }
 
 void add_code_options(Command& command, Arguments& arguments) {
+    add_flag(command, "--details",
+             "the simulator can also tell interm-fluents of the last step, and which objects "
+             "violate a precondition",
+             arguments.details);
     add_flag(command, "--emit-lines", "#line in the C++ text, for debuggers and profilers",
              arguments.line_directives);
     add_text_option(command, "--lanes", "N",
@@ -222,6 +233,14 @@ std::optional<std::filesystem::path> dependency_file(const Arguments& arguments)
     return arguments.output + ".d";
 }
 
+// Only a .cpp exports a function of its own name.
+std::optional<std::filesystem::path> declaration_file(const Arguments& arguments) {
+    if (arguments.declaration_file.empty()) return std::nullopt;
+    if (output_kind(arguments.output) != OutputKind::Source)
+        throw usage("--declare needs an output that exports a function: -o FILE.cpp");
+    return arguments.declaration_file;
+}
+
 std::vector<std::filesystem::path> extern_headers(const Arguments& arguments) {
     std::vector<std::filesystem::path> headers;
     for (const std::string& file : arguments.extern_headers) {
@@ -262,10 +281,12 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
     options.line_directives = arguments.line_directives;
+    options.details = arguments.details;
     options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;
     options.memory_limit = arguments.memory_limit;
     options.dependency_file = dependency_file(arguments);
+    options.declaration_file = declaration_file(arguments);
     options.diagnostics = diagnostic_options(arguments);
     options.standard = *standard_named(arguments.standard);
     options.passes = pass_options(arguments);

@@ -16,6 +16,7 @@
 #include "ir/verify.hpp"
 #include "model/print.hpp"
 #include "parse/parse.hpp"
+#include "passes/make_details.hpp"
 #include "passes/passes.hpp"
 #include "support/match.hpp"
 
@@ -160,6 +161,12 @@ void run_stages(Run& run) {
     result.program = run.measure(Stage::Verify, [&] { return verified(*std::move(grounded)); });
     if (run.ends_after(Stage::Verify)) return;
 
+    // What those want to know who ask about a step, by a program that no pass has changed.
+    if (run.options.details) {
+        result.details = make_details(*result.program);
+        result.details->program = verified(std::move(result.details->program));
+    }
+
     // IR -> IR that computes the same values with less work.
     result.program = run.measure(Stage::Optimise, [&] {
         return verified(optimise(*std::move(result.program), run.options.passes, &result.passes));
@@ -176,14 +183,16 @@ void run_stages(Run& run) {
         refuse_float_reals(run.options, *result.program, diagnostics);
     if (diagnostics.has_errors()) return;
     result.text = run.measure(Stage::Emit, [&] {
-        return emit(*result.program, result.sources, emit_options(run.options));
+        return emit(*result.program, result.sources, emit_options(run.options),
+                    result.details ? &*result.details : nullptr);
     });
+    result.declaration = emit_declaration(*result.program, version);
     run.show(Form::Cpp, [&] { return result.text; });
     if (run.ends_after(Stage::Emit)) return;
 
     // C++ -> the output file, through the C++ compiler if it is a shared object.
     run.measure(Stage::Write, [&] {
-        write_outputs(run.options, result.text, result.used, diagnostics);
+        write_outputs(run.options, {result.text, result.declaration}, result.used, diagnostics);
         return 0;
     });
 }

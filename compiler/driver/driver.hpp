@@ -3,6 +3,7 @@
 
 #include "emit/emit.hpp"
 #include "ir/ir.hpp"
+#include "ir/details.hpp"
 #include "model/model.hpp"
 #include "passes/passes.hpp"
 #include "support/diagnostic.hpp"
@@ -44,7 +45,10 @@ struct CompileOptions {
     bool line_directives = false;
     int lane_count = EmitOptions{}.lane_count;
     RealType real = RealType::Double;
+    bool details = false;  // what a step computes on its way can be asked for
     std::int64_t memory_limit = default_memory_limit;  // bytes of one environment
+    // A C header that declares the function which the output exports.
+    std::optional<std::filesystem::path> declaration_file;
     // A make rule that names the inputs of the output.
     std::optional<std::filesystem::path> dependency_file;
     DiagnosticOptions diagnostics;
@@ -66,7 +70,9 @@ struct Compilation {
     Diagnostics diagnostics;
     std::optional<model::Model> model;
     std::optional<ir::Program> program;  // optimised, if it came so far
+    std::optional<ir::Details> details;      // if they are wanted
     std::string text;                    // the emitted C++
+    std::string declaration;             // of what it exports
     std::string printed;                 // the forms asked for, in the order of the stages
     std::vector<StageTime> times;
     std::vector<PassRun> passes;

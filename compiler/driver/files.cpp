@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 // Before any work is done, so that nobody waits for it.
 void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
-    for (const auto& output : {options.output, options.dependency_file}) {
+    for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
         if (!output) continue;
         try {
             require_writable(*output, used);

@@ -43,16 +43,18 @@ void write_shared_object(const std::filesystem::path& output, const std::string&
 
 }  // namespace
 
-void write_outputs(const CompileOptions& options, const std::string& text, UsedFiles& used,
+void write_outputs(const CompileOptions& options, const OutputTexts& texts, UsedFiles& used,
                    Diagnostics& diagnostics) {
     if (!options.output) return;
     try {
         if (output_kind(*options.output) == OutputKind::SharedObject)
-            write_shared_object(*options.output, text, options, used, diagnostics);
+            write_shared_object(*options.output, texts.cpp, options, used, diagnostics);
         else
-            write_file(*options.output, text, used);
-        if (diagnostics.has_errors() || !options.dependency_file) return;
-        write_file(*options.dependency_file, dependency_rule(options), used);
+            write_file(*options.output, texts.cpp, used);
+        if (diagnostics.has_errors()) return;
+        if (options.declaration_file) write_file(*options.declaration_file, texts.declaration, used);
+        if (options.dependency_file)
+            write_file(*options.dependency_file, dependency_rule(options), used);
     } catch (const UnwritableFile& failure) {
         diagnostics.report(diagnostic_of(failure));
     }

@@ -7,9 +7,14 @@
 
 namespace rddlc {
 
-// The output in its form, and the dependency file. Reports what goes wrong; throws
+struct OutputTexts {
+    const std::string& cpp;
+    const std::string& declaration;
+};
+
+// The output in its form, its declaration and the dependency file. Reports what goes wrong; throws
 // std::logic_error if the C++ compiler refuses the text.
-void write_outputs(const CompileOptions& options, const std::string& text, UsedFiles& used,
+void write_outputs(const CompileOptions& options, const OutputTexts& texts, UsedFiles& used,
                    Diagnostics& diagnostics);
 
 }  // namespace rddlc

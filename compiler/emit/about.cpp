@@ -1,5 +1,6 @@
 #include "emit/about.hpp"
 
+#include "emit/constants.hpp"
 #include "emit/functions.hpp"
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
@@ -76,12 +77,14 @@ std::string on_lines(std::string_view text) {
 // Writes one table after the other; equal small tables are shared.
 class Describer {
   public:
-    explicit Describer(const Unit& unit) : unit_(unit), scope_(&unit.names.file) {}
+    Describer(const Unit& unit, const DetailsUnit* details)
+        : unit_(unit), details_(details), scope_(&unit.names.file) {}
 
     std::string describe() {
         files();
         types();
         fluents();
+        constants();
         const ir::Program& program = unit_.program;
         conditions("preconditions", program.preconditions);
         conditions("invariants", program.invariants);
@@ -90,6 +93,7 @@ class Describer {
         problem();
         policy();
         sites();
+        step_details();
         return with_joined_regions(std::move(text_));
     }
 
@@ -202,16 +206,29 @@ class Describer {
                std::ranges::all_of(fluent.upper, infinite);
     }
 
-    std::string offset(const ir::Fluent& fluent) const {
+    std::string offset(std::size_t index) const {
+        const ir::Fluent& fluent = unit_.program.fluents[index];
+        if (fluent.role == Role::Interm || fluent.role == Role::Derived)
+            return offset_in_details(index);
         const std::string record = record_of(fluent.role);
         if (record.empty() || !fluent.buffer) return "-1";
         return "offsetof(" + record + "<rddl::Scalar>, " +
                unit_.names.buffers[fluent.buffer->index] + ")";
     }
 
+    std::string offset_in_details(std::size_t index) const {
+        if (!details_) return "-1";
+        return offset_in_details(*details_->unit.program.fluents[index].buffer);
+    }
+    std::string offset_in_details(ir::BufferId buffer) const {
+        return "offsetof(details::Observation<rddl::Scalar>, " +
+               details_->unit.names.buffers[buffer.index] + ")";
+    }
+
     void fluents() {
         std::vector<std::vector<std::string>> table;
-        for (const ir::Fluent& fluent : unit_.program.fluents) {
+        for (std::size_t index = 0; index < unit_.program.fluents.size(); ++index) {
+            const ir::Fluent& fluent = unit_.program.fluents[index];
             std::int64_t count = 1;
             for (std::uint32_t type : fluent.parameter_types) {
                 count *= static_cast<std::int64_t>(unit_.program.types[type].objects.size());
@@ -220,13 +237,29 @@ class Describer {
             table.push_back({literal(std::string_view(fluent.name)), role_constant(fluent.role),
                              scalar_constant(fluent.scalar), std::to_string(range),
                              std::to_string(fluent.parameter_types.size()), parameter_types(fluent),
-                             std::to_string(count), offset(fluent),
+                             std::to_string(count), offset(index),
                              bounds(fluent, marks::lower, fluent.lower),
                              bounds(fluent, marks::upper, fluent.upper), source(fluent.span)});
         }
         rows("rddl_fluent", "fluents", table,
              "name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, "
              "source");
+    }
+
+    // Of the non-fluents.
+    void constants() {
+        std::vector<CommentedLine> lines;
+        for (std::size_t index = 0; index < unit_.program.fluents.size(); ++index) {
+            const ir::Fluent& fluent = unit_.program.fluents[index];
+            if (fluent.role != Role::NonFluent) continue;
+            const ConstantText text = constants_of(unit_, index, scope_);
+            if (!text.tables.empty()) add(text.tables);
+            lines.push_back({std::string(indentation, ' ') + text.value + ",",
+                             comment_text(fluent.name)});
+        }
+        if (lines.empty()) return;
+        add("// clang-format off\ninline constexpr rddl::Constants constants[] = {\n" +
+            with_comments(lines) + "};\n// clang-format on\n");
     }
 
     void conditions(const std::string& name, const std::vector<ir::Computation>& conditions) {
@@ -270,6 +303,10 @@ class Describer {
             field(name, count > 0 ? name : "nullptr");
             field(count_name, std::to_string(count));
         };
+        field("struct_size", "sizeof(rddl_problem)");
+        field("type_size", "sizeof(rddl_type)");
+        field("fluent_size", "sizeof(rddl_fluent)");
+        field("condition_size", "sizeof(rddl_condition)");
         field("domain", literal(std::string_view(program.domain_name)));
         field("instance", literal(std::string_view(program.instance_name)));
         table("types", "type_count", program.types.size());
@@ -278,6 +315,7 @@ class Describer {
         field("action_size", size_of(ir::Storage::Action, "Action"));
         field("observation_size",
               partial ? size_of(ir::Storage::Observation, "Observation") : state_size);
+        field("interm_size", details_ ? std::to_string(ir::interm_size(details_->details)) : "0");
         field("partially_observed", partial ? "1" : "0");
         field("stochastic", ir::is_stochastic(program) ? "1" : "0");
         field("default_action", has(ir::Storage::Action) ? "&default_action" : "nullptr");
@@ -294,6 +332,7 @@ class Describer {
         const std::optional<ir::Policy>& policy = unit_.program.policy;
         if (!policy) return;
         add("inline constexpr rddl_policy policy = {\n"
+            "    .struct_size = sizeof(rddl_policy),\n"
             "    .name = " +
             literal(std::string_view(policy->name)) + ",\n    .source = " + source(policy->span) +
             ",\n    .memory_size = " + size_of(ir::Storage::Memory, "PolicyMemory") +
@@ -301,13 +340,13 @@ class Describer {
             ",\n};\n");
     }
 
-    // The table of the variables that are in scope at a site.
-    std::string scope_table(const ir::Site& site) {
-        if (site.scope.empty()) return "{}";
+    // The table of variables that are in scope at a site, or that a precondition begins with.
+    std::string scope_table(const ir::Program& program, const std::vector<ir::VariableId>& scope) {
+        if (scope.empty()) return "{}";
         std::vector<std::string> variables;
         std::string key;
-        for (ir::VariableId id : site.scope) {
-            const ir::Variable& variable = unit_.program[id];
+        for (ir::VariableId id : scope) {
+            const ir::Variable& variable = program[id];
             variables.push_back("{" + literal(std::string_view(variable.name)) + ", &types[" +
                                 std::to_string(*variable.type) + "]}");
             key += variables.back();
@@ -315,8 +354,7 @@ class Describer {
         std::string& name = scope_tables_[key];
         if (!name.empty()) return name;
         std::string wish;
-        for (ir::VariableId id : site.scope)
-            wish += (wish.empty() ? "" : "_") + unit_.program[id].name;
+        for (ir::VariableId id : scope) wish += (wish.empty() ? "" : "_") + program[id].name;
         name = scope_.claim(wish, marks::scope);
         add(list("inline constexpr rddl::SiteVariable " + name + "[]", variables));
         return name;
@@ -326,12 +364,26 @@ class Describer {
         std::vector<std::vector<std::string>> table;
         for (const ir::Site& site : unit_.program.sites) {
             table.push_back(
-                {source(site.span), literal(std::string_view(site.what)), scope_table(site)});
+                {source(site.span), literal(std::string_view(site.what)),
+                 scope_table(unit_.program, site.scope)});
         }
         rows("rddl::Site", "sites", table);
     }
 
+    void step_details() {
+        if (!details_) return;
+        std::vector<std::vector<std::string>> table;
+        for (const ir::ConditionTable& condition : details_->details.preconditions)
+            table.push_back({offset_in_details(condition.holds),
+                             scope_table(details_->details.program, condition.scope)});
+        rows("rddl::ConditionPlaces", "condition_places", table);
+        add("inline constexpr rddl::Details step_details =\n"
+            "    rddl::details_of<Simulator, details::Step>(problem.interm_size, " +
+            std::string(table.empty() ? "{}" : "condition_places") + ");\n");
+    }
+
     const Unit& unit_;
+    const DetailsUnit* details_;
     Scope scope_;
     std::string text_;
     bool after_line_ = false;
@@ -342,8 +394,8 @@ class Describer {
 
 }  // namespace
 
-std::string about(const Unit& unit) {
-    return Describer(unit).describe();
+std::string about(const Unit& unit, const DetailsUnit* details) {
+    return Describer(unit, details).describe();
 }
 
 namespace {
@@ -357,10 +409,17 @@ bool has_packs(const Unit& unit) {
 
 }  // namespace
 
-std::string table_definition(const Unit& unit) {
-    std::vector<std::string> arguments = {"about::problem", "about::sites", "Engine()"};
-    if (unit.program.sites.empty()) arguments[1] = "{}";
-    if (unit.program.policy) arguments.push_back("&about::policy");
+std::string table_definition(const Unit& unit, bool has_details) {
+    const bool has_constants =
+        std::ranges::count(unit.program.fluents, Role::NonFluent, &ir::Fluent::role) > 0;
+    std::vector<std::string> arguments = {
+        "{about::problem", unit.program.sites.empty() ? "{}" : "about::sites",
+        has_constants ? "about::constants" : "{}"};
+    if (unit.program.policy || has_details)
+        arguments.push_back(unit.program.policy ? "&about::policy" : "nullptr");
+    if (has_details) arguments.push_back("&about::step_details");
+    arguments.back() += "}";
+    arguments.push_back("Engine()");
     const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
     std::string text;
     if (has_packs(unit)) {

@@ -1,6 +1,7 @@
 #include "emit/emit.hpp"
 
 #include "emit/about.hpp"
+#include "emit/details.hpp"
 #include "emit/externals.hpp"
 #include "emit/functions.hpp"
 #include "emit/line_directives.hpp"
@@ -10,9 +11,13 @@
 #include "emit/unit.hpp"
 #include "support/template_slots.hpp"
 
+#include <cctype>
+#include <optional>
+
 namespace rddlc {
 namespace {
 
+using cpp::DetailsUnit;
 using cpp::Unit;
 
 std::string about_file(const Unit& unit) {
@@ -46,7 +51,7 @@ std::string engine(const Unit& unit) {
     return "rddl::Compiled<Simulator, about::problem>";
 }
 
-std::string simulator(const Unit& unit) {
+std::string simulator(const Unit& unit, const DetailsUnit* details) {
     const cpp::StepFunctions step = cpp::step_functions(unit);
     return fill_slots(cpp::templates::simulator,
                       {{"objects", cpp::objects(unit)},
@@ -61,18 +66,19 @@ std::string simulator(const Unit& unit) {
                        {"conditions", cpp::condition_functions(unit)},
                        {"cpfs", step.cpfs},
                        {"policy", cpp::policy(unit)},
+                       {"details", details ? cpp::details_section(*details, unit) : ""},
                        {"asserts", cpp::asserts(unit)},
-                       {"about", cpp::about(unit)},
+                       {"about", cpp::about(unit, details)},
                        {"engine", engine(unit)},
-                       {"table", cpp::table_definition(unit)}});
+                       {"table", cpp::table_definition(unit, details != nullptr)}});
 }
 
-std::string file(const Unit& unit) {
+std::string file(const Unit& unit, const DetailsUnit* details) {
     SlotValues values = {
         {"about_file", about_file(unit)},
         {"externals", cpp::external_includes(unit.program, unit.options.extern_headers)},
         {"space", unit.names.space},
-        {"simulator", simulator(unit)}};
+        {"simulator", simulator(unit, details)}};
     if (unit.options.header) return fill_slots(cpp::templates::header, values);
     values.emplace("entry", unit.names.entry);
     return fill_slots(cpp::templates::source, values);
@@ -80,9 +86,25 @@ std::string file(const Unit& unit) {
 
 }  // namespace
 
-std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options) {
+std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options,
+                 const ir::Details* details) {
     const Unit unit(program, sources, options);
-    return cpp::restore_lines(without_double_blanks(file(unit)), options.output_name);
+    std::optional<DetailsUnit> details_unit;
+    if (details) details_unit.emplace(*details, sources, options);
+    const std::string text = file(unit, details_unit ? &*details_unit : nullptr);
+    return cpp::restore_lines(without_double_blanks(text), options.output_name);
+}
+
+std::string emit_declaration(const ir::Program& program, const std::string& compiler_version) {
+    const std::string entry = cpp::names_of(program).entry;
+    std::string guard = entry + "_h";
+    for (char& c : guard) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return fill_slots(cpp::templates::declaration,
+                      {{"version", compiler_version},
+                       {"problem", cpp::comment_text(program.domain_name)},
+                       {"instance", cpp::comment_text(program.instance_name)},
+                       {"guard", guard},
+                       {"entry", entry}});
 }
 
 }  // namespace rddlc

@@ -2,6 +2,7 @@
 // written in the program. docs/emitted-code.md is a guided tour of the result.
 #pragma once
 
+#include "ir/details.hpp"
 #include "ir/ir.hpp"
 #include "support/source.hpp"
 
@@ -25,8 +26,12 @@ struct EmitOptions {
     std::vector<std::string> extern_headers = {};
 };
 
-// The whole text, formatted. `program` must be verified.
-std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options);
+// The whole text, formatted. `program` must be verified. `details` are of the same problem, or null.
+std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options,
+                 const ir::Details* details = nullptr);
+
+// A header for C and C++ that declares the function which the text exports.
+std::string emit_declaration(const ir::Program& program, const std::string& compiler_version);
 
 // A file that exports the external functions that the program calls as rddl/external.h has it:
 // what the interpreter loads.

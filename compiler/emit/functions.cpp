@@ -173,7 +173,10 @@ enum class Owner { Simulator, Policy };
 
 std::string cpf_comment(const Unit& unit, const ir::Definition& definition, Owner owner) {
     const std::string place = unit.where(definition.span);
-    const bool is_cpf = unit.program[definition.target].fluent || owner == Owner::Policy;
+    const ir::Buffer& target = unit.program[definition.target];
+    const bool is_cpf = target.fluent || owner == Owner::Policy;
+    if (!is_cpf && target.storage == ir::Storage::Observation)  // a precondition
+        return comment(on_one_line(unit.sources.text(definition.span)), place);
     return comment((is_cpf ? "" : "A table for ") + lifted_head(unit, definition), place);
 }
 
@@ -381,9 +384,9 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
     return text;
 }
 
-std::string record_aliases(const Unit& unit) {
+std::string record_aliases(const Unit& unit, const std::vector<std::string>& records) {
     std::string text;
-    for (const std::string record : {"State", "Action", "Scratch", "Observation"})
+    for (const std::string& record : records)
         text += alias(unit, record, record);
     return text;
 }
@@ -400,11 +403,13 @@ std::string reset_function(const Unit& unit) {
         draws += statements_text(unit, std::span(body.lines()).subspan(before), definition.span);
     }
     const Uses& uses = body.uses();
-    if (uses.scratch) text += own_scratch();
-    return function("void", "reset",
-                    {record_parameter(ir::Storage::State, has_values || uses.state, true),
-                     context_parameter(uses)},
-                    type_aliases(body.lines()) + text + draws);
+    const Parameter state = record_parameter(ir::Storage::State, has_values || uses.state, true);
+    if (draws.empty()) return function("void", "reset", {state, context_parameter(uses)}, text);
+    return function("void", "initial_state", {state}, text) +
+           "\n" + indented("// With what is drawn at random.", level) +
+           function("void", "reset", {state, context_parameter(uses)},
+                    type_aliases(body.lines()) + (uses.scratch ? own_scratch() : "") +
+                        indented("initial_state(state);", level + 1) + draws);
 }
 
 std::string reward_function(const Unit& unit) {

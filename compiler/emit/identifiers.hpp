@@ -7,7 +7,7 @@
 //     set_x                       a function that fills x
 //     state.x, action.x, ...      a member of a record, which has no other members
 //     x                           in a function: a variable, numbered away from its parameters
-//     x_objects, x_lower, of_x    what is told about the problem
+//     x_objects, x_values, of_x   what is told about the problem
 //
 // and nothing of ours begins or ends like that (docs/emitted-code.md). Macros are not bound to
 // regions: none ends in '_', most begin with capitals alone, the others are listed.

@@ -23,6 +23,8 @@ namespace marks {
 inline constexpr Mark objects{"", "_objects"};
 inline constexpr Mark lower{"", "_lower"};
 inline constexpr Mark upper{"", "_upper"};
+inline constexpr Mark values{"", "_values"};
+inline constexpr Mark places{"", "_places"};
 inline constexpr Mark parameter_types{"of_", ""};
 inline constexpr Mark scope{"scope_", ""};
 }  // namespace marks

@@ -109,16 +109,17 @@ std::string member(const std::string& type, const std::string& name) {
            name + ";";
 }
 
-std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
-    std::vector<CommentedLine> members;
+// The same table under the same name.
+bool has_table(const Unit& unit, const std::string& name, const ir::Buffer& table) {
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const bool is_named =
+            unit.names.buffers[index] == name || unit.names.initial[index] == name;
+        if (!is_named) continue;
         const ir::Buffer& buffer = unit.program.buffers[index];
-        if (buffer.storage != storage) continue;
-        const std::string type = array_type(unit, buffer, lane_type(buffer.scalar));
-        members.push_back({member(type, unit.names.buffers[index]), unit.where(buffer.span)});
+        return unit.program.real == RealType::Double && buffer.scalar == table.scalar &&
+               buffer.shape == table.shape && identical(buffer.values, table.values);
     }
-    const std::string head = "template <class L>\nstruct " + name + " {";
-    return head + (members.empty() ? "" : "\n" + with_comments(members)) + "};\n";
+    return false;
 }
 
 std::string policy_record(const Unit& unit) {
@@ -269,13 +270,26 @@ std::string objects(const Unit& unit) {
     return section("objects", with_comments(lines));
 }
 
-std::string tables(const Unit& unit) {
+std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
+    std::vector<CommentedLine> members;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        if (buffer.storage != storage) continue;
+        const std::string type = array_type(unit, buffer, lane_type(buffer.scalar));
+        members.push_back({member(type, unit.names.buffers[index]), unit.where(buffer.span)});
+    }
+    const std::string head = "template <class L>\nstruct " + name + " {";
+    return head + (members.empty() ? "" : "\n" + with_comments(members)) + "};\n";
+}
+
+std::string tables(const Unit& unit, const Unit* around) {
     std::string text;
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
+        if (around && has_table(*around, name, buffer)) continue;
         const RealType real = unit.program.real;
         const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
         text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +

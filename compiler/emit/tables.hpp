@@ -40,7 +40,10 @@ std::string table(const std::string& declaration, std::span<const std::int64_t> 
 std::string list(const std::string& declaration, const std::vector<std::string>& items);
 
 std::string objects(const Unit& unit);
-std::string tables(const Unit& unit);
+// Without those that another part of the file, around this one, has as well.
+std::string tables(const Unit& unit, const Unit* around = nullptr);
+// A struct of the buffers of one storage.
+std::string record(const Unit& unit, const std::string& name, ir::Storage storage);
 std::string records(const Unit& unit);
 std::string asserts(const Unit& unit);
 

@@ -71,6 +71,7 @@ ir::Fluent description_of(const model::Fluent& fluent, ir::BufferId buffer) {
         .parameter_types = fluent.parameters,
         .buffer = buffer,
         .span = fluent.span,
+        .values = fluent.role == Role::NonFluent ? fluent.values : Table(),
         .lower = {},
         .upper = {}};
 }

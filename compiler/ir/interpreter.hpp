@@ -26,8 +26,9 @@ class Interpreter {
     std::size_t observation_size() const { return observation_size_; }
     std::size_t scratch_size() const { return scratch_size_; }
 
-    // Writes the initial state, and the default action.
+    // Writes the initial state, also as it is before the draws, and the default action.
     void reset(std::byte* state, Context& context) const;
+    void initial_state(std::byte* state) const;
     void default_action(std::byte* action) const;
 
     // Computes the next state (and the observation, which is unused when fully observed) and

@@ -279,6 +279,8 @@ struct Fluent {
     std::vector<std::uint32_t> parameter_types;  // index into Program::types
     std::optional<BufferId> buffer;              // absent: nothing reads it (a pass found out)
     Span span;
+    // NonFluent: what the instance says, whatever passes make of the buffer; else empty.
+    Table values;
     // Per grounding, from action-preconditions and state-invariants (semantics of env-and-viz 1.1);
     // -inf/+inf where nothing bounds it. Only for numeric State and Action fluents; else empty.
     std::vector<double> lower, upper;

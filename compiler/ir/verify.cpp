@@ -56,8 +56,11 @@ class Verifier {
         }
         std::map<Likeness, int> counts;
         for (const Buffer& buffer : program_.buffers) ++counts[likeness(buffer, buffer.storage)];
+        const bool makes_states = std::ranges::any_of(program_.buffers, [](const Buffer& buffer) {
+            return buffer.storage == Storage::Next;
+        });
         for (const Buffer& buffer : program_.buffers) {
-            if (buffer.storage == Storage::State)
+            if (buffer.storage == Storage::State && makes_states)
                 require(counts[likeness(buffer, Storage::Next)] == 1, "'{}' has no next state",
                         buffer.name);
             if (buffer.storage == Storage::Memory)

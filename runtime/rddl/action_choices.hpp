@@ -73,21 +73,31 @@ void for_each_choosable(const rddl_problem& problem, Visit&& visit) {
 
 }  // namespace detail
 
-// Calls visit(choice) for each choice in order, with that choice written to `action`, a record that
-// holds the default action before and after.
+// What a choice but choice 0 changes: the fluent's value at the grounding.
+struct Change {
+    const rddl_fluent* fluent;
+    std::int64_t grounding;
+    std::int64_t value;
+    std::int64_t default_value;  // another one
+
+    // Sets the value in an action record; what it was.
+    std::int64_t exchange(void* action, std::int64_t to) const {
+        const std::int64_t before = detail::read_choice(*fluent, action, grounding);
+        detail::write_choice(*fluent, action, grounding, to);
+        return before;
+    }
+};
+
+// Calls visit(choice, change) for each choice but choice 0, in order.
 template <class Visit>
-void for_each_choice(const rddl_problem& problem, void* action, Visit&& visit) {
-    std::int64_t choice = 0;
-    visit(choice++);
+void for_each_choice(const rddl_problem& problem, Visit&& visit) {
+    std::int64_t choice = 1;
     detail::for_each_choosable(
         problem, [&](const rddl_fluent& fluent, std::int64_t grounding, detail::ChoiceValues values,
                      std::int64_t default_value) {
-            for (std::int64_t k = 0; k < values.count; ++k) {
-                if (values.first + k == default_value) continue;
-                detail::write_choice(fluent, action, grounding, values.first + k);
-                visit(choice++);
-            }
-            detail::write_choice(fluent, action, grounding, default_value);
+            for (std::int64_t k = 0; k < values.count; ++k)
+                if (values.first + k != default_value)
+                    visit(choice++, Change{&fluent, grounding, values.first + k, default_value});
         });
 }
 
@@ -102,8 +112,9 @@ inline std::int64_t choice_count(const rddl_problem& problem) {
     return count;
 }
 
-// Makes the default action in `action` that of a choice below choice_count.
-inline void write_choice(const rddl_problem& problem, std::int64_t choice, void* action) {
+// Of a choice above 0 and below choice_count.
+inline Change change_of(const rddl_problem& problem, std::int64_t choice) {
+    Change change{};
     std::int64_t before = 1;  // choices before this value's
     detail::for_each_choosable(
         problem, [&](const rddl_fluent& fluent, std::int64_t grounding, detail::ChoiceValues values,
@@ -114,8 +125,9 @@ inline void write_choice(const rddl_problem& problem, std::int64_t choice, void*
             before += values.count - skips;
             if (k < 0 || choice >= before) return;
             if (skips && k >= place) ++k;
-            detail::write_choice(fluent, action, grounding, values.first + k);
+            change = {&fluent, grounding, values.first + k, default_value};
         });
+    return change;
 }
 
 }  // namespace rddl

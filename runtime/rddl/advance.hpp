@@ -158,6 +158,12 @@ inline constexpr bool starts_states_only =
 
 }  // namespace detail
 
+// Whether the caller wants to know how episodes ended that the step has reset.
+inline bool wants_finals(const rddl_transition& out) {
+    return out.final_observations != nullptr || out.final_states != nullptr ||
+           out.final_observation_values != nullptr;
+}
+
 // Tells which episodes of block `b` are over.
 template <class L>
 RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, const Ends<L>& ends,
@@ -199,7 +205,7 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
         write_ends(blocks, b, ends, out);
         const Bool over = present && ends.any();
         if (!any(over) || blocks.autoreset != RDDL_AUTORESET_SAME_STEP) continue;
-        const bool alone = out.final_observations == nullptr && blocks.observations == nullptr;
+        const bool alone = !wants_finals(out) && blocks.observations == nullptr;
         if (!detail::starts_states_only<E> || !alone) return {b, over};
         if constexpr (detail::starts_states_only<E>)
             start_next(engine, blocks, b, over, memory.next);

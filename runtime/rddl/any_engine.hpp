@@ -46,6 +46,9 @@ class AnyEngine {
                           const rddl_transition& out) RDDL_INLINE_LAMBDA {
                 return rddl::advance(of<E>(self), blocks, range, actions, memory, out);
             };
+        initial_state_ = [](const void* self, std::byte* state) {
+            rddl::initial_state(of<E>(self), state);
+        };
         terminal_ = [](const void* self, const std::byte* state, Context<L>& context) -> Bool {
             return of<E>(self).terminal(state, context);
         };
@@ -69,6 +72,8 @@ class AnyEngine {
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }
     std::size_t scratch_size() const { return scratch_size_; }
+
+    void initial_state(std::byte* state) const { initial_state_(engine_, state); }
 
     // As rddl::reset_some.
     typename L::Bool reset_some(const Columns& columns, typename L::Bool lanes,
@@ -122,6 +127,7 @@ class AnyEngine {
                         const rddl_transition&) = nullptr;
     rddl_error (*advance_one_)(const void*, const BatchView<L>&, std::int64_t, Actions,
                                const rddl_transition&) = nullptr;
+    void (*initial_state_)(const void*, std::byte*);
     Bool (*terminal_)(const void*, const std::byte*, Context<L>&);
     Int (*violated_precondition_)(const void*, const std::byte*, const std::byte*, Context<L>&);
     void (*reset_policy_)(const void*, std::byte*) = nullptr;

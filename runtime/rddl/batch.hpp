@@ -17,11 +17,13 @@
 #include <rddl/threads.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -56,6 +58,26 @@ class Records {
     std::vector<Line> lines_;
 };
 
+// One environment, apart from a batch: records of the C interface, and its episode.
+struct Environment {
+    explicit Environment(const rddl_problem& problem, std::size_t memory_size)
+        : state(1, static_cast<std::size_t>(problem.state_size)),
+          observation(1, static_cast<std::size_t>(problem.observation_size)),
+          memory(1, memory_size) {}
+
+    Records state, observation, memory;
+    Episodes<Scalar> episode;
+    Stream stream{};
+};
+
+// The last step of an environment: from where it went, by which action and with which random
+// numbers. Records of the C interface, with plain bools.
+struct LastStep {
+    const std::byte* state;
+    const std::byte* action;
+    Context<Scalar> context;
+};
+
 // How a batch is made, checked and with all defaults resolved.
 struct BatchOptions {
     std::int64_t environment_count = 1;
@@ -65,6 +87,7 @@ struct BatchOptions {
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
     std::int64_t horizon = 0;  // 0: none
     bool partially_observed = false;
+    bool keeps_steps = false;
 };
 
 // The engine must outlive the batch.
@@ -88,6 +111,10 @@ class Batch {
           states_(2 * block_count(), engine.state_size()),
           observations_(options.partially_observed ? block_count() : 0, engine.observation_size()),
           memories_(has_policy(engine) ? block_count() : 0, memory_size(engine)),
+          streams_(make_streams()),
+          last_steps_(options.keeps_steps ? count() : 0),
+          last_states_(last_steps_.size(), static_cast<std::size_t>(problem.state_size)),
+          last_actions_(last_steps_.size(), static_cast<std::size_t>(problem.action_size)),
           episodes_(block_count()),
           workspaces_(make_workspaces()),
           team_(options.thread_count),
@@ -107,6 +134,10 @@ class Batch {
           states_(other.states_),
           observations_(other.observations_),
           memories_(other.memories_),
+          streams_(other.streams_),
+          last_steps_(other.last_steps_),
+          last_states_(other.last_states_),
+          last_actions_(other.last_actions_),
           episodes_(other.episodes_),
           workspaces_(make_workspaces()),
           team_(other.options_.thread_count),
@@ -150,12 +181,47 @@ class Batch {
     void get_observation(std::int64_t i, std::byte* record) const {
         write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
     }
-    // The episode goes on from this state, unless it is terminal.
-    void set_state(std::int64_t i, const std::byte* record) {
+    // The episode goes on from this state after so many steps (null: as many as before), unless the
+    // state is terminal or these reach the horizon.
+    void set_state(std::int64_t i, const std::byte* record, const std::int64_t* steps) {
         read_record(L{}, state_columns_, record, state(i / width), lane_of(i));
-        Bool lane{false};
-        set_lane(lane, lane_of(i), true);
-        end_if_terminal(*engine_, at(i), lane, state(i / width));
+        if (steps != nullptr) set_lane(at(i).steps, lane_of(i), *steps);
+        end_if_terminal(*engine_, at(i), only(i), state(i / width));
+        if (steps != nullptr && *steps >= blocks_.horizon && !(causes(i) & RDDL_FAULTED))
+            set_lane(at(i).ends.beyond_horizon, lane_of(i), true);
+    }
+
+    // What is drawn from now on, and in the episodes that follow, which are counted anew.
+    void set_stream(std::int64_t i, const Stream& stream) {
+        set_lane(at(i).number, lane_of(i), std::int64_t{-1});
+        if (streams_.empty()) return;
+        streams_[index(i)] = stream;
+        set_keys(blocks_, i / width, only(i));
+    }
+    // As in a new batch with this seed.
+    void set_seed(std::uint64_t seed) {
+        options_.seed = seed;
+        for (std::int64_t i = 0; i < options_.environment_count; ++i) set_stream(i, stream_of(i));
+    }
+
+    void get_environment(std::int64_t i, Environment& to) const {
+        get_state(i, to.state[0]);
+        if (options_.partially_observed) get_observation(i, to.observation[0]);
+        if constexpr (PolicyEngine<E>)
+            copy_record(to.memory[0], memories_[i / width], memory_size(*engine_));
+        to.episode = at(i).of(lane_of(i));
+        if (!streams_.empty()) to.stream = streams_[index(i)];
+    }
+    void set_environment(std::int64_t i, const Environment& from) {
+        const int lane = lane_of(i);
+        read_record(L{}, state_columns_, from.state[0], state(i / width), lane);
+        if (options_.partially_observed)
+            read_record(L{}, observation_columns_, from.observation[0], observations_[i / width],
+                        lane);
+        if constexpr (PolicyEngine<E>)
+            copy_record(memories_[i / width], from.memory[0], memory_size(*engine_));
+        at(i).set(lane, from.episode);
+        if (!streams_.empty()) streams_[index(i)] = from.stream;
     }
 
     // -------------------------------------------------------------- all environments
@@ -172,6 +238,10 @@ class Batch {
     }
 
     void step(const std::byte* actions, const rddl_transition& out) {
+        if (keeps_steps())
+            for_each_block([&](Workspace& workspace, std::int64_t b) {
+                keep_step(b, block_of_actions(workspace, actions, b));
+            });
         for_each_share([&](Workspace& workspace, Range share) {
             while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
@@ -179,7 +249,8 @@ class Batch {
     // For one environment that accepts all actions; else null.
     const BatchView<L>* only_one() const {
         const bool is_one = std::is_same_v<L, Scalar> && options_.environment_count == 1;
-        return is_one && !action_columns_.has_objects ? views_.data() : nullptr;
+        const bool accepts_all = !action_columns_.has_objects;
+        return is_one && accepts_all && !keeps_steps() ? views_.data() : nullptr;
     }
 
     // The same with matrices of numbers; `observations` may be null.
@@ -188,7 +259,10 @@ class Batch {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
             read_values(L{}, action_columns_, actions + b * width * action_columns_.value_count,
                         lanes_of(b), workspace.action[0]);
+            if (keeps_steps()) keep_step(b, workspace.action[0]);
+            workspace.number = std::is_same_v<Number, float> ? RDDL_FLOAT : RDDL_DOUBLE;
             step_blocks(workspace, {b, b + 1}, {nullptr, workspace.action[0]}, out);
+            workspace.number.reset();
             if (observations != nullptr) write_observation_values(observations, b);
         });
     }
@@ -201,10 +275,31 @@ class Batch {
     // The first violated precondition of each environment's action, or -1.
     void violated_preconditions(const std::byte* actions, std::int32_t* first_violated) {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
-            const auto first = violated_precondition(b, block_of_actions(workspace, actions, b));
+            const auto first =
+                violated_precondition_of_block(b, block_of_actions(workspace, actions, b));
             for (int lane = 0; lane < lanes_of(b); ++lane)
                 first_violated[b * width + lane] = static_cast<std::int32_t>(get_lane(first, lane));
         });
+    }
+
+    // Of one environment and action.
+    std::int64_t violated_precondition(std::int64_t i, const std::byte* action) {
+        Workspace& workspace = workspaces_.front();
+        read_record(L{}, action_columns_, action, workspace.action[0], lane_of(i));
+        return get_lane(violated_precondition_of_block(i / width, workspace.action[0]),
+                        lane_of(i));
+    }
+    // The context in which the environment's next step is evaluated.
+    Context<Scalar> context_of_next_step(std::int64_t i) const {
+        return at(i).of(lane_of(i)).context_of_step(true);
+    }
+
+    bool keeps_steps() const { return options_.keeps_steps; }
+    // Only of batches that keep steps; nothing before the first one.
+    std::optional<LastStep> last_step(std::int64_t i) const {
+        const auto& context = last_steps_[index(i)];
+        if (!context) return std::nullopt;
+        return LastStep{last_states_[i], last_actions_[i], *context};
     }
 
     // The action of the policy in each environment; the default one where the episode is over or
@@ -222,21 +317,35 @@ class Batch {
         });
     }
 
-    // One byte for each environment and choice (action_choices.hpp): is it allowed now?
-    void action_mask(std::uint8_t* masks) {
+    // One byte for each environment and choice (action_choices.hpp): is it allowed now, in place of
+    // the default action (null), or as a change of the environment's own one?
+    void action_mask(const std::byte* actions, std::uint8_t* masks) {
         const std::int64_t choices = choice_count(*problem_);
         for_each_block([&](Workspace& workspace, std::int64_t b) {
-            std::byte* const record = workspace.choice[0];
-            copy_record(record, static_cast<const std::byte*>(problem_->default_action),
-                        static_cast<std::size_t>(problem_->action_size));
-            for_each_choice(*problem_, record, [&](std::int64_t choice) {
-                for (int lane = 0; lane < width; ++lane)
-                    read_record(L{}, action_columns_, record, workspace.action[0], lane);
-                const bool possible = choice == 0 || problem_->max_nondef_actions != 0;
-                const auto first = violated_precondition(b, workspace.action[0]);
-                for (int lane = 0; lane < lanes_of(b); ++lane)
-                    masks[(b * width + lane) * choices + choice] =
-                        possible && get_lane(first, lane) < 0;
+            std::uint8_t* const rows = masks + b * width * choices;
+            const int lanes = lanes_of(b);
+            std::array<std::int64_t, width> changed;
+            for (int lane = 0; lane < lanes; ++lane) {
+                std::byte* const action = copy_of_action(workspace, actions, b, lane);
+                changed[index(lane)] = count_non_default(*problem_, action);
+            }
+            const Bool stands = satisfies_preconditions(workspace, b);
+            for (int lane = 0; lane < lanes; ++lane)
+                rows[lane * choices] =
+                    get_lane(stands, lane) && is_within_limit(changed[index(lane)]);
+            for_each_choice(*problem_, [&](std::int64_t choice, const Change& change) {
+                std::array<std::int64_t, width> before;
+                for (int lane = 0; lane < lanes; ++lane)
+                    before[index(lane)] = change.exchange(workspace.choices[lane], change.value);
+                const Bool legal = satisfies_preconditions(workspace, b);
+                for (int lane = 0; lane < lanes; ++lane) {
+                    const std::int64_t old = before[index(lane)];
+                    const std::int64_t others =
+                        changed[index(lane)] - (old != change.default_value);
+                    rows[lane * choices + choice] = get_lane(legal, lane) && old != change.value &&
+                                                    is_within_limit(others + 1);
+                    change.exchange(workspace.choices[lane], old);
+                }
             });
         });
     }
@@ -244,9 +353,9 @@ class Batch {
   private:
     // What one thread works in.
     struct Workspace {
-        explicit Workspace(const E& engine)
+        Workspace(const E& engine, const rddl_problem& problem)
             : action(1, engine.action_size()),
-              choice(1, engine.action_size()),
+              choices(width, static_cast<std::size_t>(problem.action_size)),
               scratch(1, engine.scratch_size()),
               next(1, engine.state_size()),
               observation(1, engine.observation_size()),
@@ -256,18 +365,32 @@ class Batch {
         DecisionBuffers decision_buffers() { return {scratch[0], action[0], next_memory[0]}; }
 
         Records action;
-        Records choice;  // one record of the C interface
+        Records choices;  // a record of the C interface for each lane
         Records scratch;
         Records next;
         Records observation;
         Records next_memory;
+        std::optional<rddl_number> number;  // of the matrices of the step under way
         StepBuffers step_buffers;  // in the records above, which stay where they are when moved
     };
 
     std::vector<Workspace> make_workspaces() const {
         std::vector<Workspace> workspaces;
-        for (int k = 0; k < options_.thread_count; ++k) workspaces.emplace_back(*engine_);
+        for (int k = 0; k < options_.thread_count; ++k) workspaces.emplace_back(*engine_, *problem_);
         return workspaces;
+    }
+
+    // None if nothing is drawn.
+    std::vector<Stream> make_streams() const {
+        if (problem_->stochastic == 0 && !has_policy(*engine_)) return {};
+        std::vector<Stream> streams;
+        for (std::int64_t i = 0; i < options_.environment_count; ++i)
+            streams.push_back(stream_of(i));
+        return streams;
+    }
+    Stream stream_of(std::int64_t i) const {
+        return {options_.seed, static_cast<std::uint64_t>(options_.first_environment) +
+                                   static_cast<std::uint64_t>(i)};
     }
 
     Blocks<L> blocks() {
@@ -276,10 +399,7 @@ class Batch {
             .environment_count = options_.environment_count,
             .horizon = options_.horizon > 0 ? options_.horizon : never,
             .autoreset = options_.autoreset,
-            .streams = {.seed = options_.seed,
-                        .drawn_from = problem_->stochastic != 0 || has_policy(*engine_),
-                        .first_environment =
-                            static_cast<std::uint64_t>(options_.first_environment)},
+            .streams = streams_.empty() ? nullptr : streams_.data(),
             .episodes = episodes_.data(),
             .states = states_[0],
             .observations = options_.partially_observed ? observations_[0] : nullptr,
@@ -292,6 +412,7 @@ class Batch {
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
 
+    std::size_t count() const { return static_cast<std::size_t>(options_.environment_count); }
     std::size_t block_count() const {
         return static_cast<std::size_t>((options_.environment_count - 1) / width + 1);
     }
@@ -301,6 +422,12 @@ class Batch {
     std::byte* state(std::int64_t b) { return states_[2 * b + episodes_[index(b)].state]; }
     const std::byte* state(std::int64_t b) const {
         return states_[2 * b + episodes_[index(b)].state];
+    }
+    // Nothing but the lane of this environment.
+    static Bool only(std::int64_t i) {
+        Bool lanes{false};
+        set_lane(lanes, lane_of(i), true);
+        return lanes;
     }
     Episodes<L>& at(std::int64_t i) { return episodes_[index(i / width)]; }
     const Episodes<L>& at(std::int64_t i) const { return episodes_[index(i / width)]; }
@@ -326,11 +453,14 @@ class Batch {
         });
     }
 
-    // The actions of a block.
+    // The actions of a block, by all environments' rows.
     const std::byte* block_of_actions(Workspace& workspace, const std::byte* rows,
                                       std::int64_t b) const {
-        read_records(L{}, action_columns_, rows + b * width * action_columns_.row_size, lanes_of(b),
-                     workspace.action[0]);
+        return as_block(workspace, rows + b * width * action_columns_.row_size, b);
+    }
+    // By the block's own rows.
+    const std::byte* as_block(Workspace& workspace, const std::byte* rows, std::int64_t b) const {
+        read_records(L{}, action_columns_, rows, lanes_of(b), workspace.action[0]);
         return workspace.action[0];
     }
     BatchView<L> view_of(const Workspace& workspace, const Blocks<L>& blocks) {
@@ -368,10 +498,42 @@ class Batch {
         merge(L{}, observation_columns_, lanes, workspace.observation[0], observations_[b]);
     }
 
-    typename L::Int violated_precondition(std::int64_t b, const std::byte* actions) const {
+    typename L::Int violated_precondition_of_block(std::int64_t b,
+                                                   const std::byte* actions) const {
         const Episodes<L>& episodes = episodes_[index(b)];
         Context<L> context = episodes.context_of_step(episodes.present);
         return engine_->violated_precondition(state(b), actions, context);
+    }
+
+    // What the environments that run are about to do.
+    void keep_step(std::int64_t b, const std::byte* actions) {
+        for (int lane = 0; lane < lanes_of(b); ++lane) {
+            const std::int64_t i = b * width + lane;
+            if (causes(i) != RDDL_RUNNING) continue;
+            get_state(i, last_states_[i]);
+            write_record(L{}, action_columns_, actions, lane, last_actions_[i]);
+            last_steps_[index(i)] = context_of_next_step(i);
+        }
+    }
+
+    // A lane's action, or the default one, to be changed.
+    std::byte* copy_of_action(Workspace& workspace, const std::byte* actions, std::int64_t b,
+                              int lane) const {
+        const std::int64_t size = problem_->action_size;
+        const auto* const action = actions != nullptr
+                                       ? actions + (b * width + lane) * size
+                                       : static_cast<const std::byte*>(problem_->default_action);
+        copy_record(workspace.choices[lane], action, static_cast<std::size_t>(size));
+        return workspace.choices[lane];
+    }
+    // Of the actions in workspace.choices.
+    Bool satisfies_preconditions(Workspace& workspace, std::int64_t b) const {
+        const auto first =
+            violated_precondition_of_block(b, as_block(workspace, workspace.choices[0], b));
+        return Bool(first < typename L::Int{0});
+    }
+    bool is_within_limit(std::int64_t changed) const {
+        return problem_->max_nondef_actions < 0 || changed <= problem_->max_nondef_actions;
     }
 
     // Steps as many blocks from range.begin on as can be stepped together; the first one left.
@@ -437,7 +599,7 @@ class Batch {
     // The next episodes of lanes whose episodes the step ended.
     void start_after_step(Workspace& workspace, std::int64_t b, Bool lanes,
                           const rddl_transition& out) {
-        write_final_observations(out.final_observations, b, lanes);
+        if (wants_finals(out)) write_finals(workspace, b, lanes, out);
         start_keeping_faults(workspace, b, lanes);
     }
 
@@ -452,13 +614,28 @@ class Batch {
         write_values(L{}, observation_columns_, observed(b),
                      observations + b * width * observation_columns_.value_count, lanes_of(b));
     }
-    void write_final_observations(void* records, std::int64_t b, Bool lanes) const {
-        if (records == nullptr) return;
-        const std::int64_t size = observation_columns_.row_size;
+    void write_finals(const Workspace& workspace, std::int64_t b, Bool lanes,
+                      const rddl_transition& out) const {
+        const auto row = [](void* rows, const Columns& columns, std::int64_t i) {
+            return static_cast<std::byte*>(rows) + i * columns.row_size;
+        };
         for_each_lane(lanes, [&](int lane) {
-            write_record(L{}, observation_columns_, observed(b), lane,
-                         static_cast<std::byte*>(records) + (b * width + lane) * size);
+            const std::int64_t i = b * width + lane;
+            if (out.final_observations != nullptr)
+                get_observation(i, row(out.final_observations, observation_columns_, i));
+            if (out.final_states != nullptr)
+                get_state(i, row(out.final_states, state_columns_, i));
+            if (out.final_observation_values == nullptr || !workspace.number) return;
+            if (*workspace.number == RDDL_FLOAT)
+                write_final_values(static_cast<float*>(out.final_observation_values), i);
+            else
+                write_final_values(static_cast<double*>(out.final_observation_values), i);
         });
+    }
+    template <class Number>
+    void write_final_values(Number* matrix, std::int64_t i) const {
+        write_value_row(L{}, observation_columns_, observed(i / width), lane_of(i),
+                        matrix + i * observation_columns_.value_count);
     }
 
     static void copy_record(std::byte* target, const std::byte* record, std::size_t size) {
@@ -472,6 +649,10 @@ class Batch {
     Records states_;        // two for each block
     Records observations_;  // blocks; none when fully observed
     Records memories_;      // of the policy; none without one
+    std::vector<Stream> streams_;  // of each environment; none if nothing is drawn
+    // Of each environment, if they are kept.
+    std::vector<std::optional<Context<Scalar>>> last_steps_;
+    Records last_states_, last_actions_;
     std::vector<Episodes<L>> episodes_;
     std::vector<Workspace> workspaces_;
     Team team_;

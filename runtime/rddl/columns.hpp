@@ -442,6 +442,17 @@ void write_values(L, const Columns& columns, const std::byte* block, Number* row
         });
 }
 
+// The row of one lane.
+template <class L, class Number>
+void write_value_row(L, const Columns& columns, const std::byte* block, int lane, Number* row) {
+    for (const Column& column : columns.list)
+        with_type<L>(column.scalar, [&]<class T>() {
+            const T* const values = detail::values_in<T>(block, column);
+            for (std::int64_t k = 0; k < column.count; ++k)
+                row[column.first + k] = static_cast<Number>(get_lane(values[k], lane));
+        });
+}
+
 // -------------------------------------------------------------------------------- in blocks
 
 // Takes over another block's values where the mask holds.

@@ -68,6 +68,24 @@ concept PolicyEngine = StateEngine<E> &&
     {engine.act(record, record, target, target, target, context)};
 };
 
+// One whose reset draws: the state of before.
+template <class E>
+concept RandomStart = requires(const E engine, std::byte* target) {
+    {engine.initial_state(target)};
+};
+
+// The state in which episodes start, as it is before anything is drawn.
+template <Engine E>
+void initial_state(const E& engine, std::byte* state) {
+    if constexpr (RandomStart<E>) {
+        engine.initial_state(state);
+    } else {
+        Context<typename E::Lane> unused =
+            Context<typename E::Lane>::of({}, {}, {}, typename E::Lane::Bool{true});
+        engine.reset(state, unused);
+    }
+}
+
 // The actions of a step, and where it leaves its results until it is known not to have faulted.
 struct StepBuffers {
     std::byte* action;

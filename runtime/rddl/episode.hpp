@@ -35,6 +35,17 @@ struct Ends {
             (get_lane(violated, lane) ? RDDL_TRUNCATED_INVARIANT : 0) |
             (get_lane(faulted, lane) ? RDDL_FAULTED : 0));
     }
+
+    Ends<Scalar> of(int lane) const {
+        return {get_lane(terminated, lane), get_lane(beyond_horizon, lane),
+                get_lane(violated, lane), get_lane(faulted, lane)};
+    }
+    void set(int lane, const Ends<Scalar>& ends) {
+        set_lane(terminated, lane, ends.terminated);
+        set_lane(beyond_horizon, lane, ends.beyond_horizon);
+        set_lane(violated, lane, ends.violated);
+        set_lane(faulted, lane, ends.faulted);
+    }
 };
 
 // Begins at a cache line of its own, so that threads do not write to each other's.
@@ -97,15 +108,40 @@ struct alignas(64) Episodes {
         });
     }
 
+    // The episode of one environment, without its records.
+    Episodes<Scalar> of(int lane) const {
+        const auto place = static_cast<std::size_t>(lane);
+        Episodes<Scalar> one;
+        one.number = get_lane(number, lane);
+        one.steps = get_lane(steps, lane);
+        one.key_low = get_lane(key_low, lane);
+        one.key_high = get_lane(key_high, lane);
+        one.ends = ends.of(lane);
+        one.has_fault = get_lane(has_fault, lane);
+        one.faults[0] = faults[place];
+        one.fault_steps[0] = fault_steps[place];
+        return one;
+    }
+    void set(int lane, const Episodes<Scalar>& one) {
+        const auto place = static_cast<std::size_t>(lane);
+        set_lane(number, lane, one.number);
+        set_lane(steps, lane, one.steps);
+        set_lane(key_low, lane, one.key_low);
+        set_lane(key_high, lane, one.key_high);
+        ends.set(lane, one.ends);
+        set_lane(has_fault, lane, one.has_fault);
+        faults[place] = one.faults[0];
+        fault_steps[place] = one.fault_steps[0];
+    }
+
   private:
     Word next_step() const { return words_of(steps) + Word{std::uint64_t{1}}; }
 };
 
-// What the random stream of each episode of a batch is made of.
-struct Streams {
+// What an environment's random numbers are made of, with the number of its episode.
+struct Stream {
     std::uint64_t seed;
-    bool drawn_from;                  // false: nothing is drawn, so there need be none
-    std::uint64_t first_environment;  // what the first environment is counted as
+    std::uint64_t identity;
 };
 
 // The environments of a batch, in blocks.
@@ -114,7 +150,7 @@ struct Blocks {
     std::int64_t environment_count;
     std::int64_t horizon;  // the greatest int: none
     rddl_autoreset autoreset;
-    Streams streams;
+    const Stream* streams;  // of each environment; null: nothing is drawn
     Episodes<L>* episodes;
     std::byte* states;        // two records for each block: its state, and room for the next one
     std::byte* observations;  // null when fully observed
@@ -177,15 +213,14 @@ typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool la
     return engine.terminal(made, context);
 }
 
-// Of the episodes that start in these lanes of block `b`.
+// Of the episodes of these lanes of block `b`, which are present.
 template <class L>
 void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
     Episodes<L>& episodes = blocks.episodes[b];
     for_each_lane(lanes, [&](int lane) {
         const auto number = static_cast<std::uint64_t>(get_lane(episodes.number, lane));
-        const std::uint64_t identity =
-            blocks.streams.first_environment + static_cast<std::uint64_t>(b * L::width + lane);
-        const StreamKey key = stream_key(blocks.streams.seed, identity, number);
+        const Stream& stream = blocks.streams[b * L::width + lane];
+        const StreamKey key = stream_key(stream.seed, stream.identity, number);
         set_lane(episodes.key_low, lane, std::uint64_t{key.low});
         set_lane(episodes.key_high, lane, std::uint64_t{key.high});
     });
@@ -200,7 +235,7 @@ void start_next(const E& engine, const Blocks<L>& blocks, std::int64_t b, typena
     Episodes<L>& episodes = blocks.episodes[b];
     episodes.number = select(lanes, wrap_add(episodes.number, Int{1}), episodes.number);
     episodes.steps = select(lanes, Int{0}, episodes.steps);
-    if (blocks.streams.drawn_from) set_keys(blocks, b, lanes);
+    if (blocks.streams != nullptr) set_keys(blocks, b, lanes);
     Context<L> context = episodes.context_of_state(lanes);
     const StateRecords records{blocks.state_of(b, engine.state_size()), room};
     const typename L::Bool terminal =

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <rddl/context.hpp>
+#include <rddl/details.hpp>
+#include <rddl/fixed_text.hpp>
 #include <rddl/sites.hpp>
 
-#include <charconv>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -65,36 +67,6 @@ constexpr std::string_view requirement_of(FaultKind kind) {
     return "value is wrong";
 }
 
-// Text into a buffer of fixed size, cut off where the buffer ends, always terminated.
-class FixedText {
-  public:
-    explicit FixedText(std::span<char> buffer) : buffer_(buffer) { buffer_[0] = '\0'; }
-
-    FixedText& operator<<(std::string_view text) {
-        for (const char character : text) {
-            if (length_ + 1 == buffer_.size()) break;
-            buffer_[length_++] = character;
-        }
-        buffer_[length_] = '\0';
-        return *this;
-    }
-    FixedText& operator<<(std::int64_t value) { return write_number(value); }
-    // In the shortest exact form; a nan, whose sign means nothing, without it.
-    FixedText& operator<<(double value) {
-        return value != value ? *this << std::string_view("nan") : write_number(value);
-    }
-
-  private:
-    FixedText& write_number(auto value) {
-        char digits[32];
-        const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-        return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-    }
-
-    std::span<char> buffer_;
-    std::size_t length_ = 0;
-};
-
 namespace detail {
 
 constexpr bool has_value(FaultKind kind) {
@@ -102,12 +74,13 @@ constexpr bool has_value(FaultKind kind) {
 }
 
 // " (at ?c = c3, ?d = d1)"
-inline void describe_objects(FixedText& text, const Site& site, std::int64_t index) {
-    if (site.scope.empty()) return;
+inline void describe_objects(FixedText& text, std::span<const SiteVariable> scope,
+                             std::int64_t index) {
+    if (scope.empty()) return;
     std::int64_t stride = 1;
-    for (const SiteVariable& variable : site.scope) stride *= variable.type->object_count;
+    for (const SiteVariable& variable : scope) stride *= variable.type->object_count;
     std::string_view separator = " (at ?";
-    for (const SiteVariable& variable : site.scope) {
+    for (const SiteVariable& variable : scope) {
         stride /= variable.type->object_count;
         const std::int64_t object = index / stride % variable.type->object_count;
         text << separator << variable.name << " = " << variable.type->objects[object];
@@ -118,6 +91,31 @@ inline void describe_objects(FixedText& text, const Site& site, std::int64_t ind
 
 }  // namespace detail
 
+// "reservoir.rddl:52:9: precondition violated: release(?r) <= rlevel(?r)", on one line.
+inline void describe_violation(FixedText& text, const rddl_condition& condition) {
+    text << condition.source.file << ":" << std::int64_t{condition.source.line} << ":"
+         << std::int64_t{condition.source.column} << ": precondition violated:";
+    std::string_view rest = condition.text;
+    constexpr std::string_view blanks = " \t\r\n";
+    while (!rest.empty()) {
+        const std::size_t begin = std::min(rest.find_first_not_of(blanks), rest.size());
+        rest.remove_prefix(begin);
+        const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
+        if (end > 0) text << " " << rest.substr(0, end);
+        rest.remove_prefix(end);
+    }
+}
+
+// The first objects for which a precondition does not hold.
+inline void describe_culprits(FixedText& text, const ConditionPlaces& places,
+                              const std::byte* record) {
+    std::int64_t count = 1;
+    for (const SiteVariable& variable : places.scope) count *= variable.type->object_count;
+    const std::byte* const holds = record + places.offset;
+    const std::byte* const first = std::find(holds, holds + count, std::byte{0});
+    if (first != holds + count) detail::describe_objects(text, places.scope, first - holds);
+}
+
 // "domain.rddl:41:18: Bernoulli's probability must be in [0, 1], found 1.3 (at ?c = c3)"
 inline void describe_fault(const FaultRecord& fault, const Site& site, std::span<char> buffer) {
     FixedText text(buffer);
@@ -126,7 +124,7 @@ inline void describe_fault(const FaultRecord& fault, const Site& site, std::span
     if (fault.kind != FaultKind::Type && fault.kind != FaultKind::Undefined)
         text << "'s " << requirement_of(fault.kind);
     if (detail::has_value(fault.kind)) text << ", found " << fault.value;
-    detail::describe_objects(text, site, fault.place.index);
+    detail::describe_objects(text, site.scope, fault.place.index);
 }
 
 }  // namespace rddl

@@ -1,15 +1,32 @@
-/* The C interface of every simulator, compiled or interpreted, linked or loaded with dlopen.
+/* The C interface of every simulator, compiled or interpreted, linked or loaded with dlopen:
+ * version 3. docs/c-interface.md shows complete clients, and tells what a version promises.
  *
  * Solvers, renderers, the command line and Python use nothing else. A simulator describes itself
  * (rddl_problem) and steps batches of environments (rddl_batch). All functions work on arrays
- * that the caller owns. None throws or aborts; those that can fail return RDDL_OK or an error.
+ * that the caller owns. None throws or aborts; those that can fail return RDDL_OK or an error, and
+ * last_error tells the reason. A call that fails has changed nothing.
  *
  * Records. A state, an action and an observation are each one fixed-size record per environment:
  * a plain C struct of the fluents in declaration order, every fluent a row-major array over its
  * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
  * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
  * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
- * does not exist are refused with RDDL_BAD_ARGUMENT, and nothing has changed then.
+ * does not exist are refused with RDDL_BAD_ARGUMENT.
+ *
+ * Sizes. Structs grow at their ends only, and each tells its size. Who fills in a struct sets
+ * struct_size to its sizeof; 0 means as long as in version 3.0, so that a struct of zeros is right.
+ * Structs in arrays grow, too: element k of an array lies k * ..._size bytes behind its beginning
+ * (rddl_fluent_at and its like). Who compiles with the simulator's own header may write array[k].
+ *
+ * Alignment. Arrays of numbers are aligned for their elements; records may lie anywhere, and those
+ * that are aligned to 8 bytes are read quickest.
+ *
+ * Threads. A batch is used by one thread at a time, and steps its environments with threads of its
+ * own (thread_count). Different batches, and all that takes a simulator, may be used at once.
+ *
+ * Lifetimes. What a simulator points to, its texts too, stays as it is for as long as its library
+ * is loaded. A batch needs its simulator. The text of last_error stays until the next call that
+ * fails in the same thread.
  */
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H
@@ -23,7 +40,7 @@
 extern "C" {
 #endif
 
-#define RDDL_ABI_VERSION 2
+#define RDDL_ABI_VERSION 3
 
 /* ------------------------------------------------------------------------- description */
 
@@ -60,7 +77,8 @@ typedef struct {
     int32_t rank;                   /* number of parameters */
     const int32_t* parameter_types; /* `rank` indices into types */
     int64_t count;                  /* number of groundings: product of the types' sizes */
-    int64_t offset;      /* bytes into its record; -1 for non-, interm- and derived-fluents */
+    int64_t offset;      /* bytes into its record; -1 for non-fluents, and for interm- and
+                            derived-fluents of a simulator without details */
     const double* lower; /* `count` bounds from the constraints (-inf: none), or NULL: */
     const double* upper; /* not numeric, or not a state- or action-fluent */
     rddl_source source;
@@ -73,6 +91,10 @@ typedef struct {
 } rddl_condition;
 
 typedef struct {
+    uint32_t struct_size;
+    uint32_t type_size; /* of an element of types, */
+    uint32_t fluent_size; /* of fluents, */
+    uint32_t condition_size; /* and of preconditions, invariants and terminations */
     const char* domain;
     const char* instance;
     const rddl_type* types;
@@ -82,6 +104,7 @@ typedef struct {
     int64_t state_size; /* bytes of one record */
     int64_t action_size;
     int64_t observation_size; /* equals state_size when not partially observed */
+    int64_t interm_size; /* of get_interm; 0 without details (rddlc --details) */
     int32_t partially_observed;
     int32_t stochastic;         /* 1: something is drawn at random, in a step or at reset */
     const void* default_action; /* one action record */
@@ -96,8 +119,24 @@ typedef struct {
     int32_t termination_count;
 } rddl_problem;
 
+/* Elements of the arrays above, whatever their size. */
+static inline const rddl_type* rddl_type_at(const rddl_problem* problem, int32_t index) {
+    return (const rddl_type*)((const char*)problem->types + (size_t)index * problem->type_size);
+}
+static inline const rddl_fluent* rddl_fluent_at(const rddl_problem* problem, int32_t index) {
+    return (const rddl_fluent*)((const char*)problem->fluents +
+                                (size_t)index * problem->fluent_size);
+}
+static inline const rddl_condition* rddl_condition_at(const rddl_problem* problem,
+                                                      const rddl_condition* conditions,
+                                                      int32_t index) {
+    return (const rddl_condition*)((const char*)conditions +
+                                   (size_t)index * problem->condition_size);
+}
+
 /* The policy block: how to choose the action (docs/policies.md). */
 typedef struct {
+    uint32_t struct_size;
     const char* name;
     rddl_source source;
     int64_t memory_size; /* bytes that it remembers of each environment's episode */
@@ -106,7 +145,12 @@ typedef struct {
 
 /* ------------------------------------------------------------------------------ batches */
 
-typedef enum { RDDL_OK = 0, RDDL_BAD_ARGUMENT = 1, RDDL_OUT_OF_MEMORY = 2 } rddl_error;
+typedef enum {
+    RDDL_OK = 0,
+    RDDL_BAD_ARGUMENT = 1,
+    RDDL_OUT_OF_MEMORY = 2,
+    RDDL_UNSUPPORTED = 3 /* the simulator was made without it */
+} rddl_error;
 
 /* What happens to an environment whose episode has ended. */
 typedef enum {
@@ -115,17 +159,22 @@ typedef enum {
     RDDL_AUTORESET_SAME_STEP = 2  /* the same step resets it; final_observations tells its end */
 } rddl_autoreset;
 
+#define RDDL_NO_HORIZON (-1)
+
+/* All zero: one environment as the instance describes it. */
 typedef struct {
-    int64_t environment_count;
-    int64_t first_environment; /* identity of environment 0: its random numbers depend on the
-                                  identity, never on batch size, place, threads or ranks */
+    uint32_t struct_size;
+    int32_t thread_count;      /* 0: one per core, but not more than environments */
+    int64_t environment_count; /* 0: 1 */
+    int64_t first_environment; /* identity of environment 0: its random numbers depend on the seed
+                                  and the identity, never on batch size, place, threads or ranks */
     uint64_t seed;
-    int32_t thread_count; /* 0: one per core */
     rddl_autoreset autoreset;
-    int64_t horizon; /* -1: the instance's; 0: none; else this many steps */
-    int32_t
-        lane_count; /* environments stepped together in vector registers: 0: what suits the batch;
-                       else 1 or the simulator's lane_count. Trajectories do not depend on it. */
+    int32_t lane_count; /* environments stepped together in vector registers: 0: what suits the
+                           batch; else 1 or the simulator's lane_count. Trajectories do not depend
+                           on it. */
+    int64_t horizon;    /* steps; 0: the instance's; RDDL_NO_HORIZON: none */
+    int32_t keeps_steps; /* 1: the batch remembers the last step of each environment (get_interm) */
 } rddl_batch_options;
 
 /* Why an episode ended; several may hold. */
@@ -139,21 +188,55 @@ enum {
 
 /* Arrays of environment_count entries that a step fills; any may be NULL. */
 typedef struct {
+    uint32_t struct_size;
     void* observations; /* records */
     double* rewards;
-    uint8_t* terminated;      /* 0 or 1 */
-    uint8_t* truncated;       /* 0 or 1 */
-    uint8_t* causes;          /* bits above */
-    void* final_observations; /* records; written only where a same-step reset happened */
+    uint8_t* terminated; /* 0 or 1 */
+    uint8_t* truncated;  /* 0 or 1 */
+    uint8_t* causes;     /* bits above */
+    /* Where the step has reset an environment (RDDL_AUTORESET_SAME_STEP), and only there: how its
+     * episode ended. */
+    void* final_observations; /* records */
+    void* final_states;       /* records */
+    /* As a matrix, and only by step_values. */
+    void* final_observation_values;
 } rddl_transition;
 
 /* The first fault of an environment's current (or just ended) episode. */
 typedef struct {
+    uint32_t struct_size;
     int32_t faulty; /* 0: none; the rest is unset then */
-    int32_t step;   /* steps made in the episode before it */
+    int64_t step;   /* steps made in the episode before it */
     rddl_source source;
     char message[512]; /* names the cause, the ground objects and the value */
 } rddl_fault;
+
+/* Which precondition an action violates. */
+typedef struct {
+    uint32_t struct_size;
+    int32_t precondition; /* the first one; -1: none, and the rest is unset then */
+    rddl_source source;
+    char message[512]; /* names the condition and, with details, the first objects that violate it */
+} rddl_violation;
+
+/* What a choice changes (action_choice). */
+typedef struct {
+    uint32_t struct_size;
+    int32_t fluent; /* index into fluents; -1: choice 0, which changes nothing */
+    int64_t grounding;
+    int64_t value; /* 0 or 1; the index of an object; an int */
+} rddl_choice;
+
+/* A column of a matrix of numbers. */
+typedef struct {
+    uint32_t struct_size;
+    int32_t fluent; /* index into fluents; grounding_name tells its name */
+    int64_t grounding;
+    rddl_scalar scalar;   /* what its numbers stand for; objects are RDDL_INT, and */
+    int32_t object_count; /* how many there are of its type; else 0 */
+    double lower;         /* bools 0 and 1; objects 0 and object_count - 1; numbers their bounds */
+    double upper;         /* from the constraints, or -inf and +inf */
+} rddl_column;
 
 /* Ints with more values than this between their bounds have no choices (action_choice_count). */
 #define RDDL_MOST_INT_CHOICES 1024
@@ -170,9 +253,14 @@ struct rddl_simulator {
     const rddl_problem* problem;
     const void* self; /* the maker's own; pass the simulator itself to the functions below */
 
-    /* All environments start an episode. NULL when out of memory or on bad options. */
+    /* ---- batches */
+
+    /* All environments start an episode. NULL options are all zero. NULL when out of memory or on
+     * bad options. */
     rddl_batch* (*create)(const rddl_simulator*, const rddl_batch_options*);
     void (*destroy)(rddl_batch*);
+    /* Why the last call that failed in this thread did, in a sentence; "" before. */
+    const char* (*last_error)(const rddl_simulator*);
 
     /* Starts a new episode where mask is non-zero (NULL: everywhere); observations (records, may
      * be NULL) are written for all environments. In a partially observed problem nothing is
@@ -181,26 +269,51 @@ struct rddl_simulator {
     rddl_error (*reset)(rddl_batch*, const uint8_t* mask, void* observations);
     rddl_error (*step)(rddl_batch*, const void* actions, const rddl_transition* out);
 
-    /* Records of environments [begin, begin + count). set_state keeps step counter and episode
-     * and makes an ended environment run again unless the new state terminates; it refuses object
-     * indices out of range. */
-    rddl_error (*get_state)(const rddl_batch*, int64_t begin, int64_t count, void* states);
-    rddl_error (*set_state)(rddl_batch*, int64_t begin, int64_t count, const void* states);
-    rddl_error (*get_observation)(const rddl_batch*, int64_t begin, int64_t count, void* records);
+    /* ---- states, also for planning */
 
-    /* Steps made in the current episode, and episodes ended before it; either may be NULL. */
+    /* Records of environments [begin, begin + count). */
+    rddl_error (*get_state)(const rddl_batch*, int64_t begin, int64_t count, void* states);
+    rddl_error (*get_observation)(const rddl_batch*, int64_t begin, int64_t count, void* records);
+    /* The episodes go on from these states, after so many steps (NULL: as many as before), which
+     * are not negative. An ended episode runs again, unless the new state terminates or the steps
+     * reach the horizon. What the policy remembers stays as it is. */
+    rddl_error (*set_state)(rddl_batch*, int64_t begin, int64_t count, const void* states,
+                            const int64_t* steps);
+
+    /* Steps made in the current episode, and episodes ended before it (since the batch was created,
+     * or since seeds were set); either may be NULL. */
     rddl_error (*get_progress)(const rddl_batch*, int64_t begin, int64_t count, int64_t* steps,
                                int64_t* episodes);
     /* The causes of the current episode's end (RDDL_RUNNING while it runs). */
     rddl_error (*get_causes)(const rddl_batch*, int64_t begin, int64_t count, uint8_t* causes);
     rddl_error (*get_fault)(const rddl_batch*, int64_t environment, rddl_fault* fault);
 
+    /* An independent copy, episodes and random numbers included: what follows is the same in both
+     * as long as the actions are. NULL when out of memory. */
+    rddl_batch* (*copy)(const rddl_batch*);
+    /* Makes environments [begin, begin + count) such copies of environments sources[0 .. count) of
+     * `from` (NULL: of the first ones), one after the other. `from` is a batch of the same
+     * simulator, and may be the same batch. Horizon and autoreset stay those of `to`. */
+    rddl_error (*copy_environments)(rddl_batch* to, int64_t begin, int64_t count,
+                                    const rddl_batch* from, const int64_t* sources);
+
+    /* New random numbers, for the running episodes from their next step on, and for those that
+     * follow. Environment k of [begin, begin + count) draws those of the only environment of a new
+     * batch whose options have the seed seeds[k]: after set_seeds and reset, its episodes are the
+     * same. */
+    rddl_error (*set_seeds)(rddl_batch*, int64_t begin, int64_t count, const uint64_t* seeds);
+    /* The same for all environments at once: they draw those of a new batch with this seed. */
+    rddl_error (*set_seed)(rddl_batch*, uint64_t seed);
+
+    /* ---- actions */
+
     /* For each environment the first violated precondition of its action in its current state, or
      * -1. Steps never check preconditions by themselves. */
     rddl_error (*violated_preconditions)(rddl_batch*, const void* actions, int32_t* first_violated);
 
-    /* An independent copy, episodes and random streams included. NULL when out of memory. */
-    rddl_batch* (*copy)(const rddl_batch*);
+    /* The same of one environment and action, in words. */
+    rddl_error (*explain_violation)(rddl_batch*, int64_t environment, const void* action,
+                                    rddl_violation* out);
 
     /* Choices, for solvers that change one action value at a time. Choice 0 is the default action
      * (no-op). Then come, action-fluent by action-fluent in declaration order and grounding by
@@ -209,12 +322,16 @@ struct rddl_simulator {
      * ascending order. Reals, ints without two bounds and ints of more than RDDL_MOST_INT_CHOICES
      * values are no part of it and stay at their default. */
     int64_t (*action_choice_count)(const rddl_simulator*); /* at least 1 */
-    /* Writes the action record of a choice. */
-    rddl_error (*action_choice)(const rddl_simulator*, int64_t choice, void* action);
-    /* For each environment action_choice_count bytes: 1 where the choice satisfies all
-     * preconditions in the current state, else 0; also 0 for all but choice 0 where
-     * max_nondef_actions is 0. */
-    rddl_error (*action_mask)(rddl_batch*, uint8_t* masks);
+    /* Writes the action record of a choice (NULL: does not), and what it changes (may be NULL). */
+    rddl_error (*action_choice)(const rddl_simulator*, int64_t choice, void* action,
+                                rddl_choice* out);
+    /* For each environment action_choice_count bytes. Without actions (NULL): 1 where the choice
+     * satisfies all preconditions in the current state, else 0; also 0 for all but choice 0 where
+     * max_nondef_actions is 0. With actions, one record for each environment, for solvers that
+     * change several values one after the other: 1 where the action satisfies all preconditions and
+     * max_nondef_actions as it stands (choice 0), or with the choice's value set in it; 0, too,
+     * where it has that value already. */
+    rddl_error (*action_mask)(rddl_batch*, const void* actions, uint8_t* masks);
 
     /* The policy block; NULL, as policy_act is, if the problem has none. */
     const rddl_policy* policy;
@@ -226,21 +343,48 @@ struct rddl_simulator {
      * are its own: those of the steps do not depend on it. */
     rddl_error (*policy_act)(rddl_batch*, void* actions);
 
+    /* ---- matrices of numbers, for solvers */
+
     /* How many environments a batch steps together in vector registers, and which registers these
      * are ("AVX-512", "AVX2", "SSE2", "portable"). 1: the simulator was made without. */
     int32_t lane_count;
     const char* instruction_set;
 
-    /* The same with matrices, for solvers: a row for each environment, row-major, a number for each
-     * value of the record. Bools are 0 and 1 (an action above 0.5 is true), objects their index,
-     * ints are rounded. Counts of numbers in a row: */
+    /* A row for each environment, row-major, a number for each value of the record. Bools are 0 and
+     * 1 (an action above 0.5 is true), objects their index, ints are rounded. Counts of numbers in
+     * a row: */
     int64_t (*action_value_count)(const rddl_simulator*);
     int64_t (*observation_value_count)(const rddl_simulator*);
-    /* `observations` may be NULL; out->observations and out->final_observations are records as
-     * ever. An action that is nan, or an index without an object, is refused. */
+    /* What a number of the row stands for. */
+    rddl_error (*action_column)(const rddl_simulator*, int64_t column, rddl_column* out);
+    rddl_error (*observation_column)(const rddl_simulator*, int64_t column, rddl_column* out);
+    /* `observations` may be NULL. out->observations and the final records are written as ever, and
+     * so is the matrix out->final_observation_values. An action that is nan, or an index without an
+     * object, is refused. */
     rddl_error (*step_values)(rddl_batch*, rddl_number, const void* actions, void* observations,
                               const rddl_transition* out);
     rddl_error (*get_observation_values)(const rddl_batch*, rddl_number, void* observations);
+
+    /* ---- what a step computes on its way */
+
+    /* Records of the interm- and derived-fluents of the last step of environments [begin, begin +
+     * count), whether or not a new episode has begun since. They are computed again, in double:
+     * only for batches that keep steps, and by simulators with details; else RDDL_UNSUPPORTED. An
+     * environment that has made no step is refused. */
+    rddl_error (*get_interm)(const rddl_batch*, int64_t begin, int64_t count, void* records);
+
+    /* ---- what the instance fixes */
+
+    /* The values [begin, begin + count) of a fluent, row-major, as uint8_t, int64_t or double: of a
+     * non-fluent; of a state-fluent in the initial state; of an action-fluent its defaults. */
+    rddl_error (*get_constants)(const rddl_simulator*, int32_t fluent, int64_t begin, int64_t count,
+                                void* values);
+    /* The state in which episodes start; where the start is random, as it is before the draws. */
+    rddl_error (*initial_state)(const rddl_simulator*, void* state);
+    /* Writes the name of a grounding as traces have it, "rlevel___t1", and its end, as far as they
+     * fit into `size` bytes. Its length without the end, however long; -1 if there is no such. */
+    int64_t (*grounding_name)(const rddl_simulator*, int32_t fluent, int64_t grounding, char* text,
+                              size_t size);
 };
 
 /* What a shared object exports under the name "rddl_simulator_entry". */

@@ -4,6 +4,7 @@
 #include <rddl/bits.hpp>
 #include <rddl/compiled.hpp>
 #include <rddl/context.hpp>
+#include <rddl/details.hpp>
 #include <rddl/distributions.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/linear_algebra.hpp>

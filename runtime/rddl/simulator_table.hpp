@@ -4,6 +4,8 @@
 #pragma once
 
 #include <rddl/any_engine.hpp>
+#include <rddl/constants.hpp>
+#include <rddl/details.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/simd.hpp>
 #include <rddl/simulator.h>
@@ -15,14 +17,25 @@
 
 namespace rddl {
 
+// What a simulator tells about itself; all of it outlives it.
+struct About {
+    const rddl_problem& problem;
+    std::span<const Site> sites;
+    std::span<const Constants> constants;  // of each non-fluent
+    const rddl_policy* policy = nullptr;   // of the engine; null if it has none
+    const Details* details = nullptr;      // null if it was made without
+};
+
 // L is the lane type of the engine for larger batches: Scalar if there is none but the first one.
 template <class L>
 struct SimulatorParts {
     const rddl_problem* problem;
     std::span<const Site> sites;
+    std::span<const Constants> constants;
     AnyEngine<ScalarOf<typename L::Element>> engine;
     AnyEngine<L> packed_engine;
     const rddl_policy* policy;
+    const Details* details;
     const char* instruction_set;  // that the engines are compiled for
 };
 
@@ -30,24 +43,28 @@ struct SimulatorParts {
 template <class L>
 rddl_simulator table_of(const SimulatorParts<L>& parts);
 
-// The description and the sites must outlive it; it must outlive its batches. An emitted file ends
-// in
+// It must outlive its batches. An emitted file ends in
 //
 //     extern "C" const rddl_simulator* rddl_simulator_entry() {
-//         static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>> table(problem,
-//         sites, {}); return table.get();
+//         static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>> table(
+//             {problem, sites, constants}, {});
+//         return table.get();
 //     }
 //
 // Packed is an engine of the same simulator for packs, where there is one: for larger batches.
 template <Engine E, Engine Packed = E>
 class SimulatorTable {
   public:
-    // `policy` describes the engine's policy and must outlive it, too; null if it has none.
-    SimulatorTable(const rddl_problem& problem, std::span<const Site> sites, E engine,
-                   const rddl_policy* policy = nullptr)
+    SimulatorTable(const About& about, E engine)
         : engine_(std::move(engine)),
-          parts_{&problem,        sites,  AnyEngine<typename E::Lane>(engine_),
-                 packed_engine(), policy, simd::level},
+          parts_{&about.problem,
+                 about.sites,
+                 about.constants,
+                 AnyEngine<typename E::Lane>(engine_),
+                 packed_engine(),
+                 about.policy,
+                 about.details,
+                 simd::level},
           table_(table_of(parts_)) {}
     SimulatorTable(const SimulatorTable&) = delete;
     SimulatorTable& operator=(const SimulatorTable&) = delete;

@@ -77,13 +77,9 @@ std::string trace_of(const rddl_simulator& simulator) {
     const cli::RecordLayout observation_layout(problem, RDDL_OBSERVATION);
     Record state(state_layout.size()), observation(observation_layout.size());
 
-    const rddl_batch_options options{.environment_count = 1,
-                                     .first_environment = 0,
-                                     .seed = seed,
-                                     .thread_count = 1,
-                                     .autoreset = RDDL_AUTORESET_DISABLED,
-                                     .horizon = -1,
-                                     .lane_count = 0};
+    rddl_batch_options options{};
+    options.seed = seed;
+    options.thread_count = 1;
     rddl_batch* const batch = simulator.create(&simulator, &options);
     if (!batch) return "no batch\n";
 
@@ -96,12 +92,10 @@ std::string trace_of(const rddl_simulator& simulator) {
         Record action = action_at(problem, action_layout, step);
         if (simulator.policy) simulator.policy_act(batch, action.data());
         double reward = 0;
-        const rddl_transition out{.observations = observation.data(),
-                                  .rewards = &reward,
-                                  .terminated = nullptr,
-                                  .truncated = nullptr,
-                                  .causes = &causes,
-                                  .final_observations = nullptr};
+        rddl_transition out{};
+        out.observations = observation.data();
+        out.rewards = &reward;
+        out.causes = &causes;
         const rddl_error error = simulator.step(batch, action.data(), &out);
         if (error != RDDL_OK) {
             text += fmt::format("error {}\n", static_cast<int>(error));

@@ -173,7 +173,7 @@ TEST_F(Replay, RepetitionsKnowTheHorizon) {
 TEST_F(Replay, EnforcesPreconditionsOnRequest) {
     rddl_problem unlimited = tiny::problem;
     unlimited.max_nondef_actions = -1;
-    const rddl::SimulatorTable table(unlimited, tiny::sites,
+    const rddl::SimulatorTable table(rddl::About{unlimited, tiny::sites, {}},
                                      rddl::Compiled<tiny::Simulator, tiny::problem>());
     const std::string line = R"({"action": {"repair___mill": true, "repair___press": true}})";
     ReplaySession free(*table.get(), {});

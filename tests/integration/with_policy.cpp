@@ -32,7 +32,8 @@ bool acts_as_written(const rddl_simulator& simulator, rddl_batch* batch) {
 int main() {
     const rddl_simulator& simulator = *rddl_simulator_tank_one();
     if (!simulator.policy || std::strcmp(simulator.policy->name, "fill") != 0) return 1;
-    const rddl_batch_options options{1, 0, 7, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+    rddl_batch_options options{};
+    options.seed = 7;
     rddl_batch* const batch = simulator.create(&simulator, &options);
     const bool good = batch && acts_as_written(simulator, batch);
     simulator.destroy(batch);

@@ -50,7 +50,7 @@ constexpr int steps = 1'000'000 / environments;
 
 TEST(Allocations, AreCounted) {
     const std::int64_t before = allocations;
-    TinyBatch batch({environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    TinyBatch batch(batch_options(environments, 0, 42, 1, RDDL_AUTORESET_DISABLED));
     EXPECT_GT(allocations, before);
 }
 
@@ -66,10 +66,10 @@ void expect_no_allocations(const rddl_batch_options& options) {
     std::uint8_t masks[environments * 5];
     rddl_fault fault;
     ASSERT_EQ(simulator()->action_choice_count(simulator()), 5);
-    simulator()->action_mask(batch.get(), masks);
+    simulator()->action_mask(batch.get(), nullptr, masks);
     simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);
     simulator()->get_fault(batch.get(), 13, &fault);
-    simulator()->set_state(batch.get(), 0, environments, batch.observations.data());
+    simulator()->set_state(batch.get(), 0, environments, batch.observations.data(), nullptr);
     simulator()->reset(batch.get(), nullptr, batch.observations.data());
     EXPECT_EQ(allocations, before) << options.thread_count << " threads, mode " << options.autoreset
                                    << ", lanes " << options.lane_count;
@@ -91,7 +91,7 @@ TEST(Allocations, DoNotHappenInStepsWithMatrices) {
     std::vector<float> actions(environments * action_count);
     std::vector<float> observations(environments * observation_count);
     for (const int lanes : {1, simulator()->lane_count}) {
-        TinyBatch batch({environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, lanes});
+        TinyBatch batch(batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, 0, lanes));
         const rddl_transition out{};
         const std::int64_t before = allocations;
         for (int time = 0; time < 1000; ++time)
@@ -107,7 +107,7 @@ TEST(Allocations, DoNotHappenWithFloats) {
     static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, 16, float>> table(
         problem, sites, {});
     for (const int lanes : {1, 16}) {
-        TinyBatch batch({environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, lanes}, table.get());
+        TinyBatch batch(batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, 0, lanes), table.get());
         const std::int64_t before = allocations;
         for (int time = 0; time < 1000; ++time) batch.step();
         EXPECT_EQ(allocations, before) << lanes;
@@ -116,7 +116,7 @@ TEST(Allocations, DoNotHappenWithFloats) {
 
 TEST(Allocations, DoNotHappenInDecisions) {
     const rddl_simulator& functions = *simulator_with_policy();
-    const rddl_batch_options options{environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, -1, 0};
+    const rddl_batch_options options = batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP);
     TinyBatch batch(options, &functions);
     const std::int64_t before = allocations;
     for (int time = 0; time < 1000; ++time) {

@@ -42,7 +42,7 @@ Told told_of(const TinyBatch& batch, std::size_t i) {
 // One trajectory for each environment from `first` on.
 std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads,
                                      const rddl_simulator* functions = simulator(), int lanes = 0) {
-    TinyBatch batch({count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, -1, lanes}, functions);
+    TinyBatch batch(batch_options(count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, 0, lanes), functions);
     std::vector<Trajectory> result(batch.size());
     for (int time = 0; time < step_count; ++time) {
         for (std::size_t i = 0; i < batch.size(); ++i)
@@ -90,7 +90,7 @@ template <int lanes, class Real = double>
 const rddl_simulator* simulator_with_lanes() {
     using Engine = rddl::Compiled<Simulator, problem, rddl::ScalarOf<Real>>;
     static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, lanes, Real>> table(
-        problem, sites, {});
+        {problem, sites, {}}, {});
     return table.get();
 }
 
@@ -119,8 +119,8 @@ TEST(Trajectories, OfFloatsDoNotDependOnTheLanes) {
 
 TEST(Trajectories, OfFloatsAreNearThoseOfDoubles) {
     const rddl_simulator* const floats = simulator_with_lanes<16, float>();
-    TinyBatch near({all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0}, floats);
-    TinyBatch exact({all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    TinyBatch near(batch_options(all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED), floats);
+    TinyBatch exact(batch_options(all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED));
     for (int time = 0; time < 5; ++time) {
         for (std::size_t i = 0; i < exact.size(); ++i)
             near.actions[i] = exact.actions[i] = action_of(static_cast<std::int64_t>(i), time);
@@ -150,7 +150,7 @@ void append(std::vector<Number>& row, const StateRecord& state) {
 
 template <class Number>
 void expect_matrices_like_records(rddl_number number, std::int64_t count) {
-    const rddl_batch_options options{count, 0, 42, 1, RDDL_AUTORESET_SAME_STEP, -1, 0};
+    const rddl_batch_options options = batch_options(count, 0, 42, 1, RDDL_AUTORESET_SAME_STEP);
     TinyBatch records(options), matrices(options);
     ASSERT_EQ(simulator()->action_value_count(simulator()), machines + 2);
     ASSERT_EQ(simulator()->observation_value_count(simulator()), 2 * machines + 2);
@@ -164,8 +164,8 @@ void expect_matrices_like_records(rddl_number number, std::int64_t count) {
         }
         records.step();
         for (const StateRecord& state : records.observations) append(expected, state);
-        const rddl_transition out{nullptr, matrices.rewards.data(), nullptr, nullptr, nullptr,
-                                  nullptr};
+        rddl_transition out{};
+        out.rewards = matrices.rewards.data();
         ASSERT_EQ(simulator()->step_values(matrices.get(), number, actions.data(),
                                            observations.data(), &out),
                   RDDL_OK);
@@ -186,7 +186,7 @@ TEST(Matrices, StepLikeRecords) {
 }
 
 TEST(Matrices, OfActionsThatAreNoneAreRefused) {
-    TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    TinyBatch batch(batch_options(1, 0, 42, 1, RDDL_AUTORESET_DISABLED));
     const rddl_transition out{};
     const auto status_of = [&](double repair, double mode) {
         const double row[] = {repair, 0, 0, mode, 0};
@@ -201,21 +201,21 @@ TEST(Matrices, OfActionsThatAreNoneAreRefused) {
 }
 
 TEST(Trajectories, DependOnTheSeed) {
-    TinyBatch one({1, 0, 1, 1, RDDL_AUTORESET_DISABLED, -1, 0});
-    TinyBatch other({1, 0, 2, 1, RDDL_AUTORESET_DISABLED, -1, 0});
+    TinyBatch one(batch_options(1, 0, 1, 1, RDDL_AUTORESET_DISABLED));
+    TinyBatch other(batch_options(1, 0, 2, 1, RDDL_AUTORESET_DISABLED));
     one.step();
     other.step();
     EXPECT_NE(one.observations[0].wear, other.observations[0].wear);
 }
 
 TEST(Trajectories, AreRepeatedBySettingTheState) {
-    TinyBatch batch({8, 0, 42, 1, RDDL_AUTORESET_DISABLED, 0, 0});
+    TinyBatch batch(batch_options(8, 0, 42, 1, RDDL_AUTORESET_DISABLED, RDDL_NO_HORIZON));
     batch.step();
     const auto before = batch.states();
     batch.step();
     // The step counter goes on, so that the same state meets new random numbers...
     const auto first_time = batch.states();
-    ASSERT_EQ(simulator()->set_state(batch.get(), 0, 8, before.data()), RDDL_OK);
+    ASSERT_EQ(simulator()->set_state(batch.get(), 0, 8, before.data(), nullptr), RDDL_OK);
     batch.step();
     EXPECT_NE(batch.states()[0].wear, first_time[0].wear);
     // ... while a copy made before the step repeats it.

@@ -18,9 +18,14 @@ struct Counters {
           n(static_cast<std::size_t>(options.environment_count)) {}
 
     void step(const std::vector<std::int64_t>& actions) {
-        batch.step(reinterpret_cast<const std::byte*>(actions.data()),
-                   {observations.data(), rewards.data(), terminated.data(), truncated.data(),
-                    causes.data(), finals.data()});
+        rddl_transition out{};
+        out.observations = observations.data();
+        out.rewards = rewards.data();
+        out.terminated = terminated.data();
+        out.truncated = truncated.data();
+        out.causes = causes.data();
+        out.final_observations = finals.data();
+        batch.step(reinterpret_cast<const std::byte*>(actions.data()), out);
     }
     void step() { step(std::vector<std::int64_t>(n, 1)); }
     std::int64_t count(std::int64_t i) const {
@@ -271,7 +276,7 @@ TEST(SetState, MakesAnEndedEnvironmentRunUnlessTheStateIsTerminal) {
     counters.step({7});
     EXPECT_NE(counters.batch.causes(0), RDDL_RUNNING);
     const auto set = [&](std::int64_t count) {
-        counters.batch.set_state(0, reinterpret_cast<const std::byte*>(&count));
+        counters.batch.set_state(0, reinterpret_cast<const std::byte*>(&count), nullptr);
     };
     set(2);
     EXPECT_EQ(counters.batch.causes(0), RDDL_RUNNING);

@@ -15,7 +15,7 @@ namespace {
 
 const rddl_simulator& functions = *simulator();
 
-constexpr rddl_batch_options four{4, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+constexpr rddl_batch_options four = batch_options(4, 0, 42, 1, RDDL_AUTORESET_DISABLED);
 
 TEST(Interface, DescribesItself) {
     EXPECT_EQ(functions.abi_version, static_cast<std::uint32_t>(RDDL_ABI_VERSION));
@@ -72,7 +72,7 @@ TEST(Interface, WritesOnlyWhatIsAskedFor) {
 }
 
 TEST(Interface, ReadsActionsAtAnyAddress) {
-    const rddl_batch_options one{1, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+    const rddl_batch_options one = batch_options(1, 0, 42, 1, RDDL_AUTORESET_DISABLED);
     TinyBatch aligned(one), unaligned(one);
     aligned.actions[0] = action_of(1, 2);
     aligned.step();
@@ -85,8 +85,8 @@ TEST(Interface, ReadsActionsAtAnyAddress) {
 }
 
 TEST(Interface, TakesTheHorizonFromTheInstanceOrTheOptions) {
-    for (const auto& [option, expected] : {std::pair(-1, 50), {3, 3}}) {
-        TinyBatch batch({1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option, 0});
+    for (const auto& [option, expected] : {std::pair(0, 50), {3, 3}}) {
+        TinyBatch batch(batch_options(1, 0, 42, 1, RDDL_AUTORESET_DISABLED, option));
         int steps = 0;
         do {
             batch.actions[0].repair = {true, true, true};
@@ -104,7 +104,7 @@ TEST(Interface, SetsStatesInPart) {
     state.running[1] = true;
     state.wear = {1.0, 2.0, 3.0};
     state.mode = 1;
-    EXPECT_EQ(functions.set_state(batch.get(), 2, 1, &state), RDDL_OK);
+    EXPECT_EQ(functions.set_state(batch.get(), 2, 1, &state, nullptr), RDDL_OK);
     const auto states = batch.states();
     EXPECT_EQ(states[2].wear, state.wear);
     EXPECT_EQ(states[1].wear[0], 0.0);
@@ -113,7 +113,7 @@ TEST(Interface, SetsStatesInPart) {
 TEST(Interface, EndsTheEpisodeOfATerminalStateThatIsSet) {
     TinyBatch batch(four);
     const StateRecord nothing_runs{};
-    EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &nothing_runs), RDDL_OK);
+    EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &nothing_runs, nullptr), RDDL_OK);
     std::uint8_t causes[4];
     EXPECT_EQ(functions.get_causes(batch.get(), 0, 4, causes), RDDL_OK);
     EXPECT_EQ(causes[0], RDDL_TERMINATED);
@@ -126,7 +126,7 @@ TEST(Interface, RefusesStatesAndActionsThatNameNoObject) {
     for (const std::int64_t mode :
          {std::int64_t{-1}, std::int64_t{2}, std::numeric_limits<std::int64_t>::min()}) {
         state.mode = mode;
-        EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.set_state(batch.get(), 0, 1, &state, nullptr), RDDL_BAD_ARGUMENT);
         batch.actions[3].set_mode = mode;
         const rddl_transition nothing{};
         EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
@@ -143,16 +143,16 @@ TEST(Interface, ReadsAnyByteButZeroAsTrue) {
     for (const std::int64_t count : {1, 40})  // alone, and in packs
         for (const int value : {2, 0x80, 0xFF}) {
             const auto byte = static_cast<std::uint8_t>(value);
-            const rddl_batch_options options{count, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+            const rddl_batch_options options = batch_options(count, 0, 42, 1, RDDL_AUTORESET_DISABLED);
             TinyBatch usual(options), unusual(options);
             const auto last = static_cast<std::size_t>(count) - 1;
             usual.actions[last].repair[2] = true;
             std::memcpy(&unusual.actions[last].repair[2], &byte, 1);
             StateRecord state{};
             state.running[1] = true;
-            EXPECT_EQ(functions.set_state(usual.get(), 0, 1, &state), RDDL_OK);
+            EXPECT_EQ(functions.set_state(usual.get(), 0, 1, &state, nullptr), RDDL_OK);
             std::memcpy(&state.running[1], &byte, 1);
-            EXPECT_EQ(functions.set_state(unusual.get(), 0, 1, &state), RDDL_OK);
+            EXPECT_EQ(functions.set_state(unusual.get(), 0, 1, &state, nullptr), RDDL_OK);
             usual.step();
             unusual.step();
             EXPECT_EQ(usual.rewards, unusual.rewards);
@@ -167,19 +167,18 @@ TEST(Interface, RefusesOptionsOutOfRange) {
     const auto refused = [](const rddl_batch_options& options) {
         return functions.create(&functions, &options) == nullptr;
     };
-    EXPECT_TRUE(refused({0, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
-    EXPECT_TRUE(refused({-5, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0}));
-    EXPECT_TRUE(refused({1, 0, 0, -1, RDDL_AUTORESET_DISABLED, -1, 0}));
-    EXPECT_TRUE(refused({1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2, 0}));
+    EXPECT_TRUE(refused(batch_options(-5, 0, 0, 1, RDDL_AUTORESET_DISABLED)));
+    EXPECT_TRUE(refused(batch_options(1, 0, 0, -1, RDDL_AUTORESET_DISABLED)));
+    EXPECT_TRUE(refused(batch_options(1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -2)));
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
     for (const std::int64_t count : {std::int64_t{1} << 60, most / 2, most - 15, most - 1, most})
-        EXPECT_TRUE(refused({count, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0})) << count;
-    rddl_batch_options unknown_mode{1, 0, 0, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+        EXPECT_TRUE(refused(batch_options(count, 0, 0, 1, RDDL_AUTORESET_DISABLED))) << count;
+    rddl_batch_options unknown_mode = batch_options(1, 0, 0, 1, RDDL_AUTORESET_DISABLED);
     for (const int number : {-1, 3, 4, 1'000'000}) {
         std::memcpy(&unknown_mode.autoreset, &number, sizeof number);
         EXPECT_TRUE(refused(unknown_mode));
     }
-    EXPECT_EQ(functions.create(&functions, nullptr), nullptr);
+    EXPECT_EQ(functions.create(nullptr, nullptr), nullptr);
 }
 
 // As a caller in C may write it.
@@ -202,7 +201,7 @@ TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
                                        {1, std::numeric_limits<std::int64_t>::max()},
                                        {5, 0}}) {
         EXPECT_EQ(functions.get_state(batch.get(), begin, count, states), RDDL_BAD_ARGUMENT);
-        EXPECT_EQ(functions.set_state(batch.get(), begin, count, states), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.set_state(batch.get(), begin, count, states, nullptr), RDDL_BAD_ARGUMENT);
         EXPECT_EQ(functions.get_progress(batch.get(), begin, count, nullptr, nullptr),
                   RDDL_BAD_ARGUMENT);
     }
@@ -211,7 +210,7 @@ TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
     EXPECT_EQ(functions.get_state(nullptr, 0, 1, states), RDDL_BAD_ARGUMENT);
     EXPECT_EQ(functions.step(batch.get(), nullptr, nullptr), RDDL_BAD_ARGUMENT);
     EXPECT_EQ(functions.reset(nullptr, nullptr, nullptr), RDDL_BAD_ARGUMENT);
-    rddl_fault fault;
+    rddl_fault fault{};
     EXPECT_EQ(functions.get_fault(batch.get(), 4, &fault), RDDL_BAD_ARGUMENT);
     EXPECT_EQ(functions.copy(nullptr), nullptr);
     functions.destroy(nullptr);
@@ -219,7 +218,7 @@ TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
 
 TEST(Interface, TellsFaultsInWords) {
     TinyBatch batch(four);
-    rddl_fault fault;
+    rddl_fault fault{};
     EXPECT_EQ(functions.get_fault(batch.get(), 2, &fault), RDDL_OK);
     EXPECT_EQ(fault.faulty, 0);
     batch.step();
@@ -259,7 +258,7 @@ TEST(Choices, AreTheSingleChangesOfTheDefaultAction) {
     ASSERT_EQ(functions.action_choice_count(&functions), tiny_choices);
     const auto choice = [](std::int64_t k) {
         ActionRecord action;
-        EXPECT_EQ(functions.action_choice(&functions, k, &action), RDDL_OK);
+        EXPECT_EQ(functions.action_choice(&functions, k, &action, nullptr), RDDL_OK);
         EXPECT_EQ(action.hazard, 0.0);
         return std::pair(action.repair, action.set_mode);
     };
@@ -269,23 +268,22 @@ TEST(Choices, AreTheSingleChangesOfTheDefaultAction) {
     EXPECT_EQ(choice(3), std::pair(Repair{false, false, true}, std::int64_t{0}));
     EXPECT_EQ(choice(4), std::pair(Repair{false, false, false}, std::int64_t{1}));
     ActionRecord action;
-    EXPECT_EQ(functions.action_choice(&functions, -1, &action), RDDL_BAD_ARGUMENT);
-    EXPECT_EQ(functions.action_choice(&functions, tiny_choices, &action), RDDL_BAD_ARGUMENT);
-    EXPECT_EQ(functions.action_choice(&functions, 0, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.action_choice(&functions, -1, &action, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.action_choice(&functions, tiny_choices, &action, nullptr), RDDL_BAD_ARGUMENT);
 }
 
 using Mask = std::array<std::uint8_t, tiny_choices>;
 
 std::array<Mask, 2> masks_of(const rddl_simulator& simulator) {
-    const rddl_batch_options two{2, 0, 42, 1, RDDL_AUTORESET_DISABLED, -1, 0};
+    const rddl_batch_options two = batch_options(2, 0, 42, 1, RDDL_AUTORESET_DISABLED);
     rddl_batch* const batch = simulator.create(&simulator, &two);
     StateRecord state{};
     state.wear = {0.0, 12.0, 0.0};
     state.running = {true, true, true};
-    EXPECT_EQ(simulator.set_state(batch, 1, 1, &state), RDDL_OK);
+    EXPECT_EQ(simulator.set_state(batch, 1, 1, &state, nullptr), RDDL_OK);
     std::array<Mask, 2> masks;
-    EXPECT_EQ(simulator.action_mask(batch, masks[0].data()), RDDL_OK);
-    EXPECT_EQ(simulator.action_mask(batch, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(simulator.action_mask(batch, nullptr, masks[0].data()), RDDL_OK);
+    EXPECT_EQ(simulator.action_mask(batch, nullptr, nullptr), RDDL_BAD_ARGUMENT);
     simulator.destroy(batch);
     return masks;
 }
@@ -306,7 +304,8 @@ struct Strict : Simulator {
 
 TEST(Choices, AreMaskedByThePreconditionsOfEachState) {
     EXPECT_EQ(masks_of(functions)[0], (Mask{1, 1, 1, 1, 1}));
-    const rddl::SimulatorTable strict(problem, sites, rddl::Compiled<Strict, problem>());
+    const rddl::SimulatorTable strict(rddl::About{problem, sites, {}},
+                                      rddl::Compiled<Strict, problem>());
     const auto masks = masks_of(*strict.get());
     EXPECT_EQ(masks[0], (Mask{1, 0, 0, 0, 1}));
     EXPECT_EQ(masks[1], (Mask{0, 0, 1, 0, 0})) << "here even the default action is illegal";
@@ -315,7 +314,8 @@ TEST(Choices, AreMaskedByThePreconditionsOfEachState) {
 TEST(Choices, AreMaskedByTheLimitOfActions) {
     rddl_problem limited = problem;
     limited.max_nondef_actions = 0;
-    const rddl::SimulatorTable table(limited, sites, rddl::Compiled<Simulator, problem>());
+    const rddl::SimulatorTable table(rddl::About{limited, sites, {}},
+                                     rddl::Compiled<Simulator, problem>());
     EXPECT_EQ(masks_of(*table.get())[0], (Mask{1, 0, 0, 0, 0}));
 }
 
@@ -338,23 +338,23 @@ TEST(Choices, OfIntsNeedTwoBoundsNotTooFarApart) {
     ints.default_action = defaults;
 
     std::vector<std::vector<std::int64_t>> all;
-    std::int64_t action[]{2, 2, 2, 2, 2};
-    rddl::for_each_choice(ints, action, [&](std::int64_t choice) {
+    rddl::for_each_choice(ints, [&](std::int64_t choice, const rddl::Change& change) {
+        all.emplace_back(defaults, defaults + 5);
         EXPECT_EQ(choice, static_cast<std::int64_t>(all.size()));
-        all.emplace_back(action, action + 5);
+        EXPECT_EQ(change.exchange(all.back().data(), change.value), 2);
         std::vector<std::int64_t> written(defaults, defaults + 5);
-        rddl::write_choice(ints, choice, written.data());
+        const rddl::Change same = rddl::change_of(ints, choice);
+        same.exchange(written.data(), same.value);
         EXPECT_EQ(written, all.back());
     });
-    EXPECT_EQ(
-        all,
-        (std::vector<std::vector<std::int64_t>>{
-            {2, 2, 2, 2, 2}, {1, 2, 2, 2, 2}, {3, 2, 2, 2, 2}, {2, 2, 2, 5, 2}, {2, 2, 2, 6, 2}}));
+    EXPECT_EQ(all,
+              (std::vector<std::vector<std::int64_t>>{
+                  {1, 2, 2, 2, 2}, {3, 2, 2, 2, 2}, {2, 2, 2, 5, 2}, {2, 2, 2, 6, 2}}));
     EXPECT_EQ(rddl::choice_count(ints), 5);
 }
 
 TEST(Interface, CopiesAreIndependentAndGoOnAlike) {
-    TinyBatch original({100, 0, 42, 2, RDDL_AUTORESET_NEXT_STEP, -1, 0});
+    TinyBatch original(batch_options(100, 0, 42, 2, RDDL_AUTORESET_NEXT_STEP));
     for (int t = 0; t < 30; ++t) original.step();
     TinyBatch copy(functions.copy(original.get()), 100);
     for (int t = 0; t < 60; ++t) original.step();

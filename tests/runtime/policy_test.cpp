@@ -13,7 +13,7 @@ namespace {
 const rddl_simulator& functions = *simulator_with_policy();
 
 rddl_batch_options options(std::int64_t count, std::int64_t first = 0) {
-    return {count, first, 42, 1, RDDL_AUTORESET_DISABLED, 0, 0};
+    return batch_options(count, first, 42, 1, RDDL_AUTORESET_DISABLED, RDDL_NO_HORIZON);
 }
 
 void act(TinyBatch& batch) {
@@ -109,7 +109,7 @@ TEST(Policy, FaultsEndTheEpisode) {
     EXPECT_GE(repaired(batch.actions[1]), 0);
     act(batch);
     EXPECT_EQ(repaired(batch.actions[1]), -1) << "the default action";
-    rddl_fault fault;
+    rddl_fault fault{};
     ASSERT_EQ(functions.get_fault(batch.get(), 1, &fault), RDDL_OK);
     EXPECT_TRUE(fault.faulty);
     EXPECT_EQ(fault.step, 0);

@@ -22,6 +22,21 @@ inline std::vector<StateRecord> blank_states(std::size_t count) {
     return states;
 }
 
+constexpr rddl_batch_options batch_options(std::int64_t count, std::int64_t first = 0,
+                                           std::uint64_t seed = 42, std::int32_t threads = 1,
+                                           rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED,
+                                           std::int64_t horizon = 0, std::int32_t lanes = 0) {
+    return {.struct_size = sizeof(rddl_batch_options),
+            .thread_count = threads,
+            .environment_count = count,
+            .first_environment = first,
+            .seed = seed,
+            .autoreset = autoreset,
+            .lane_count = lanes,
+            .horizon = horizon,
+            .keeps_steps = 0};
+}
+
 class TinyBatch {
   public:
     explicit TinyBatch(const rddl_batch_options& options,
@@ -46,8 +61,15 @@ class TinyBatch {
 
     // With the actions in `actions`.
     void step() {
-        const rddl_transition out{observations.data(), rewards.data(), terminated.data(),
-                                  truncated.data(),    causes.data(),  finals.data()};
+        const rddl_transition out{.struct_size = sizeof(rddl_transition),
+                                  .observations = observations.data(),
+                                  .rewards = rewards.data(),
+                                  .terminated = terminated.data(),
+                                  .truncated = truncated.data(),
+                                  .causes = causes.data(),
+                                  .final_observations = finals.data(),
+                                  .final_states = nullptr,
+                                  .final_observation_values = nullptr};
         ASSERT_EQ(functions_->step(batch_, actions.data(), &out), RDDL_OK);
     }
     std::vector<StateRecord> states() {

@@ -35,7 +35,8 @@ struct Policy {
 
 inline constexpr rddl::Site sites_with_policy[] = {
     sites[0], sites[1], sites[2], {{"policy.rddl", 8, 20}, "Bernoulli", {}}};
-inline constexpr rddl_policy policy{.name = "in_turn",
+inline constexpr rddl_policy policy{.struct_size = sizeof(rddl_policy),
+                                    .name = "in_turn",
                                     .source = {"policy.rddl", 1, 8},
                                     .memory_size = sizeof(PolicyMemory<Scalar>),
                                     .stochastic = 1};
@@ -48,8 +49,8 @@ inline constexpr rddl_problem unlimited = [] {
 
 inline const rddl_simulator* simulator_with_policy() {
     static const rddl::SimulatorTable table(
-        unlimited, sites_with_policy, rddl::Compiled<Simulator, problem, rddl::Scalar, Policy>(),
-        &policy);
+        rddl::About{unlimited, sites_with_policy, {}, &policy},
+        rddl::Compiled<Simulator, problem, rddl::Scalar, Policy>());
     return table.get();
 }
 

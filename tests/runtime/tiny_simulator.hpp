@@ -240,7 +240,11 @@ inline constexpr rddl::Site sites[] = {{{"tiny.rddl", 20, 20}, "Gamma", over_m},
                                        {{"tiny.rddl", 21, 60}, "Normal", over_m},
                                        {{"tiny.rddl", 22, 24}, "Bernoulli", over_m}};
 
-inline constexpr rddl_problem problem{.domain = "tiny",
+inline constexpr rddl_problem problem{.struct_size = sizeof(rddl_problem),
+                                      .type_size = sizeof(rddl_type),
+                                      .fluent_size = sizeof(rddl_fluent),
+                                      .condition_size = sizeof(rddl_condition),
+                                      .domain = "tiny",
                                       .instance = "tiny_1",
                                       .types = types,
                                       .type_count = 2,
@@ -249,6 +253,7 @@ inline constexpr rddl_problem problem{.domain = "tiny",
                                       .state_size = sizeof(State<Scalar>),
                                       .action_size = sizeof(Action<Scalar>),
                                       .observation_size = sizeof(State<Scalar>),
+                                      .interm_size = 0,
                                       .partially_observed = 0,
                                       .stochastic = 1,
                                       .default_action = &default_action,
@@ -265,7 +270,7 @@ inline constexpr rddl_problem problem{.domain = "tiny",
 inline const rddl_simulator* simulator() {
     static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>,
                                       rddl::Packed<Simulator, problem, 16>>
-        table(problem, sites, {});
+        table({problem, sites, {}}, {});
     return table.get();
 }
 

@@ -36,8 +36,10 @@ std::size_t warning_count(const Diagnostics& diagnostics) {
 // External functions are only checked where somebody defines them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
-    const Compilation compilation = compile_problem(
-        files, has_externs ? Stage::Verify : Stage::Check, extern_files(options.externs).headers);
+    CompileOptions front_end =
+        compile_options(files, has_externs ? Stage::Verify : Stage::Check);
+    front_end.extern_headers = extern_files(options.externs).headers;
+    const Compilation compilation = compile(front_end);
     print_diagnostics(compilation);
     if (compilation.diagnostics.has_errors()) return diagnosed;
     if (has_externs) external_library(*compilation.program, files, options);
@@ -56,7 +58,7 @@ struct Outcome {
 };
 
 Outcome check_quietly(const ProblemFiles& files) {
-    const Compilation compilation = compile_problem(files, Stage::Check);
+    const Compilation compilation = compile(compile_options(files, Stage::Check));
     return {true, compilation.diagnostics.error_count(), warning_count(compilation.diagnostics),
             render(compilation.diagnostics, compilation.sources, {})};
 }

@@ -72,7 +72,7 @@ std::vector<ListedProblem> look_at(const std::vector<RepositoryProblem>& problem
         const RepositoryProblem& problem = listed[i].problem;
         if (problem.instances.empty()) return;
         const Compilation compilation =
-            compile_problem(find_instance(problem, problem.instances.front()), Stage::Check);
+            compile(compile_options(find_instance(problem, problem.instances.front()), Stage::Check));
         if (compilation.model) listed[i].characteristics = characteristics_of(*compilation.model);
     });
     return listed;

@@ -225,7 +225,7 @@ ExitStatus run(const RunOptions& options) {
     if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator);
     const rddl_problem& description = *problem.simulator->problem;
     const std::int64_t horizon =
-        options.rollouts.horizon < 0 ? description.horizon : options.rollouts.horizon;
+        options.rollouts.horizon.value_or(description.horizon);
     require_an_end(description, horizon);
 
     std::optional<LineWriter> trace;

@@ -8,7 +8,7 @@ namespace rddlc::cli {
 
 // Two states, as a step needs them, and what is known about each episode.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator) {
-    constexpr std::int64_t bytes_of_episode = 64;
+    constexpr std::int64_t bytes_of_episode = 80;  // with the stream of its random numbers
     const std::int64_t memory = simulator.policy ? simulator.policy->memory_size : 0;
     const rddl_problem& problem = *simulator.problem;
     return 2 * problem.state_size + 2 * problem.action_size + problem.observation_size +

@@ -18,6 +18,11 @@ inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_opti
     return batch;
 }
 
+// Where users say 0 for no horizon, and problems do.
+inline std::int64_t horizon_option(std::int64_t horizon) {
+    return horizon == 0 ? RDDL_NO_HORIZON : horizon;
+}
+
 // What an environment takes in a batch, with the records that go in and out: at least 1.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator);
 

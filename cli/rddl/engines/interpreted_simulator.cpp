@@ -1,5 +1,7 @@
 #include "engines/interpreted_simulator.hpp"
 
+#include "engines/constant_tables.hpp"
+#include "engines/interpreted_details.hpp"
 #include "ir/analysis.hpp"
 #include "ir/interpreter.hpp"
 #include "ir/layout.hpp"
@@ -49,10 +51,11 @@ rddl_scalar scalar_of(ir::Scalar scalar) {
 // stay where it is.
 class Description {
   public:
-    Description(const ir::Program& program, Sources sources)
-        : program_(program), sources_(std::move(sources)) {
+    Description(const ir::Program& program, Sources sources, const InterpretedDetails* details)
+        : program_(program), sources_(std::move(sources)), details_(details) {
         add_types();
         add_fluents();
+        add_constants();
         add_conditions(program.preconditions, preconditions_);
         add_conditions(program.invariants, invariants_);
         add_conditions(program.terminations, terminations_);
@@ -67,7 +70,11 @@ class Description {
             return static_cast<std::int64_t>(ir::record_layout(program_, storage).size);
         };
         const bool partially_observed = program_.partially_observed();
-        return {.domain = program_.domain_name.c_str(),
+        return {.struct_size = sizeof(rddl_problem),
+                .type_size = sizeof(rddl_type),
+                .fluent_size = sizeof(rddl_fluent),
+                .condition_size = sizeof(rddl_condition),
+                .domain = program_.domain_name.c_str(),
                 .instance = program_.instance_name.c_str(),
                 .types = types_.data(),
                 .type_count = static_cast<std::int32_t>(types_.size()),
@@ -77,6 +84,8 @@ class Description {
                 .action_size = record_size(ir::Storage::Action),
                 .observation_size =
                     record_size(partially_observed ? ir::Storage::Observation : ir::Storage::State),
+                .interm_size =
+                    details_ ? static_cast<std::int64_t>(details_->interm_size()) : 0,
                 .partially_observed = partially_observed,
                 .stochastic = ir::is_stochastic(program_),
                 .default_action = default_action,
@@ -91,8 +100,10 @@ class Description {
                 .termination_count = terminations_.count()};
     }
     std::span<const rddl::Site> sites() const { return sites_of_program_; }
+    std::span<const rddl::Constants> constants() const { return constants_.list(); }
     // Null if there is none.
     const rddl_policy* policy() const { return policy_ ? &*policy_ : nullptr; }
+    std::span<const rddl_type> types() const { return types_; }
 
   private:
     struct Conditions {
@@ -134,9 +145,20 @@ class Description {
                                 .upper = fluent.upper.empty() ? nullptr : fluent.upper.data(),
                                 .source = source_of(fluent.span)});
         }
+        if (details_)
+            for (std::size_t index = 0; index < fluents_.size(); ++index)
+                fluents_[index].offset = details_->offset_of(index);
         add_offsets(ir::Storage::State);
         add_offsets(ir::Storage::Action);
         add_offsets(ir::Storage::Observation);
+    }
+
+    void add_constants() {
+        for (std::size_t index = 0; index < program_.fluents.size(); ++index) {
+            const ir::Fluent& fluent = program_.fluents[index];
+            if (fluent.role == Role::NonFluent)
+                constants_.add(static_cast<std::int32_t>(index), fluent.scalar, fluent.values);
+        }
     }
 
     std::int64_t count_of(const ir::Fluent& fluent) const {
@@ -171,7 +193,8 @@ class Description {
     void add_policy() {
         if (!program_.policy) return;
         const std::size_t memory_size = ir::record_layout(program_, ir::Storage::Memory).size;
-        policy_ = {.name = program_.policy->name.c_str(),
+        policy_ = {.struct_size = sizeof(rddl_policy),
+                   .name = program_.policy->name.c_str(),
                    .source = source_of(program_.policy->span),
                    .memory_size = static_cast<std::int64_t>(memory_size),
                    .stochastic = ir::is_policy_stochastic(program_)};
@@ -179,12 +202,14 @@ class Description {
 
     const ir::Program& program_;
     Sources sources_;
+    const InterpretedDetails* details_;
     std::vector<std::vector<const char*>> object_names_;
     std::vector<std::vector<std::int32_t>> parameter_types_;
     std::vector<std::vector<rddl::SiteVariable>> scopes_;
     std::vector<rddl_type> types_;
     std::vector<rddl_fluent> fluents_;
     std::vector<rddl::Site> sites_of_program_;
+    ConstantTables constants_;
     std::optional<rddl_policy> policy_;
     Conditions preconditions_, invariants_, terminations_;
 };
@@ -192,16 +217,24 @@ class Description {
 // A simulator and all that it refers to. The interpreter's program stays in its place on the heap
 // when the interpreter moves.
 struct Interpreted {
-    Interpreted(ir::Interpreter interpreter, Sources sources, ExternalLibrary the_library)
+    Interpreted(ir::Interpreter interpreter, Sources sources, ExternalLibrary the_library,
+                std::optional<ir::Details> the_details)
         : library(std::move(the_library)),
+          details(the_details ? std::make_unique<InterpretedDetails>(*std::move(the_details),
+                                                                     library.functions)
+                              : nullptr),
           default_action(interpreter.action_size()),
-          description(interpreter.program(), std::move(sources)),
+          description(interpreter.program(), std::move(sources), details.get()),
           problem(description.problem(default_action.data())) {
         interpreter.default_action(default_action.data());
-        table.emplace(problem, description.sites(), std::move(interpreter), description.policy());
+        if (details) details->name_scopes(description.types());
+        const rddl::About about{problem, description.sites(), description.constants(),
+                                description.policy(), details ? details->get() : nullptr};
+        table.emplace(about, std::move(interpreter));
     }
 
     ExternalLibrary library;
+    std::unique_ptr<InterpretedDetails> details;  // null without
     std::vector<std::byte> default_action;
     Description description;
     rddl_problem problem;
@@ -211,10 +244,11 @@ struct Interpreted {
 }  // namespace
 
 std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources,
-                                                            ExternalLibrary library) {
+                                                            ExternalLibrary library,
+                                                            std::optional<ir::Details> details) {
     ir::Interpreter interpreter(std::move(program), library.functions);
     const auto owner = std::make_shared<Interpreted>(std::move(interpreter), std::move(sources),
-                                                     std::move(library));
+                                                     std::move(library), std::move(details));
     return {owner, owner->table->get()};
 }
 

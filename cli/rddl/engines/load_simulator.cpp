@@ -31,6 +31,15 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+CompileOptions front_end_options(const ProblemFiles& files, Stage last,
+                                 const LoadOptions& options) {
+    CompileOptions front_end = compile_options(files, last);
+    front_end.extern_headers = extern_files(options.externs).headers;
+    front_end.passes = options.passes;
+    front_end.details = options.details;
+    return front_end;
+}
+
 LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
     if (options.real != RealType::Double)
         throw Failure("the interpreter computes with doubles",
@@ -38,15 +47,15 @@ LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options)
     const ExternFiles externs = extern_files(options.externs);
     const Stopwatch watch;
     LoadCosts costs;
-    Compilation compilation =
-        compile_or_give_up(files, Stage::Optimise, externs.headers, options.passes);
+    Compilation compilation = compile_or_give_up(front_end_options(files, Stage::Optimise, options));
     costs.compile_seconds = watch.seconds();
     if (options.externs.empty())
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
     give_up_on_errors(compilation);
     ExternalLibrary library = external_library(*compilation.program, files, options);
     Simulator simulator = interpreted_simulator(*std::move(compilation.program),
-                                                std::move(compilation.sources), std::move(library));
+                                                std::move(compilation.sources), std::move(library),
+                                                std::move(compilation.details));
     costs.load_seconds = watch.seconds();
     return {files, std::move(simulator), costs};
 }
@@ -60,8 +69,9 @@ LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
                       "name the header, or use --engine=interpreter", usage_error);
     const Stopwatch watch;
     LoadCosts costs;
-    const Compilation compilation =
-        compile_or_give_up(files, Stage::Emit, externs.headers, options.passes, options.real);
+    CompileOptions emitting = front_end_options(files, Stage::Emit, options);
+    emitting.real = options.real;
+    const Compilation compilation = compile_or_give_up(emitting);
     costs.compile_seconds = watch.seconds();
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');

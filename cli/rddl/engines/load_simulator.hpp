@@ -28,6 +28,7 @@ struct LoadOptions {
     std::vector<std::filesystem::path> externs;
     PassOptions passes;
     RealType real = RealType::Double;  // of the compiled engine
+    bool details = false;              // get_interm, and objects in explain_violation
 };
 
 // Owns all that the simulator refers to: the loaded library, or program and sources.

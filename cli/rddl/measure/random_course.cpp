@@ -22,7 +22,6 @@ rddl_batch_options course_options(std::int64_t environments) {
     options.environment_count = environments;
     options.thread_count = 1;
     options.autoreset = RDDL_AUTORESET_SAME_STEP;
-    options.horizon = -1;
     return options;
 }
 

@@ -10,19 +10,14 @@
 
 namespace rddlc::cli {
 
-Compilation compile_problem(const ProblemFiles& files, Stage last,
-                            const std::vector<std::filesystem::path>& extern_headers,
-                            const PassOptions& passes, RealType real) {
+CompileOptions compile_options(const ProblemFiles& files, Stage last) {
     CompileOptions options;
     options.inputs = files.inputs();
     options.policy = files.policy;
-    options.extern_headers = extern_headers;
     options.stop_after = last;
     options.standard = files.standard;
-    options.passes = passes;
-    options.real = real;
     options.memory_limit = files.memory_limit;
-    return compile(options);
+    return options;
 }
 
 void print_diagnostics(const Compilation& compilation) {
@@ -32,10 +27,8 @@ void print_diagnostics(const Compilation& compilation) {
     if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation.diagnostics));
 }
 
-Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
-                               const std::vector<std::filesystem::path>& extern_headers,
-                               const PassOptions& passes, RealType real) {
-    Compilation compilation = compile_problem(files, last, extern_headers, passes, real);
+Compilation compile_or_give_up(const CompileOptions& options) {
+    Compilation compilation = compile(options);
     give_up_on_errors(compilation);
     return compilation;
 }

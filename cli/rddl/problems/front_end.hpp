@@ -6,19 +6,15 @@
 
 namespace rddlc::cli {
 
-// Compiles up to a stage; prints nothing.
-Compilation compile_problem(const ProblemFiles& files, Stage last,
-                            const std::vector<std::filesystem::path>& extern_headers = {},
-                            const PassOptions& passes = {}, RealType real = RealType::Double);
+// To compile the problem up to a stage.
+CompileOptions compile_options(const ProblemFiles& files, Stage last);
 
 // Prints all diagnostics on stderr.
 void print_diagnostics(const Compilation& compilation);
 
 // If there are errors, prints all diagnostics and throws Diagnosed. Warnings alone are not shown:
 // `rddl check` does that.
-Compilation compile_or_give_up(const ProblemFiles& files, Stage last,
-                               const std::vector<std::filesystem::path>& extern_headers = {},
-                               const PassOptions& passes = {}, RealType real = RealType::Double);
+Compilation compile_or_give_up(const CompileOptions& options);
 // The same of a compilation.
 void give_up_on_errors(const Compilation& compilation);
 

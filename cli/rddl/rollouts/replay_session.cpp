@@ -188,7 +188,13 @@ ReplaySession::Record ReplaySession::read_action(const json& values) const {
 // ------------------------------------------------------------------------------- acting on it
 
 Batch ReplaySession::create(std::int64_t first, std::int64_t count, std::int64_t horizon) const {
-    return create_batch(simulator_, {count, first, seed_, 1, RDDL_AUTORESET_DISABLED, horizon, 0});
+    rddl_batch_options options{};
+    options.environment_count = count;
+    options.first_environment = first;
+    options.seed = seed_;
+    options.thread_count = 1;
+    options.horizon = horizon_option(horizon);
+    return create_batch(simulator_, options);
 }
 
 void ReplaySession::prepare(const Request& request) {
@@ -197,7 +203,7 @@ void ReplaySession::prepare(const Request& request) {
         batch_ = create(environment_, 1, horizon_);
     }
     if (request.reset) simulator_.reset(batch_.get(), nullptr, nullptr);
-    if (request.state && simulator_.set_state(batch_.get(), 0, 1, request.state->data()) != RDDL_OK)
+    if (request.state && simulator_.set_state(batch_.get(), 0, 1, request.state->data(), nullptr) != RDDL_OK)
         throw Refusal{"the simulator refuses the state"};
 }
 
@@ -248,7 +254,9 @@ std::string ReplaySession::describe_start() const {
 std::string ReplaySession::step(const Record& action) {
     double reward = 0;
     std::uint8_t ended_by = RDDL_RUNNING;
-    const rddl_transition out{nullptr, &reward, nullptr, nullptr, &ended_by, nullptr};
+    rddl_transition out{};
+    out.rewards = &reward;
+    out.causes = &ended_by;
     simulator_.step(batch_.get(), action.data(), &out);
     std::string line;
     write_outcome(line, *batch_, 0, reward, ended_by);
@@ -275,12 +283,13 @@ void ReplaySession::add_samples(std::string& out, const Record& action, std::int
     };
     const Batch batch = create(next_sample_, count, 0);
     next_sample_ += count;
-    simulator_.set_state(batch.get(), 0, count, copies_of(state()).data());
+    simulator_.set_state(batch.get(), 0, count, copies_of(state()).data(), nullptr);
 
     std::vector<double> rewards(size);
     std::vector<std::uint8_t> ended_by(size);
-    const rddl_transition transition{nullptr, rewards.data(),  nullptr,
-                                     nullptr, ended_by.data(), nullptr};
+    rddl_transition transition{};
+    transition.rewards = rewards.data();
+    transition.causes = ended_by.data();
     simulator_.step(batch.get(), copies_of(action).data(), &transition);
 
     // These environments are at their first step; the horizon counts those of the main one.

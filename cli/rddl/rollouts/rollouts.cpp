@@ -53,6 +53,17 @@ class Turns {
     bool abandoned_ = false;
 };
 
+rddl_batch_options batch_options(const RolloutOptions& options, std::int64_t first,
+                                 std::int64_t count) {
+    rddl_batch_options batch{};
+    batch.environment_count = count;
+    batch.first_environment = first;
+    batch.seed = options.seed;
+    batch.thread_count = 1;
+    if (options.horizon) batch.horizon = horizon_option(*options.horizon);
+    return batch;
+}
+
 // Consecutive episodes stepped together by one thread.
 class EpisodeBatch {
   public:
@@ -62,8 +73,7 @@ class EpisodeBatch {
           problem_(*simulator.problem),
           options_(options),
           first_(first),
-          batch_(create_batch(simulator, {count, first, options.seed, 1, RDDL_AUTORESET_DISABLED,
-                                          options.horizon, 0})),
+          batch_(create_batch(simulator, batch_options(options, first, count))),
           episodes_(static_cast<std::size_t>(count)),
           discounts_(episodes_.size(), 1.0),
           rewards_(episodes_.size()),
@@ -95,8 +105,9 @@ class EpisodeBatch {
     }
 
     void step() {
-        const rddl_transition out{nullptr, rewards_.data(), nullptr,
-                                  nullptr, causes_.data(),  nullptr};
+        rddl_transition out{};
+        out.rewards = rewards_.data();
+        out.causes = causes_.data();
         simulator_.step(batch_.get(), actions_.data(), &out);
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (!episodes_[i].finished) record(i);
@@ -225,7 +236,7 @@ class EpisodeBatch {
 
 // For the progress bar: how many steps an episode has at most; 0: nobody knows, or too many.
 std::int64_t steps_per_episode(const rddl_simulator& simulator, const RolloutOptions& options) {
-    const std::int64_t horizon = options.horizon < 0 ? simulator.problem->horizon : options.horizon;
+    const std::int64_t horizon = options.horizon.value_or(simulator.problem->horizon);
     return horizon <= 1'000'000'000 ? horizon : 0;
 }
 

@@ -98,8 +98,8 @@ ViolationExplainer::~ViolationExplainer() = default;
 
 const ViolationExplainer::Problem& ViolationExplainer::problem() {
     if (!problem_)
-        problem_ = std::make_unique<const Problem>(compile_or_give_up(files_, Stage::Verify),
-                                                   files_, options_);
+        problem_ = std::make_unique<const Problem>(
+            compile_or_give_up(compile_options(files_, Stage::Verify)), files_, options_);
     return *problem_;
 }
 

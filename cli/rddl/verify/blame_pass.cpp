@@ -142,7 +142,7 @@ StepOutcome interpret_step(const ir::Program& program, const ir::ExternalFunctio
 
 std::optional<StepOutcome> repeat_step(const VerifiedEngine& engine, std::int64_t count,
                                        const StepStart& start, std::uint64_t seed) {
-    VerifiedEnvironments environments(engine, count, seed, 0);
+    VerifiedEnvironments environments(engine, count, seed, RDDL_NO_HORIZON);
     const std::vector<std::uint8_t> all(static_cast<std::size_t>(count), 1);
     for (std::int64_t i = 0; i < start.episode; ++i) environments.restart(all);
     const auto outcome = [&](const std::vector<StepOutcome>& outcomes) {

@@ -51,7 +51,7 @@ void VerifiedEnvironments::restart(const std::vector<std::uint8_t>& mask) {
 void VerifiedEnvironments::set_state(std::int64_t environment, const Record& state) {
     if (state.empty()) return;
     const auto [batch, place] = seat(environment);
-    expect_ok(simulator_->set_state(batch, place, 1, state.data()), "a state");
+    expect_ok(simulator_->set_state(batch, place, 1, state.data(), nullptr), "a state");
 }
 
 const std::vector<std::byte>& VerifiedEnvironments::act() {
@@ -75,8 +75,9 @@ std::vector<StepOutcome> VerifiedEnvironments::step(const std::vector<std::byte>
         const std::byte* const own = actions.data() + record(first, problem.action_size);
         expect_ok(simulator_->violated_preconditions(batch, own, violated.data() + first),
                   "an action");
-        const rddl_transition out{nullptr, rewards.data() + first, nullptr,
-                                  nullptr, causes.data() + first,  nullptr};
+        rddl_transition out{};
+        out.rewards = rewards.data() + first;
+        out.causes = causes.data() + first;
         expect_ok(simulator_->step(batch, own, &out), "an action");
     });
     for (std::size_t i = 0; i < count; ++i) {

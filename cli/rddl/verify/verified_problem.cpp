@@ -61,16 +61,11 @@ void add_interpreters(VerifiedProblem& problem) {
 
 Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int lanes) {
     const ExternFiles externs = extern_files(load.externs);
-    CompileOptions options;
-    options.inputs = files.inputs();
-    options.policy = files.policy;
+    CompileOptions options = compile_options(files, Stage::Emit);
     options.extern_headers = externs.headers;
-    options.stop_after = Stage::Emit;
-    options.standard = files.standard;
     options.passes = load.passes;
     options.lane_count = lanes;
-    const Compilation compilation = compile(options);
-    give_up_on_errors(compilation);
+    const Compilation compilation = compile_or_give_up(options);
     // What is compiled once for all simulators has batches of the usual packs.
     const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
     return compiled_simulator(compilation.text,
@@ -111,7 +106,9 @@ VerifiedProblem load_for_verification(const ProblemFiles& files, const LoadOptio
             "the compiled engine takes external functions from a C++ header, not from a "
             "shared object",
             "name the header, or use --engine=interpreter", usage_error);
-    Compilation compilation = compile_or_give_up(files, Stage::Verify, externs.headers);
+    CompileOptions options = compile_options(files, Stage::Verify);
+    options.extern_headers = externs.headers;
+    Compilation compilation = compile_or_give_up(options);
     if (load.externs.empty())
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
     give_up_on_errors(compilation);

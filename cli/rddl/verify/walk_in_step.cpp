@@ -31,7 +31,7 @@ class Walker {
           sample_choice_(options.seed),
           progress_("comparing", goal(), options.progress) {
         for (const VerifiedEngine& engine : engines)
-            environments_.emplace_back(engine, options.environments, options.seed, -1);
+            environments_.emplace_back(engine, options.environments, options.seed, 0);
         const std::int64_t bytes = 2 * problem_.state_size + problem_.action_size + 1;
         most_samples_ = std::min<std::size_t>(
             options.most_samples, static_cast<std::size_t>(most_sample_bytes / bytes) + 1);

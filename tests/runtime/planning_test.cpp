@@ -1,0 +1,245 @@
+// Planning from a state: step counters, copies of environments, new random numbers, ends of episodes
+// that are reset at once, and masks for several changes.
+#include "tiny_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tiny {
+namespace {
+
+const rddl_simulator& functions = *simulator();
+
+// Single environments, and packs with lanes to spare.
+constexpr std::array<std::int64_t, 2> sizes = {1, 21};
+
+std::int64_t steps_of(TinyBatch& batch, std::int64_t environment) {
+    std::int64_t steps = -1;
+    EXPECT_EQ(functions.get_progress(batch.get(), environment, 1, &steps, nullptr), RDDL_OK);
+    return steps;
+}
+
+StateRecord good_state() {
+    StateRecord state{};
+    state.running = {true, true, true};
+    return state;
+}
+
+TEST(SetState, SetsTheStepCounter) {
+    for (const std::int64_t size : sizes) {
+        TinyBatch batch(batch_options(size));
+        const std::int64_t last = size - 1, late = problem.horizon - 1, over = problem.horizon;
+        const StateRecord state = good_state();
+        ASSERT_EQ(functions.set_state(batch.get(), last, 1, &state, &late), RDDL_OK);
+        EXPECT_EQ(steps_of(batch, last), late);
+        batch.step();
+        EXPECT_TRUE(batch.causes[static_cast<std::size_t>(last)] & RDDL_TRUNCATED_HORIZON);
+        std::uint8_t causes = 9;
+        ASSERT_EQ(functions.set_state(batch.get(), last, 1, &state, &over), RDDL_OK);
+        EXPECT_EQ(functions.get_causes(batch.get(), last, 1, &causes), RDDL_OK);
+        EXPECT_EQ(causes, RDDL_TRUNCATED_HORIZON);
+        const std::int64_t negative = -1;
+        EXPECT_EQ(functions.set_state(batch.get(), last, 1, &state, &negative), RDDL_BAD_ARGUMENT);
+        EXPECT_STREQ(functions.last_error(&functions), "a count of steps is negative: -1");
+    }
+}
+
+TEST(CopyEnvironments, GoOnLikeTheirSources) {
+    for (const std::int64_t size : sizes)
+        for (const std::int64_t target_size : sizes) {
+            TinyBatch source(batch_options(size, 5));
+            for (int time = 0; time < 7; ++time) source.step();
+            TinyBatch target(batch_options(target_size, 100, 9));
+            target.step();
+            const std::int64_t from = size - 1, to = target_size - 1;
+            ASSERT_EQ(functions.copy_environments(target.get(), to, 1, source.get(), &from),
+                      RDDL_OK);
+            EXPECT_EQ(steps_of(target, to), 7);
+            for (int time = 0; time < 60; ++time) {  // into the next episodes
+                source.step();
+                target.step();
+                const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+                ASSERT_EQ(target.rewards[b], source.rewards[a]) << time;
+                ASSERT_EQ(target.causes[b], source.causes[a]);
+                ASSERT_EQ(target.observations[b].wear, source.observations[a].wear);
+                if (source.causes[a] == RDDL_RUNNING) continue;
+                functions.reset(source.get(), nullptr, nullptr);
+                functions.reset(target.get(), nullptr, nullptr);
+            }
+        }
+}
+
+TEST(CopyEnvironments, WithinABatchLeavesTheOthersAlone) {
+    TinyBatch batch(batch_options(20)), untouched(batch_options(20));
+    batch.step();
+    untouched.step();
+    const std::array<std::int64_t, 3> sources = {0, 0, 19};
+    ASSERT_EQ(functions.copy_environments(batch.get(), 15, 3, batch.get(), sources.data()),
+              RDDL_OK);
+    batch.step();
+    untouched.step();
+    for (std::size_t i = 0; i < 20; ++i) {
+        const std::size_t like = i == 15 || i == 16 ? 0 : i == 17 ? 19 : i;
+        EXPECT_EQ(batch.observations[i].wear, untouched.observations[like].wear) << i;
+    }
+}
+
+TEST(CopyEnvironments, RefusesOtherSimulatorsAndPlaces) {
+    TinyBatch batch(batch_options(4));
+    const std::int64_t beyond = 4;
+    EXPECT_EQ(functions.copy_environments(batch.get(), 0, 1, batch.get(), &beyond),
+              RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.copy_environments(batch.get(), 3, 2, batch.get(), nullptr),
+              RDDL_BAD_ARGUMENT);
+    static const rddl::SimulatorTable other(rddl::About{problem, sites, {}},
+                                            rddl::Compiled<Simulator, problem>());
+    TinyBatch stranger(batch_options(1), other.get());
+    EXPECT_EQ(functions.copy_environments(batch.get(), 0, 1, stranger.get(), nullptr),
+              RDDL_BAD_ARGUMENT);
+    EXPECT_STREQ(functions.last_error(&functions), "the batches are of different simulators");
+}
+
+TEST(Seeds, OfEachEnvironmentAreThoseOfABatchOfOne) {
+    for (const std::int64_t size : sizes) {
+        TinyBatch batch(batch_options(size, 3)), one(batch_options(1, 0, 1234));
+        batch.step();
+        const auto last = static_cast<std::size_t>(size - 1);
+        const std::uint64_t seed = 1234;
+        ASSERT_EQ(functions.set_seeds(batch.get(), size - 1, 1, &seed), RDDL_OK);
+        functions.reset(batch.get(), nullptr, nullptr);
+        std::int64_t episodes = -1;
+        EXPECT_EQ(functions.get_progress(batch.get(), size - 1, 1, nullptr, &episodes), RDDL_OK);
+        EXPECT_EQ(episodes, 0);
+        for (int episode = 0; episode < 2; ++episode) {
+            for (int time = 0; time < 10; ++time) {
+                batch.step();
+                one.step();
+                ASSERT_EQ(batch.observations[last].wear, one.observations[0].wear) << time;
+            }
+            functions.reset(batch.get(), nullptr, nullptr);
+            functions.reset(one.get(), nullptr, nullptr);
+        }
+    }
+}
+
+TEST(Seeds, OfAllAreThoseOfANewBatch) {
+    TinyBatch batch(batch_options(21, 3)), fresh(batch_options(21, 3, 77));
+    for (int time = 0; time < 5; ++time) batch.step();
+    ASSERT_EQ(functions.set_seed(batch.get(), 77), RDDL_OK);
+    functions.reset(batch.get(), nullptr, nullptr);
+    for (int time = 0; time < 10; ++time) {
+        batch.step();
+        fresh.step();
+    }
+    for (std::size_t i = 0; i < 21; ++i)
+        EXPECT_EQ(batch.observations[i].wear, fresh.observations[i].wear);
+}
+
+TEST(Seeds, GiveACopyAFutureOfItsOwn) {
+    for (const std::int64_t size : sizes) {
+        TinyBatch batch(batch_options(size));
+        batch.step();
+        const auto count = static_cast<std::size_t>(size);
+        TinyBatch copy(functions.copy(batch.get()), count), other(functions.copy(batch.get()), count);
+        const std::vector<std::uint64_t> seeds(count, 5), others(count, 6);
+        functions.set_seeds(copy.get(), 0, size, seeds.data());
+        functions.set_seeds(other.get(), 0, size, others.data());
+        EXPECT_EQ(copy.states()[0].wear, batch.states()[0].wear) << "the present stays";
+        EXPECT_EQ(steps_of(copy, 0), 1);
+        batch.step();
+        copy.step();
+        other.step();
+        EXPECT_NE(copy.observations[0].wear, batch.observations[0].wear);
+        EXPECT_NE(copy.observations[0].wear, other.observations[0].wear);
+    }
+}
+
+TEST(FinalStates, AreToldWhereAStepResets) {
+    for (const std::int64_t size : sizes) {
+        const auto count = static_cast<std::size_t>(size);
+        TinyBatch resetting(batch_options(size, 0, 42, 1, RDDL_AUTORESET_SAME_STEP));
+        TinyBatch staying(batch_options(size));
+        const std::size_t width = 2 * machines + 2;
+        std::vector<StateRecord> finals = blank_states(count);
+        std::vector<float> observations(count * width, -7), values(count * width, -7);
+        const std::vector<float> actions(count * (machines + 2));
+        rddl_transition out{};
+        out.terminated = resetting.terminated.data();
+        out.truncated = resetting.truncated.data();
+        out.final_states = finals.data();
+        out.final_observation_values = values.data();
+        int ended = 0;
+        for (int time = 0; time < 50; ++time) {
+            ASSERT_EQ(functions.step_values(resetting.get(), RDDL_FLOAT, actions.data(),
+                                            observations.data(), &out),
+                      RDDL_OK);
+            staying.step();
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool over = resetting.terminated[i] || resetting.truncated[i];
+                if (!over || staying.finals[i].repairs == 1) continue;
+                staying.finals[i].repairs = 1;  // seen
+                ++ended;
+                EXPECT_EQ(finals[i].wear, staying.observations[i].wear);
+                EXPECT_EQ(values[i * width],
+                          static_cast<float>(staying.observations[i].wear[0]));
+                EXPECT_EQ(observations[i * width], 0.0F);
+            }
+        }
+        EXPECT_EQ(ended, size);
+    }
+}
+
+// The mask of one environment beside a given action.
+std::vector<std::uint8_t> mask_of(const rddl_simulator& simulator, const ActionRecord& action) {
+    rddl_batch* const batch = simulator.create(&simulator, nullptr);
+    std::vector<std::uint8_t> mask(5, 9);
+    EXPECT_EQ(simulator.action_mask(batch, &action, mask.data()), RDDL_OK);
+    simulator.destroy(batch);
+    return mask;
+}
+
+TEST(Masks, TellWhichChangesAnActionStillTakes) {
+    rddl_problem pair = problem;
+    pair.max_nondef_actions = 2;
+    const rddl::SimulatorTable table(rddl::About{pair, sites, {}},
+                                     rddl::Compiled<Simulator, problem>());
+    using Mask = std::vector<std::uint8_t>;
+    ActionRecord action{};
+    EXPECT_EQ(mask_of(*table.get(), action), (Mask{1, 1, 1, 1, 1}));
+    action.repair[1] = true;
+    EXPECT_EQ(mask_of(*table.get(), action), (Mask{1, 0, 0, 0, 1})) << "one repair at a time";
+    action.set_mode = 1;
+    EXPECT_EQ(mask_of(*table.get(), action), (Mask{1, 0, 0, 0, 0})) << "two changes are made";
+    action.repair[2] = true;
+    EXPECT_EQ(mask_of(*table.get(), action)[0], 0) << "it breaks both";
+}
+
+TEST(Masks, OfPacksAreThoseOfEachAction) {
+    TinyBatch batch(batch_options(21));
+    batch.actions[20].repair[0] = true;
+    std::vector<std::uint8_t> masks(21 * 5, 9);
+    ASSERT_EQ(functions.action_mask(batch.get(), batch.actions.data(), masks.data()), RDDL_OK);
+    const std::vector<std::uint8_t> last(masks.end() - 5, masks.end()),
+        first(masks.begin(), masks.begin() + 5);
+    EXPECT_EQ(first, (std::vector<std::uint8_t>{1, 1, 1, 1, 1}));
+    EXPECT_EQ(last, (std::vector<std::uint8_t>{1, 0, 0, 0, 0})) << "max-nondef-actions is 1";
+}
+
+TEST(Choices, AreDescribed) {
+    rddl_choice choice{};
+    ASSERT_EQ(functions.action_choice(&functions, 0, nullptr, &choice), RDDL_OK);
+    EXPECT_EQ(choice.fluent, -1);
+    ASSERT_EQ(functions.action_choice(&functions, 3, nullptr, &choice), RDDL_OK);
+    EXPECT_EQ(choice.fluent, 5);
+    EXPECT_EQ(choice.grounding, 2);
+    EXPECT_EQ(choice.value, 1);
+    ASSERT_EQ(functions.action_choice(&functions, 4, nullptr, &choice), RDDL_OK);
+    EXPECT_EQ(choice.fluent, 6);
+    EXPECT_EQ(choice.value, 1);
+}
+
+}  // namespace
+}  // namespace tiny
