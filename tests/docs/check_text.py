@@ -17,7 +17,7 @@ from pathlib import Path
 from pages import PRINTED, ROOT, RUN, blocks, pages
 
 COMMANDS = "sh"
-LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf"}
+LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json"}
 
 CODE = re.compile(r"`([^`\n]+)`")
 LINK = re.compile(r"\]\(([^)\s]+)\)")

@@ -49,7 +49,8 @@ class Exchange:
 
 def pages() -> list[Path]:
     """The pages of docs/diagnostics are printed by --explain as they stand, and have tests of their own."""
-    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples/README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    others = ["README.md", "CONTRIBUTING.md", "examples/README.md", "editors/README.md"]
+    return [*(ROOT / name for name in others), *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def blocks(page: Path) -> list[Block]:
