@@ -31,7 +31,7 @@ struct Option {
     std::string explanation;
     // Is called with each value, in the order of the options; may throw a UsageError.
     std::function<void(const std::string& value)> take;
-    std::vector<std::string> choices;  // the only values; empty: any
+    std::vector<std::string> choices;      // the only values; empty: any
     std::vector<std::string> suggestions;  // some of any, which shells offer
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left

@@ -67,8 +67,8 @@ std::vector<std::string> command_names(const Command& program) {
 
 // ---------------------------------------------------------------------------------------- bash
 
-// `case` over the word before: what an option takes, else the options. Where nothing is offered,
-// bash completes names of files.
+// `case` over the word before: what an option takes, else the options. Where nothing that is
+// offered fits, bash completes names of files; so do the others, but for options that have choices.
 std::string bash_case(const Command& command, bool is_program, const std::string& margin) {
     const std::vector<Option> options = options_of(command, is_program);
     std::string text = margin + "case $previous in\n";
@@ -130,8 +130,9 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_values(const Option& option) {
-    const std::vector<std::string>& values = offered_values(option);
-    return values.empty() ? "_files" : fmt::format("({})", fmt::join(values, " "));
+    if (!option.choices.empty()) return fmt::format("({})", fmt::join(option.choices, " "));
+    if (option.suggestions.empty()) return "_files";
+    return fmt::format("{{compadd {}; _files}}", fmt::join(option.suggestions, " "));
 }
 
 std::string zsh_option(const Option& option, const std::string& name) {
@@ -178,9 +179,8 @@ std::string zsh_body(const Command& program) {
 std::string zsh(const Command& program) {
     return fmt::format(
         "#compdef {0}\n"
-        "# Completions of {0} for zsh: in a folder of $fpath as _{0}, or source <({0} "
-        "--completions "
-        "zsh)\n"
+        "# Completions of {0} for zsh: a file _{0} in a folder of $fpath, or\n"
+        "# source <({0} --completions zsh)\n"
         "_{0}() {{\n"
         "{1}"
         "}}\n"
@@ -203,10 +203,9 @@ std::string fish_name(const std::string& name) {
 std::string fish_option(const std::string& start, const Option& option) {
     std::string line = start;
     for (const std::string& name : names_of(option)) line += " " + fish_name(name);
-    if (takes_a_value(option)) {
-        const std::vector<std::string>& values = offered_values(option);
-        line += values.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(values, " "));
-    }
+    if (takes_a_value(option)) line += option.choices.empty() ? " -r" : " -x";
+    if (const std::vector<std::string>& values = offered_values(option); !values.empty())
+        line += fmt::format(" -a '{}'", fmt::join(values, " "));
     return line + fmt::format(" -d {}\n", fish_text(option.explanation));
 }
 

@@ -110,12 +110,16 @@ class Shell(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("fish"), "there is no fish")
     def test_fish_completes(self):
-        def complete(line: str) -> str:
-            script = self.completions(line.split()[0], "fish")
-            return output("fish", "--no-config", "-c", f"source {script}; complete -C '{line}'")
-        self.assertRegex(complete("rddl ru"), r"^run\tRun whole episodes")
-        self.assertRegex(complete("rddl run --ep"), r"^--episodes\t")
-        self.assertRegex(complete("rddl run --std py"), r"^pyrddlgym")
+        def complete(line: str) -> list[str]:
+            script = self.completions("rddl", "fish")
+            offered = output("fish", "--no-config", "-c", f"source {script}; complete -C '{line}'", cwd=self.folder)
+            return [line.split("\t")[0] for line in offered.splitlines()]
+        self.assertEqual(complete("rddl ru")[0], "run")
+        self.assertEqual(complete("rddl run --ep"), ["--episodes"])
+        self.assertEqual(complete("rddl run --std py"), ["pyrddlgym"])
+        self.write("policy.rddl", "")
+        self.assertEqual(complete("rddl run --policy no"), ["noop"])
+        self.assertEqual(complete("rddl run --policy po"), ["policy.rddl"])
 
     def test_other_shells_are_refused(self):
         for words in (["--completions"], ["--completions", "tcsh"], ["--completions=tcsh"]):
