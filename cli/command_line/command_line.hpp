@@ -31,7 +31,8 @@ struct Option {
     std::string explanation;
     // Is called with each value, in the order of the options; may throw a UsageError.
     std::function<void(const std::string& value)> take;
-    std::vector<std::string> choices;  // the only values; empty: any
+    std::vector<std::string> choices;      // the only values; empty: any
+    std::vector<std::string> suggestions;  // some of any, which shells offer
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left
     bool has_commas = false;  // between values of a list
@@ -48,12 +49,22 @@ struct Command {
 };
 
 // Parses the words and runs the command that they name. Mistakes are told on standard error, with
-// what may have been meant; --help, --version and `help COMMAND` are known everywhere.
+// what may have been meant; --help, --version and `help COMMAND` are known everywhere, and so are
+// --completions SHELL and --man-page, which print what is below.
 ExitStatus run_command_line(const Command& program, const std::string& version, int argc,
                             char** argv);
 
 // "rddl run" tells where `command` stands in the program.
 std::string help_text(const Command& command, const std::string& full_name);
+
+// What bash, zsh or fish completes; another shell is a UsageError.
+std::string completions(const Command& program, const std::string& shell);
+
+// The manual page in roff.
+std::string man_page(const Command& program, const std::string& version);
+
+// "-o" and "--output" of "-o,--output".
+std::vector<std::string> names_of(const Option& option);
 
 // Adders of the usual kinds. What they return may be adjusted until the next one is added.
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,

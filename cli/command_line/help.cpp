@@ -71,7 +71,10 @@ std::string options_text(const Command& command, bool is_program) {
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument) text += entry(name_of(option), option.explanation);
     text += entry("-h, --help", "Show this page");
-    return is_program ? text + entry("--version", "Show the version") : text;
+    if (!is_program) return text;
+    return text + entry("--version", "Show the version") +
+           entry("--completions SHELL", "Print what bash, zsh or fish completes") +
+           entry("--man-page", "Print the manual page");
 }
 
 std::string commands_text(const Command& command) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <sstream>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -47,6 +48,13 @@ bool reads_as_number(std::string_view word, Number& value) {
 }
 
 }  // namespace
+
+std::vector<std::string> names_of(const Option& option) {
+    std::vector<std::string> names;
+    std::istringstream stream(option.names);
+    for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+    return names;
+}
 
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
                      std::function<void(const std::string&)> take) {

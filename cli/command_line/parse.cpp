@@ -7,18 +7,11 @@
 
 #include <algorithm>
 #include <deque>
-#include <sstream>
+#include <optional>
 
 namespace rddlc::cli {
 
 namespace {
-
-std::vector<std::string> split(const std::string& names) {
-    std::vector<std::string> parts;
-    std::istringstream stream(names);
-    for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-    return parts;
-}
 
 // Compilers write long options with one dash, such as -MD; CLI11 wants two.
 bool has_one_dash(const std::string& name) {
@@ -27,7 +20,7 @@ bool has_one_dash(const std::string& name) {
 
 std::string respelled_names(const Option& option) {
     std::string all;
-    for (const std::string& name : split(option.names))
+    for (const std::string& name : names_of(option))
         all += fmt::format("{}{}{}", all.empty() ? "" : ",", has_one_dash(name) ? "-" : "", name);
     return all;
 }
@@ -35,7 +28,7 @@ std::string respelled_names(const Option& option) {
 // -MD, and -MFfile as much as -MF file.
 std::string respelled_word(const Command& command, const std::string& word) {
     for (const Option& option : command.options)
-        for (const std::string& name : split(option.names)) {
+        for (const std::string& name : names_of(option)) {
             if (!has_one_dash(name) || !word.starts_with(name)) continue;
             if (word.size() == name.size()) return "-" + word;
             if (option.kind != OptionKind::Flag) return "-" + name + "=" + word.substr(name.size());
@@ -95,7 +88,7 @@ std::vector<std::string> option_names(const Command& command) {
     std::vector<std::string> names = {"--help"};
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument)
-            for (const std::string& name : split(option.names)) names.push_back(name);
+            for (const std::string& name : names_of(option)) names.push_back(name);
     return names;
 }
 
@@ -166,6 +159,16 @@ std::vector<std::string> words_of(const Command& program, int argc, char** argv)
     return words;
 }
 
+// What --completions and --man-page ask for.
+std::optional<std::string> page_asked_for(const Command& program, const std::string& version,
+                                          int argc, char** argv) {
+    const std::string word = argc > 1 ? argv[1] : "";
+    if (word == "--man-page") return man_page(program, version);
+    if (word == "--completions") return completions(program, argc > 2 ? argv[2] : "");
+    if (word.starts_with("--completions=")) return completions(program, word.substr(14));
+    return std::nullopt;
+}
+
 ExitStatus run_declared(const Declared& declared) {
     require_arguments(declared);
     for (const Answer& answer : declared.answers) answer.pass_on();
@@ -200,6 +203,10 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
         return usage_error;
     };
     try {
+        if (const auto page = page_asked_for(program, version, argc, argv)) {
+            fmt::print("{}", *page);
+            return success;
+        }
         app.parse(words_of(program, argc, argv));
         return run_declared(*chosen());
     } catch (const CLI::CallForHelp&) {

@@ -100,10 +100,12 @@ void add_file_options(Command& command, Arguments& arguments) {
 void add_stage_options(Command& command, Arguments& arguments) {
     add_list_option(command, "--print", "FORM,...",
                     "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp",
-                    [&arguments](const std::string& form) { arguments.print.push_back(form); });
+                    [&arguments](const std::string& form) { arguments.print.push_back(form); })
+        .suggestions = {"ast", "model", "ir", "ir-opt", "cpp"};
     add_text_option(command, "--stop-after", "STAGE",
                     "stop after a stage: read, parse, check, ground, verify, optimise, emit",
-                    arguments.stop_after);
+                    arguments.stop_after)
+        .suggestions = {"read", "parse", "check", "ground", "verify", "optimise", "emit"};
     add_flag(command, "--check", "only check: the same as --stop-after=check",
              arguments.check_only);
     add_text_option(command, "--std", "STANDARD",
@@ -153,7 +155,8 @@ void add_code_options(Command& command, Arguments& arguments) {
         .kind = OptionKind::Bytes;
     add_list_option(command, "--without", "PASS,...",
                     "leave out optimisations, which are listed below; may be repeated",
-                    [&arguments](const std::string& pass) { arguments.without.push_back(pass); });
+                    [&arguments](const std::string& pass) { arguments.without.push_back(pass); })
+        .suggestions = pass_names();
     add_flag(command, "--fast-math",
              "compute with reals as if they were not rounded, and never inf or nan",
              arguments.fast_math);

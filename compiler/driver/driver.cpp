@@ -240,9 +240,14 @@ Compilation compile(const CompileOptions& options) {
     return std::move(run.result);
 }
 
+std::vector<std::string> pass_names() {
+    std::vector<std::string> names;
+    for (const PassDescription& pass : all_passes()) names.emplace_back(pass.name);
+    return names;
+}
+
 std::optional<std::string> complaint_about_pass(std::string_view name) {
-    std::vector<std::string> known;
-    for (const PassDescription& pass : all_passes()) known.emplace_back(pass.name);
+    const std::vector<std::string> known = pass_names();
     if (std::ranges::find(known, name) != known.end()) return std::nullopt;
     std::string complaint = "there is no pass '" + std::string(name) + "'";
     if (const auto near = did_you_mean(name, known)) complaint += "; did you mean '" + *near + "'?";

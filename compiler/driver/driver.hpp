@@ -81,6 +81,9 @@ struct Compilation {
 // Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
 Compilation compile(const CompileOptions& options);
 
+// Of all optimisations, in their order.
+std::vector<std::string> pass_names();
+
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 

@@ -44,7 +44,8 @@ void add_pass_options(Command& command, LoadOptions& options) {
                         if (const auto complaint = complaint_about_pass(name))
                             throw UsageError(*complaint);
                         options.passes.without.insert(name);
-                    });
+                    })
+        .suggestions = pass_names();
     add_flag(command, "--fast-math",
              "Compute with reals as if they were not rounded, and never inf or nan",
              options.passes.fast_math);

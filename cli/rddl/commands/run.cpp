@@ -284,7 +284,8 @@ Command run_command() {
     add_option(command, "--policy", "POLICY",
                "random (default): legal random actions; noop: default actions; rddl: the policy "
                "block of the problem; FILE: the policy block in it",
-               [options](const std::string& name) { choose_policy(*options, name); });
+               [options](const std::string& name) { choose_policy(*options, name); })
+        .suggestions = {"random", "noop", "rddl"};
     RolloutOptions& rollouts = options->rollouts;
     add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
                                     1, 100'000'000);

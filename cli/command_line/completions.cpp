@@ -1,0 +1,239 @@
+// What shells complete, made from the options of a program, so that it cannot differ from --help.
+#include "command_line/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace rddlc::cli {
+
+namespace {
+
+// With a backslash before each of the characters that a shell would take for its own.
+std::string with_escapes(const std::string& text, std::string_view escaped) {
+    std::string out;
+    for (const char c : text) {
+        if (escaped.find(c) != std::string_view::npos) out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+bool takes_a_value(const Option& option) {
+    return option.kind == OptionKind::Value || option.kind == OptionKind::Bytes;
+}
+
+const std::vector<std::string>& offered_values(const Option& option) {
+    return option.choices.empty() ? option.suggestions : option.choices;
+}
+
+Option flag(const std::string& names, const std::string& explanation) {
+    Option option;
+    option.kind = OptionKind::Flag;
+    option.names = names;
+    option.explanation = explanation;
+    return option;
+}
+
+// Those that are known for every command, too.
+std::vector<Option> options_of(const Command& command, bool is_program) {
+    std::vector<Option> options;
+    for (const Option& option : command.options)
+        if (option.kind != OptionKind::Argument) options.push_back(option);
+    options.push_back(flag("-h,--help", "Show the help"));
+    if (is_program) options.push_back(flag("--version", "Show the version"));
+    return options;
+}
+
+std::vector<std::string> names_of(const std::vector<Option>& options) {
+    std::vector<std::string> names;
+    for (const Option& option : options)
+        for (const std::string& name : names_of(option)) names.push_back(name);
+    return names;
+}
+
+std::vector<std::string> command_names(const Command& program) {
+    std::vector<std::string> names;
+    for (const Command& command : program.commands) names.push_back(command.name);
+    names.emplace_back("help");
+    return names;
+}
+
+// ---------------------------------------------------------------------------------------- bash
+
+// `case` over the word before: what an option takes, else the options. Where nothing that is
+// offered fits, bash completes names of files; so do the others, but for options that have choices.
+std::string bash_case(const Command& command, bool is_program, const std::string& margin) {
+    const std::vector<Option> options = options_of(command, is_program);
+    std::string text = margin + "case $previous in\n";
+    std::vector<std::string> others;
+    for (const Option& option : options) {
+        if (!takes_a_value(option)) continue;
+        const std::vector<std::string> names = names_of(option);
+        if (offered_values(option).empty())
+            others.insert(others.end(), names.begin(), names.end());
+        else
+            text += fmt::format("{}{}) offered='{}' ;;\n", margin, fmt::join(names, " | "),
+                                fmt::join(offered_values(option), " "));
+    }
+    if (!others.empty()) text += fmt::format("{}{}) ;;\n", margin, fmt::join(others, " | "));
+    return text + fmt::format("{0}*) [[ $word == -* ]] && offered='{1}' ;;\n{0}esac\n", margin,
+                              fmt::join(names_of(options), " "));
+}
+
+std::string bash_body(const Command& program) {
+    if (program.commands.empty()) return bash_case(program, true, "    ");
+    std::string text = fmt::format(
+        "    if ((COMP_CWORD == 1)); then\n"
+        "        offered='{} {}'\n"
+        "    else\n"
+        "        case ${{COMP_WORDS[1]}} in\n"
+        "        help) offered='{}' ;;\n",
+        fmt::join(command_names(program), " "), fmt::join(names_of(options_of(program, true)), " "),
+        fmt::join(command_names(program), " "));
+    for (const Command& command : program.commands)
+        text += fmt::format("        {})\n{}            ;;\n", command.name,
+                            bash_case(command, false, "            "));
+    return text + "        esac\n    fi\n";
+}
+
+std::string bash(const Command& program) {
+    return fmt::format(
+        "# Completions of {0} for bash: source <({0} --completions bash)\n"
+        "_{0}() {{\n"
+        "    local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}} "
+        "offered=''\n"
+        "    # --option=value is three words here.\n"
+        "    if [[ $word == = ]]; then\n"
+        "        word=''\n"
+        "    elif [[ $previous == = ]]; then\n"
+        "        previous=${{COMP_WORDS[COMP_CWORD - 2]}}\n"
+        "    fi\n"
+        "{1}"
+        "    COMPREPLY=($(compgen -W \"$offered\" -- \"$word\"))\n"
+        "}}\n"
+        "complete -o bashdefault -o default -F _{0} {0}\n",
+        program.name, bash_body(program));
+}
+
+// ----------------------------------------------------------------------------------------- zsh
+
+// Between single quotes, in a specification of _arguments.
+std::string zsh_text(const std::string& text) {
+    return replaced(with_escapes(text, "\\[]:"), "'", "'\\''");
+}
+
+std::string zsh_values(const Option& option) {
+    if (!option.choices.empty()) return fmt::format("({})", fmt::join(option.choices, " "));
+    if (option.suggestions.empty()) return "_files";
+    return fmt::format("{{compadd {}; _files}}", fmt::join(option.suggestions, " "));
+}
+
+std::string zsh_option(const Option& option, const std::string& name) {
+    if (!takes_a_value(option)) return fmt::format("'{}[{}]'", name, zsh_text(option.explanation));
+    const bool is_long = name.starts_with("--");
+    return fmt::format("'{}{}{}[{}]:{}:{}'", option.is_list ? "*" : "", name, is_long ? "=" : "",
+                       zsh_text(option.explanation), zsh_text(option.value_name),
+                       zsh_values(option));
+}
+
+std::string zsh_arguments(const Command& command, bool is_program, const std::string& margin) {
+    std::string text = margin + "_arguments \\\n";
+    for (const Option& option : options_of(command, is_program))
+        for (const std::string& name : names_of(option))
+            text += fmt::format("{}    {} \\\n", margin, zsh_option(option, name));
+    return text + fmt::format("{}    '*:file:_files'\n", margin);
+}
+
+std::string zsh_body(const Command& program) {
+    if (program.commands.empty()) return zsh_arguments(program, true, "    ");
+    std::string text =
+        "    local context state state_descr line\n"
+        "    typeset -A opt_args\n"
+        "    local -a commands\n"
+        "    commands=(\n";
+    for (const Command& command : program.commands)
+        text += fmt::format("        '{}:{}'\n", command.name, zsh_text(command.summary));
+    text +=
+        "        'help:Tell more about a command'\n"
+        "    )\n"
+        "    _arguments -C '--help[Show the help]' '--version[Show the version]' \\\n"
+        "        '1:command:->command' '*::argument:->argument'\n"
+        "    case $state in\n"
+        "    command) _describe command commands ;;\n"
+        "    argument)\n"
+        "        case $words[1] in\n"
+        "        help) _describe command commands ;;\n";
+    for (const Command& command : program.commands)
+        text += fmt::format("        {})\n{}            ;;\n", command.name,
+                            zsh_arguments(command, false, "            "));
+    return text + "        esac\n        ;;\n    esac\n";
+}
+
+std::string zsh(const Command& program) {
+    return fmt::format(
+        "#compdef {0}\n"
+        "# Completions of {0} for zsh: a file _{0} in a folder of $fpath, or\n"
+        "# source <({0} --completions zsh)\n"
+        "_{0}() {{\n"
+        "{1}"
+        "}}\n"
+        "if [[ $funcstack[1] == _{0} ]]; then _{0} \"$@\"; else compdef _{0} {0}; fi\n",
+        program.name, zsh_body(program));
+}
+
+// ---------------------------------------------------------------------------------------- fish
+
+std::string fish_text(const std::string& text) {
+    return "'" + with_escapes(text, "\\'") + "'";
+}
+
+// -s x, -l long, or -o old, as compilers write long options with one dash.
+std::string fish_name(const std::string& name) {
+    if (name.starts_with("--")) return "-l " + name.substr(2);
+    return fmt::format("-{} {}", name.size() == 2 ? 's' : 'o', name.substr(1));
+}
+
+std::string fish_option(const std::string& start, const Option& option) {
+    std::string line = start;
+    for (const std::string& name : names_of(option)) line += " " + fish_name(name);
+    if (takes_a_value(option)) line += option.choices.empty() ? " -r" : " -x";
+    if (const std::vector<std::string>& values = offered_values(option); !values.empty())
+        line += fmt::format(" -a '{}'", fmt::join(values, " "));
+    return line + fmt::format(" -d {}\n", fish_text(option.explanation));
+}
+
+std::string fish(const Command& program) {
+    std::string text = fmt::format(
+        "# Completions of {0} for fish: {0} --completions fish | source\n", program.name);
+    const std::string start = "complete -c " + program.name;
+    const bool has_commands = !program.commands.empty();
+    for (const Option& option : options_of(program, true))
+        text += fish_option(start + (has_commands ? " -n __fish_use_subcommand" : ""), option);
+    for (const Command& command : program.commands) {
+        text += fmt::format("{} -n __fish_use_subcommand -f -a {} -d {}\n", start, command.name,
+                            fish_text(command.summary));
+        for (const Option& option : options_of(command, false))
+            text += fish_option(
+                fmt::format("{} -n '__fish_seen_subcommand_from {}'", start, command.name), option);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string completions(const Command& program, const std::string& shell) {
+    if (shell == "bash") return bash(program);
+    if (shell == "zsh") return zsh(program);
+    if (shell == "fish") return fish(program);
+    throw UsageError(fmt::format(
+        "--completions: '{}' is no shell that is known; bash, zsh and fish are", shell));
+}
+
+}  // namespace rddlc::cli

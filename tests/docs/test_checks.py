@@ -1,0 +1,98 @@
+"""The checks of the documentation find what they are for."""
+
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_text
+import run_pages
+from comparison import agree
+from pages import ROOT, blocks, exchanges
+
+
+def page_of(text: str, folder: str) -> Path:
+    page = Path(folder) / "page.md"
+    page.write_text(text)
+    return page
+
+
+class Comparison(unittest.TestCase):
+    def test_every_character_counts(self):
+        self.assertTrue(agree("return  1.5\n", "return  1.5\n"))
+        self.assertFalse(agree("return  1.5\n", "return  1.6\n"))
+        self.assertFalse(agree("return  1.5\n", "return 1.5\n"))
+        self.assertFalse(agree("", "warning\n"))
+
+    def test_what_is_of_the_machine_does_not(self):
+        self.assertTrue(agree("10 steps in 7.4 ms: 27.1 M steps/s with 2 threads", "10 steps in 66 us: 747 k steps/s with 1 thread"))
+        self.assertTrue(agree("packs of 16 (AVX-512)", "packs of 16 (SSE2)"))
+        self.assertFalse(agree("10 steps in 7.4 ms", "11 steps in 7.4 ms"))
+
+    def test_dots_stand_for_anything(self):
+        self.assertTrue(agree("in .../archive", "in /a/b/archive"))
+        self.assertTrue(agree("a\n...\nz", "a\nb\nc\nz"))
+        self.assertFalse(agree("in .../archive", "in /a/b/other"))
+
+    def test_loosely(self):
+        self.assertTrue(agree("emitted  267 lines,\n10.4 kB", "emitted 1,300 lines, 9 kB", loosely=True))
+        self.assertFalse(agree("emitted 267 lines", "emitted 267 words", loosely=True))
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def play(self, text: str) -> run_pages.Session:
+        session = run_pages.Session(page_of(text, self.folder), Path(self.folder), dict(os.environ))
+        session.play()
+        return session
+
+    def test_commands_have_several_lines_and_output(self):
+        page = page_of("```console\n$ echo a \\\n  b\na b\n\nc\n$ true\n```\n", self.folder)
+        first, second = exchanges(blocks(page)[0])
+        self.assertEqual((first.command, first.output), ("echo a \\\n  b", "a b\n\nc\n"))
+        self.assertEqual((second.command, second.output), ("true", ""))
+
+    def test_stale_output_is_found_and_corrected(self):
+        session = self.play("- list\n\n  ```console\n  $ echo new\n  old\n  older\n  ```\n")
+        self.assertEqual(len(session.complaints), 1)
+        session.correct()
+        self.assertEqual(session.page.read_text(), "- list\n\n  ```console\n  $ echo new\n  new\n  ```\n")
+
+    def test_errors_are_output(self):
+        self.assertFalse(self.play("```console\n$ echo bad >&2; false\nbad\n```\n").complaints)
+
+    def test_files_are_written(self):
+        text = "<!-- file: a/b.txt -->\n```text\nhello\n```\n\n```console\n$ cat a/b.txt\nhello\n```\n"
+        self.assertFalse(self.play(text).complaints)
+
+    def test_printed_text_needs_a_reason_or_a_command(self):
+        self.assertTrue(self.play("```text\nhello\n```\n").complaints)
+        self.assertFalse(self.play("<!-- not run: a drawing -->\n```text\nhello\n```\n").complaints)
+        with self.assertRaises(ValueError):
+            self.play("```console\nhello\n```\n")
+        with self.assertRaises(ValueError):
+            self.play("<!-- not run: a drawing -->\nA line between.\n```text\nhello\n```\n")
+
+
+class Text(unittest.TestCase):
+    programs = check_text.Programs(Path(os.environ.get("RDDLC_BIN", ROOT / "build/bin")))
+
+    def test_calls(self):
+        for call in ["rddl run P --episodes 3", "$ CXX=g++ rddlc a b -o c.so", "rddl help run", "build/bin/rddl list",
+                     "rddl COMMAND --help", "rddlc --explain E0203", "rddler --nonsense", "cmake --build build"]:
+            self.assertIsNone(self.programs.complaint(call), call)
+        for call in ["rddl runs P", "rddl run P --episode 3", "$ CXX=g++ rddlc a b --explains", "rddl check P --episodes=3"]:
+            self.assertIsNotNone(self.programs.complaint(call), call)
+
+    def test_anchors(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = page_of("# A title: with `code` & more\n\n## [Link](x.md)\n", folder)
+            self.assertEqual(check_text.anchors(page), {"a-title-with-code--more", "link"})
+
+
+if __name__ == "__main__":
+    unittest.main()
