@@ -19,10 +19,9 @@ void print_times(const Compilation& compilation) {
     }
 }
 
-void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
-                       const RenderOptions& options) {
-    tell(render(diagnostics, sources, options));
-    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(diagnostics));
+void print_diagnostics(const Compilation& compilation, const RenderOptions& options) {
+    tell(render(compilation.diagnostics, compilation.sources, options));
+    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(compilation));
 }
 
 std::string statistics(const Compilation& compilation, Statistics format) {
@@ -38,7 +37,7 @@ ExitStatus run(const Options& options) {
     }
     const Compilation compilation = compile(options.compile);
     fmt::print("{}{}", compilation.printed, statistics(compilation, options.statistics));
-    print_diagnostics(compilation.diagnostics, compilation.sources, options.render);
+    print_diagnostics(compilation, options.render);
     if (options.verbose) print_times(compilation);
     return compilation.diagnostics.has_errors() ? diagnosed : success;
 }

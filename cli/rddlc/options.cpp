@@ -20,6 +20,7 @@ constexpr const char* examples =
     "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
     "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
     "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc domain.rddl --check                     those of a domain, without an instance\n"
     "  rddlc --explain E0203                         what a diagnostic means\n\n"
     "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"
     "wrong, which please report.";
@@ -97,7 +98,8 @@ void add_stage_options(Command& command, Arguments& arguments) {
     add_text_option(command, "--stop-after", "STAGE",
                     "stop after a stage: read, parse, check, ground, verify, optimise, emit",
                     arguments.stop_after);
-    add_flag(command, "--check", "only check: the same as --stop-after=check",
+    add_flag(command, "--check",
+             "only check: the same as --stop-after=check; a domain may stand alone",
              arguments.check_only);
     add_text_option(command, "--std", "STANDARD",
                     "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions",
@@ -261,6 +263,8 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.extern_headers = extern_headers(arguments);
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
+    options.domain_may_stand_alone =
+        options.stop_after <= Stage::Check && !options.print.contains(Form::Model);
     options.line_directives = arguments.line_directives;
     options.lane_count = std::stoi(arguments.lanes);
     options.real = arguments.real == "float" ? RealType::Float : RealType::Double;

@@ -179,6 +179,39 @@ TEST_F(Program, ChecksAProblem) {
     EXPECT_NE(missing.err.find("cannot read 'none.rddl': No such file"), std::string::npos);
 }
 
+constexpr const char* domain_alone =
+    ": no errors in the domain, 1 warning\n"
+    "no instance was given: objects, values and what depends on them were not checked\n";
+
+TEST_F(Program, ChecksADomainAlone) {
+    const Outcome good = run("check domain.rddl");
+    EXPECT_EQ(good.status, 0) << good.err;
+    EXPECT_EQ(good.out, std::string("domain.rddl") + domain_alone);
+    EXPECT_NE(good.err.find("domain.rddl:7:9: warning: "), std::string::npos) << good.err;
+
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("LEAK(?t))"), 9, "LEAK(?s))");
+    domain.replace(domain.find("power;"), 6, "true;");
+    write_file(folder_ / "bad.rddl", domain);
+    const Outcome bad = run("check bad.rddl");
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_EQ(bad.out, "");
+    for (const char* place : {"bad.rddl:13:51: error: ", "bad.rddl:15:17: error: ", "2 errors\n",
+                              "no instance was given: "})
+        EXPECT_NE(bad.err.find(place), std::string::npos) << place << '\n' << bad.err;
+
+    // Nobody else can do without, nor is a second file meant to be another domain.
+    EXPECT_EQ(run("info domain.rddl").status, 1);
+    EXPECT_EQ(run("check domain.rddl domain.rddl").status, 1);
+}
+
+TEST_F(Program, ChecksAFolderWithoutInstances) {
+    write_file(folder_ / "alone/domain.rddl", tanks_domain);
+    const Outcome outcome = run("check alone");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, std::string("alone/domain.rddl") + domain_alone);
+}
+
 TEST_F(Program, TakesBothBlocksFromOneFile) {
     write_file(folder_ / "both.rddl", std::string(tanks_domain) + tanks_instance);
     EXPECT_EQ(run("check both.rddl").status, 0);
@@ -308,6 +341,12 @@ TEST_F(Program, ReadsExtensionsWhereAskedFor) {
         EXPECT_NE(refused.err.find("--std=rddlc allows it"), std::string::npos) << refused.err;
     }
     EXPECT_EQ(run("check --std=rddlc random.rddl").status, 0);
+    const std::string text = random_start;
+    const std::size_t instance = text.find("non-fluents n");
+    write_file(folder_ / "many/domain.rddl", text.substr(0, instance));
+    write_file(folder_ / "many/instance1.rddl", text.substr(instance));
+    EXPECT_EQ(run("check many").status, 1);
+    EXPECT_EQ(run("check --std=rddlc many").status, 0);
     EXPECT_EQ(run("fmt --std=rddlc --stdout random.rddl").status, 0);
     const json info = run_json("info --std=rddlc random.rddl --json");
     EXPECT_EQ(info["horizon"], 0);

@@ -74,6 +74,17 @@ TEST_F(CommandLine, ReadsBothBlocksFromOneFile) {
     EXPECT_EQ(rddlc({"problem.rddl", "--check"}).status, 0);
 }
 
+TEST_F(CommandLine, ChecksADomainAlone) {
+    const Result alone = rddlc({"domain.rddl", "--check"});
+    EXPECT_EQ(alone.status, 0) << alone.output;
+    EXPECT_TRUE(alone.output.ends_with("no instance was given: objects, values and what depends on "
+                                       "them were not checked\n"))
+        << alone.output;
+    EXPECT_EQ(rddlc({"domain.rddl", "--check", "--diagnostics-format=json"}).output, "[]\n");
+    for (const char* needs_instance : {"--print=model", "--stop-after=ground", "--print=cpp"})
+        EXPECT_EQ(rddlc({"domain.rddl", needs_instance}).status, 1) << needs_instance;
+}
+
 TEST_F(CommandLine, TakesThePolicyFromAThirdFile) {
     write("policy.rddl", "policy always { cpfs { press(?l) = true; }; }");
     const std::vector<std::string> words = {"domain.rddl", "instance.rddl", "policy.rddl"};

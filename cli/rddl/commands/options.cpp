@@ -5,7 +5,10 @@
 namespace rddlc::cli {
 
 ProblemFiles ProblemArguments::files() const {
-    ProblemFiles files = find_files(first, second);
+    return with_options(find_files(first, second));
+}
+
+ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
     files.standard = standard;
     files.memory_limit = memory_limit;
     return files;

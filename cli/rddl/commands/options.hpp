@@ -25,6 +25,8 @@ struct ProblemArguments {
     std::int64_t memory_limit = default_memory_limit;
 
     ProblemFiles files() const;
+    // Others, read as the options say.
+    ProblemFiles with_options(ProblemFiles files) const;
 };
 // These, --std and --memory-limit.
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required = true);

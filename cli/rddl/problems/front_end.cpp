@@ -10,18 +10,35 @@
 
 namespace rddlc::cli {
 
+namespace {
+
+CompileOptions compile_options(const ProblemFiles& files, Stage last,
+                               const std::vector<std::filesystem::path>& extern_headers) {
+    CompileOptions options;
+    options.extern_headers = extern_headers;
+    options.inputs = files.inputs();
+    options.policy = files.policy;
+    options.stop_after = last;
+    options.standard = files.standard;
+    options.memory_limit = files.memory_limit;
+    return options;
+}
+
+}  // namespace
+
 Compilation compile_problem(const ProblemFiles& files, Stage last,
                             const std::vector<std::filesystem::path>& extern_headers,
                             const PassOptions& passes, RealType real) {
-    CompileOptions options;
-    options.inputs = files.inputs();
-    options.policy = files.policy;
-    options.extern_headers = extern_headers;
-    options.stop_after = last;
-    options.standard = files.standard;
+    CompileOptions options = compile_options(files, last, extern_headers);
     options.passes = passes;
     options.real = real;
-    options.memory_limit = files.memory_limit;
+    return compile(options);
+}
+
+Compilation check_problem(const ProblemFiles& files, Stage last,
+                          const std::vector<std::filesystem::path>& extern_headers) {
+    CompileOptions options = compile_options(files, last, extern_headers);
+    options.domain_may_stand_alone = true;
     return compile(options);
 }
 
@@ -29,7 +46,7 @@ void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = tells_in_color();
     tell(render(compilation.diagnostics, compilation.sources, options));
-    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation.diagnostics));
+    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation));
 }
 
 Compilation compile_or_give_up(const ProblemFiles& files, Stage last,

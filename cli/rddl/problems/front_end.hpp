@@ -11,6 +11,10 @@ Compilation compile_problem(const ProblemFiles& files, Stage last,
                             const std::vector<std::filesystem::path>& extern_headers = {},
                             const PassOptions& passes = {}, RealType real = RealType::Double);
 
+// The same for the sake of the diagnostics alone: a domain needs no instance.
+Compilation check_problem(const ProblemFiles& files, Stage last,
+                          const std::vector<std::filesystem::path>& extern_headers = {});
+
 // Prints all diagnostics on stderr.
 void print_diagnostics(const Compilation& compilation);
 
