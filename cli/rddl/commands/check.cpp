@@ -44,8 +44,8 @@ std::string verdict(const Compilation& compilation) {
 // External functions are only checked where somebody defines them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
-    const Compilation compilation = check_problem(files, has_externs ? Stage::Verify : Stage::Check,
-                                                  extern_files(options.externs).headers);
+    const Compilation compilation = check_problem(
+        files, has_externs ? Stage::Verify : Stage::Ground, extern_files(options.externs).headers);
     print_diagnostics(compilation);
     if (compilation.diagnostics.has_errors()) return diagnosed;
     if (has_externs && compilation.program) external_library(*compilation.program, files, options);
@@ -62,7 +62,7 @@ struct Outcome {
 };
 
 Outcome check_quietly(const ProblemFiles& files) {
-    const Compilation compilation = compile_problem(files, Stage::Check);
+    const Compilation compilation = check_problem(files, Stage::Ground);
     return {true, compilation.diagnostics.error_count(), warning_count(compilation.diagnostics),
             render(compilation.diagnostics, compilation.sources, {})};
 }
