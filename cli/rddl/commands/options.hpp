@@ -5,10 +5,13 @@
 #include "command_line/command_line.hpp"
 #include "engines/load_simulator.hpp"
 #include "problems/problem_lookup.hpp"
+#include "rollouts/rollouts.hpp"
 #include "rollouts/violations.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace rddlc::cli {
@@ -59,6 +62,10 @@ void add_cache_option(Command& command, LoadOptions& options);
 
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
+
+// --policy; of a file its policy block
+void add_policy_option(Command& command, Policy& policy,
+                       std::optional<std::filesystem::path>& file);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);

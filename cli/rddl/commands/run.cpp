@@ -33,31 +33,6 @@ struct RunOptions {
     bool quiet = false;
 };
 
-std::string_view name_of(Policy policy) {
-    switch (policy) {
-        case Policy::Random:
-            return "random";
-        case Policy::Noop:
-            return "noop";
-        case Policy::Rddl:
-            break;
-    }
-    return "rddl";
-}
-
-void choose_policy(RunOptions& options, const std::string& name) {
-    for (const Policy policy : {Policy::Random, Policy::Noop, Policy::Rddl}) {
-        if (name_of(policy) != name) continue;
-        options.rollouts.policy = policy;
-        return;
-    }
-    if (!is_path(name))
-        throw UsageError(
-            fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
-    options.rollouts.policy = Policy::Rddl;
-    options.policy_file = name;
-}
-
 struct Summary {
     Statistics undiscounted_return, discounted_return, length;
     std::int64_t episodes = 0;  // finished ones
@@ -281,10 +256,7 @@ Command run_command() {
         "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl";
     add_problem_arguments(command, options->problem);
-    add_option(command, "--policy", "POLICY",
-               "random (default): legal random actions; noop: default actions; rddl: the policy "
-               "block of the problem; FILE: the policy block in it",
-               [options](const std::string& name) { choose_policy(*options, name); });
+    add_policy_option(command, options->rollouts.policy, options->policy_file);
     RolloutOptions& rollouts = options->rollouts;
     add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
                                     1, 100'000'000);
