@@ -314,6 +314,47 @@ TEST_F(Program, KeepsGoingAfterFaults) {
     EXPECT_NE(text.out.find("first fault: " + message), std::string::npos) << text.out;
 }
 
+// The lamp faults in its first step with this probability, or in none.
+std::string faulty_problem(const std::string& chance) {
+    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
+           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
+           chance +
+           "); }; reward = 0; }\n"
+           "non-fluents n { domain = faulty; }\n"
+           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
+}
+
+TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
+    const std::string all =
+        "rddl: error: all 5 episodes faulted; the first fault: episode 0, step 1: "
+        "faulty.rddl:2:17: "
+        "Bernoulli's probability must be in [0, 1], found 1.5\n";
+    for (const char* form : {"", " --json", " --quiet", " --trace -"}) {
+        const Outcome outcome =
+            run("run faulty.rddl --episodes 5" + std::string(interpreted) + form);
+        EXPECT_EQ(outcome.status, 1) << form;
+        EXPECT_EQ(outcome.err, all) << form;
+    }
+    EXPECT_TRUE(
+        run(std::string("run faulty.rddl") + interpreted)
+            .err.starts_with("rddl: error: the only episode faulted; the first fault: episode 0"));
+}
+
+TEST_F(Program, TellsHowManyEpisodesFaulted) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.5"));
+    const Outcome some = run(std::string("run faulty.rddl --episodes 40 --quiet") + interpreted);
+    EXPECT_EQ(some.status, 0);
+    EXPECT_TRUE(some.err.starts_with("rddl: warning: ")) << some.err;
+    EXPECT_NE(some.err.find(" of 40 episodes faulted; the first fault: episode "),
+              std::string::npos);
+
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.0"));
+    const Outcome none = run(std::string("run faulty.rddl --episodes 40") + interpreted);
+    EXPECT_EQ(none.status, 0);
+    EXPECT_EQ(none.err, "");
+}
+
 TEST_F(Program, RefusesEndlessEpisodes) {
     write_file(folder_ / "endless.rddl",
                "domain d { pvariables { x : { state-fluent, int, default = 0 }; };\n"

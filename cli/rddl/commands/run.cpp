@@ -84,6 +84,22 @@ std::string fault_line(const EpisodeFault& fault) {
     return fmt::format("{}: {}", when(fault), fault.message);
 }
 
+bool all_faulted(const Summary& summary) {
+    return summary.faulted > 0 && summary.faulted == summary.episodes;
+}
+
+// Who sees no summary learns of it here.
+void report_faults(const Summary& summary, const EpisodeFault& first) {
+    if (summary.faulted == 0) return;
+    const std::string_view severity = all_faulted(summary) ? "error" : "warning";
+    const std::string episodes = grouped(summary.episodes);
+    const std::string who =
+        !all_faulted(summary) ? fmt::format("{} of {} episodes", grouped(summary.faulted), episodes)
+        : summary.episodes == 1 ? "the only episode"
+                                : fmt::format("all {} episodes", episodes);
+    tell("rddl: {}: {} faulted; the first fault: {}\n", severity, who, fault_line(first));
+}
+
 std::string illegal_actions_line(std::int64_t count, Preconditions preconditions) {
     const std::string text =
         fmt::format("{} action{} violated a precondition", grouped(count), count == 1 ? "" : "s");
@@ -230,7 +246,9 @@ ExitStatus run(const RunOptions& options) {
         print_json(options, summary, rollouts, problem, explainer);
     else if (!options.quiet && options.trace != "-")
         print_summary(options, summary, rollouts, problem, explainer);
-    if (!is_interrupted()) return summary.refused > 0 ? diagnosed : success;
+    if (rollouts.first_fault) report_faults(summary, *rollouts.first_fault);
+    const bool failed = summary.refused > 0 || all_faulted(summary);
+    if (!is_interrupted()) return failed ? diagnosed : success;
     tell("rddl: interrupted after {} of {} episodes\n", summary.episodes,
          options.rollouts.episodes);
     return interrupted;
