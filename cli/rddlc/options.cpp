@@ -118,7 +118,8 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
         .choices = {"text", "json"};
     add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
         .choices = {"auto", "always", "never"};
-    add_text_option(command, "--explain", "CODE", "explain a diagnostic and exit",
+    add_text_option(command, "--explain", "CODE",
+                    "explain a diagnostic, such as E0203, and exit; list: all codes",
                     arguments.explained)
         .is_enough = true;
     add_flag(command, "-v,--verbose", "tell how long each stage takes", arguments.verbose);
@@ -282,10 +283,13 @@ Options options_of(const Arguments& arguments) {
     options.render.format =
         arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
     options.render.color = use_color(arguments.color);
+    options.lists_codes = arguments.explained == "list";
+    if (options.lists_codes) return options;
     if (!arguments.explained.empty()) {
         options.explained = parse_code(arguments.explained);
         if (!options.explained || !explain(*options.explained)) {
-            throw usage(fmt::format("there is no diagnostic '{}'", arguments.explained));
+            throw usage(fmt::format("there is no diagnostic '{}'; '--explain list' shows all",
+                                    arguments.explained));
         }
         return options;
     }

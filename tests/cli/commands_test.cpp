@@ -36,6 +36,9 @@ TEST_P(MisusedProgram, SaysWhatIsWrong) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_TRUE(outcome.err.starts_with(std::string("rddl: error: ") + GetParam().message))
         << outcome.err;
+    const std::string command =
+        std::string(GetParam().arguments).substr(0, 4) == "run " ? "rddl run" : "rddl";
+    EXPECT_NE(outcome.err.find("\n'" + command), std::string::npos) << outcome.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -46,14 +49,48 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{"run domain.rddl instance.rddl --episode=3",
                            "unknown option '--episode'; did you mean '--episodes'?"},
                     Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
-                    Misuse{"run domain.rddl instance.rddl --episodes 0", "--episodes: "},
-                    Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: "},
-                    Misuse{"run domain.rddl instance.rddl --engine fast", "--engine: "},
+                    Misuse{"run domain.rddl instance.rddl --episodes 0",
+                           "--episodes: '0' is not an int from 1 to 100000000"},
+                    Misuse{"run domain.rddl instance.rddl --episodes abc",
+                           "--episodes: 'abc' is not an int from 1 to 100000000"},
+                    Misuse{"run domain.rddl instance.rddl --seed -1",
+                           "--seed: '-1' is not an int from 0 to 18446744073709551615"},
+                    Misuse{"run domain.rddl instance.rddl --seed",
+                           "--seed is given no value; expected --seed S: "},
+                    Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
+                           "--seed is given twice: '1' and '2'"},
+                    Misuse{"run domain.rddl instance.rddl --engine compield",
+                           "--engine: 'compield' is not one of compiled, interpreter; did you "
+                           "mean 'compiled'?"},
+                    Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
+                           "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
+                    Misuse{"run domain.rddl instance.rddl --json=maybe",
+                           "--json: 'maybe' is not true or false"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit abc",
+                           "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit -1",
+                           "--memory-limit: '-1' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 0",
+                           "--memory-limit: '0' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
+                           "--memory-limit: '4X' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
+                           "--memory-limit: '9999999999999G' is not a size"},
                     Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
                            "--trace is given no value"},
                     Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
                     Misuse{"check", "name a problem, or say --all"},
                     Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+
+TEST_F(Program, TakesSizesWithUnits) {
+    const auto told = [&](const std::string& size) {
+        return run("info domain.rddl instance.rddl --memory-limit " + size).err;
+    };
+    for (const char* one_kilobyte : {"1024", "1k", "1K", "1KB", "1KiB", "'1 kib'", "1024b"})
+        EXPECT_EQ(told(one_kilobyte), "") << one_kilobyte;
+    EXPECT_NE(told("8").find("more than the limit of 8 bytes"), std::string::npos) << told("8");
+    EXPECT_EQ(run("info domain.rddl instance.rddl --json=false").out.find('{'), std::string::npos);
+}
 
 TEST_F(Program, TellsOfFilesWhoseNamesAreNoUtf8) {
     const std::string name = "d\xff.rddl";
