@@ -133,10 +133,10 @@ ExitStatus check(const CheckOptions& options) {
     const ProblemArguments& problem = options.problem;
     if (options.all) {
         if (!problem.first.empty())
-            throw Failure("--all checks the whole repository; name no problem", "", usage_error);
+            throw UsageError("--all checks the whole repository; name no problem");
         return check_problems(require_repository().problems, options);
     }
-    if (problem.first.empty()) throw Failure("name a problem, or say --all", "", usage_error);
+    if (problem.first.empty()) throw UsageError("name a problem, or say --all");
     if (problem.second.empty() && std::filesystem::is_directory(problem.first)) {
         const RepositoryProblem found = problem_in(problem.first);
         const std::filesystem::path domain = found.domain_file();
