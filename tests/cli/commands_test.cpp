@@ -136,7 +136,7 @@ TEST_F(Repository, IsListed) {
     EXPECT_NE(outcome.out.find("Tanks_water  0-1        stochastic MDP  mixed    Tanks that leak."),
               std::string::npos)
         << outcome.out;
-    EXPECT_NE(outcome.out.find("1 problems, 2 instances"), std::string::npos);
+    EXPECT_NE(outcome.out.find("1 problem, 2 instances in "), std::string::npos);
 
     const json listed = json::parse(run_there("list leak --json").out);
     ASSERT_EQ(listed.size(), 1u);
