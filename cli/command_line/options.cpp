@@ -87,7 +87,11 @@ Option& add_argument(Command& command, const std::string& name, const std::strin
 
 Option& add_flag(Command& command, const std::string& names, const std::string& explanation,
                  bool& target) {
-    return add_flag(command, names, explanation, [&target](const std::string&) { target = true; });
+    return add_flag(command, names, explanation, [names, &target](const std::string& word) {
+        if (word != "true" && word != "false")
+            throw UsageError(fmt::format("{}: '{}' is not true or false", names, word));
+        target = word == "true";
+    });
 }
 
 template <class Number>

@@ -1,4 +1,5 @@
 #include "command_line/command_line.hpp"
+#include "command_line/value_of.hpp"
 #include "support/diagnostic.hpp"
 #include "support/program.hpp"
 
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <span>
+#include <sstream>
 
 namespace rddlc::cli {
 
@@ -36,19 +39,20 @@ std::string respelled_word(const Command& command, const std::string& word) {
     return word;
 }
 
-// What was said of an option.
+// What was said of an option. Only the words are CLI11's; what they mean is found out here, so that
+// all complaints have one form.
 struct Answer {
     const Option* option;
-    CLI::Option* handle = nullptr;
-    std::string value = {};
-    std::vector<std::string> values = {};  // of a list
+    CLI::Option* handle;
 
     void pass_on() const {
-        if (handle->count() == 0) return;
-        if (option->kind == OptionKind::Value && !option->is_list && value.empty())
-            throw UsageError(option->names + " is given no value");
-        if (!option->is_list) return option->take(value);
-        for (const std::string& each : values) option->take(each);
+        const std::vector<std::string>& words = handle->results();
+        if (words.empty()) return;
+        if (option->kind == OptionKind::Flag) return option->take(words.back());
+        if (!option->is_list && words.size() > 1)
+            throw UsageError(
+                fmt::format("{} is given twice: '{}' and '{}'", option->names, words[0], words[1]));
+        for (const std::string& word : words) option->take(value_of(*option, word));
     }
 };
 
@@ -56,23 +60,18 @@ struct Answer {
 struct Declared {
     const Command* command;
     CLI::App* app;
-    std::deque<Answer> answers;  // do not move: CLI11 writes to them
+    std::vector<Answer> answers;
 };
 
 void declare(Declared& declared, const Option& option) {
-    Answer& answer = declared.answers.emplace_back(Answer{&option});
     const std::string names = respelled_names(option);
-    if (option.kind == OptionKind::Flag) {
-        answer.handle = declared.app->add_flag(names, answer.value);
-        answer.handle->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-        return;
-    }
-    answer.handle = option.is_list ? declared.app->add_option(names, answer.values)
-                                   : declared.app->add_option(names, answer.value);
-    if (option.kind != OptionKind::Argument) answer.handle->allow_extra_args(false);
-    if (option.has_commas) answer.handle->delimiter(',');
-    if (option.kind == OptionKind::Bytes) answer.handle->transform(CLI::AsSizeValue(false));
-    if (!option.choices.empty()) answer.handle->check(CLI::IsMember(option.choices));
+    const bool is_flag = option.kind == OptionKind::Flag;
+    CLI::Option* const handle =
+        is_flag ? declared.app->add_flag(names) : declared.app->add_option(names);
+    handle->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (option.kind == OptionKind::Argument && option.is_list) handle->expected(-1);
+    if (option.has_commas) handle->delimiter(',');
+    declared.answers.push_back({&option, handle});
 }
 
 void declare(Declared& declared) {
@@ -132,25 +131,37 @@ void require_arguments(const Declared& declared) {
             throw UsageError(answer.option->names + " is required");
 }
 
-// `--trace=$FILE` without a FILE would take the next word for its value.
-void require_value(const Command& program, const std::string& word) {
-    if (!word.ends_with('=')) return;
-    const std::string name = word.substr(0, word.size() - 1);
-    const auto knows = [&](const Command& command) {
-        const std::vector<std::string> names = option_names(command);
-        return std::ranges::find(names, name) != names.end();
-    };
-    if (knows(program) || std::ranges::any_of(program.commands, knows))
-        throw UsageError(name + " is given no value");
+// The one that the words name, or else the program.
+const Command& command_in(const Command& program, std::span<char* const> words) {
+    if (words.empty()) return program;
+    const auto found = std::ranges::find(program.commands, words.front(), &Command::name);
+    return found == program.commands.end() ? program : *found;
+}
+
+const Option* option_named(const Command& command, const std::string& name) {
+    for (const Option& option : command.options)
+        for (const std::string& each : split(option.names))
+            if (option.kind != OptionKind::Argument && each == name) return &option;
+    return nullptr;
+}
+
+// `--trace=$FILE` without a FILE would take the next word for its value, and the last word has
+// none.
+void require_values(const Command& command, const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+        if (!word.ends_with('=')) continue;
+        const Option* const option = option_named(command, word.substr(0, word.size() - 1));
+        if (option) throw no_value_for(*option);
+    }
+    const Option* const last = words.empty() ? nullptr : option_named(command, words.back());
+    if (last && last->kind != OptionKind::Flag) throw no_value_for(*last);
 }
 
 // `help run` is `run --help`, as -h is; CLI11 takes the words from the back.
-std::vector<std::string> words_of(const Command& program, int argc, char** argv) {
-    std::vector<std::string> words;
-    for (int i = 1; i < argc; ++i) {
-        require_value(program, argv[i]);
-        words.push_back(respelled_word(program, argv[i]));
-    }
+std::vector<std::string> words_of(const Command& program, std::span<char* const> given) {
+    std::vector<std::string> words(given.begin(), given.end());
+    require_values(command_in(program, given), words);
+    for (std::string& word : words) word = respelled_word(program, word);
     if (!program.commands.empty() && !words.empty() && words.front() == "help") {
         words.erase(words.begin());
         words.push_back("--help");
@@ -193,10 +204,11 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
             if (declared.app != &app && declared.app->parsed()) return &declared;
         return nullptr;
     };
+    const std::span<char* const> words(argv + std::min(argc, 1), argv + argc);
     const auto full_name = [&] {
-        const Declared* const command = chosen();
-        const bool is_program = !command || command->command == &program;
-        return is_program ? program.name : program.name + " " + command->command->name;
+        const Declared* const known = chosen();
+        const Command& command = known ? *known->command : command_in(program, words);
+        return &command == &program ? program.name : program.name + " " + command.name;
     };
     const auto complain = [&](const std::string& message) {
         tell("{}: error: {}\n'{} --help' shows the usage\n", program.name, message, full_name());
@@ -207,7 +219,7 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
             fmt::print("{}", *page);
             return success;
         }
-        app.parse(words_of(program, argc, argv));
+        app.parse(words_of(program, words));
         return run_declared(*chosen());
     } catch (const CLI::CallForHelp&) {
         const Declared* const command = chosen();

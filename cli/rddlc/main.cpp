@@ -19,10 +19,9 @@ void print_times(const Compilation& compilation) {
     }
 }
 
-void print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
-                       const RenderOptions& options) {
-    tell(render(diagnostics, sources, options));
-    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(diagnostics));
+void print_diagnostics(const Compilation& compilation, const RenderOptions& options) {
+    tell(render(compilation.diagnostics, compilation.sources, options));
+    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(compilation));
 }
 
 std::string statistics(const Compilation& compilation, Statistics format) {
@@ -31,14 +30,26 @@ std::string statistics(const Compilation& compilation, Statistics format) {
                                       : statistics_text(compilation.passes);
 }
 
+// "E0101: unexpected text" and so on, the titles of the pages.
+std::string list_of_codes() {
+    std::string list;
+    for (const Page& page : pages)
+        list += fmt::format("{}\n", page.text.substr(2, page.text.find('\n') - 2));
+    return list;
+}
+
 ExitStatus run(const Options& options) {
+    if (options.lists_codes) {
+        fmt::print("{}", list_of_codes());
+        return success;
+    }
     if (options.explained) {
         fmt::print("{}", *explain(*options.explained));
         return success;
     }
     const Compilation compilation = compile(options.compile);
     fmt::print("{}{}", compilation.printed, statistics(compilation, options.statistics));
-    print_diagnostics(compilation.diagnostics, compilation.sources, options.render);
+    print_diagnostics(compilation, options.render);
     if (options.verbose) print_times(compilation);
     return compilation.diagnostics.has_errors() ? diagnosed : success;
 }

@@ -21,6 +21,7 @@ constexpr const char* examples =
     "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
     "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
     "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc domain.rddl --check                     those of a domain, without an instance\n"
     "  rddlc --explain E0203                         what a diagnostic means\n\n"
     "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"
     "wrong, which please report.";
@@ -106,7 +107,8 @@ void add_stage_options(Command& command, Arguments& arguments) {
                     "stop after a stage: read, parse, check, ground, verify, optimise, emit",
                     arguments.stop_after)
         .suggestions = {"read", "parse", "check", "ground", "verify", "optimise", "emit"};
-    add_flag(command, "--check", "only check: the same as --stop-after=check",
+    add_flag(command, "--check",
+             "only check: the same as --stop-after=check; a domain may stand alone",
              arguments.check_only);
     add_text_option(command, "--std", "STANDARD",
                     "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions",
@@ -125,7 +127,8 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
         .choices = {"text", "json"};
     add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
         .choices = {"auto", "always", "never"};
-    add_text_option(command, "--explain", "CODE", "explain a diagnostic and exit",
+    add_text_option(command, "--explain", "CODE",
+                    "explain a diagnostic, such as E0203, and exit; list: all codes",
                     arguments.explained)
         .is_enough = true;
     add_flag(command, "-v,--verbose", "tell how long each stage takes", arguments.verbose);
@@ -283,6 +286,8 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.extern_headers = extern_headers(arguments);
     options.print = printed_forms(arguments);
     options.stop_after = last_stage(arguments, options.print);
+    options.domain_may_stand_alone =
+        options.stop_after <= Stage::Check && !options.print.contains(Form::Model);
     options.line_directives = arguments.line_directives;
     options.details = arguments.details;
     options.lane_count = std::stoi(arguments.lanes);
@@ -302,10 +307,13 @@ Options options_of(const Arguments& arguments) {
     options.render.format =
         arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
     options.render.color = use_color(arguments.color);
+    options.lists_codes = arguments.explained == "list";
+    if (options.lists_codes) return options;
     if (!arguments.explained.empty()) {
         options.explained = parse_code(arguments.explained);
         if (!options.explained || !explain(*options.explained)) {
-            throw usage(fmt::format("there is no diagnostic '{}'", arguments.explained));
+            throw usage(fmt::format("there is no diagnostic '{}'; '--explain list' shows all",
+                                    arguments.explained));
         }
         return options;
     }

@@ -18,6 +18,7 @@ struct Options {
     Statistics statistics = Statistics::None;
     bool verbose = false;
     std::optional<Code> explained;  // --explain
+    bool lists_codes = false;       // --explain=list
 };
 
 // Its command line, which leads to `run` unless there is a mistake.

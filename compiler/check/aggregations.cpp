@@ -27,7 +27,8 @@ bool check_nonempty(const std::vector<model::VariableId>& variables, const ast::
                     Context& context) {
     for (const model::VariableId id : variables) {
         const model::Type& type = context.model.type_of(context.model.variables[id]);
-        if (!type.objects.empty()) continue;
+        const bool is_open = context.names.open_types.contains(context.model.variables[id].type);
+        if (is_open || !type.objects.empty()) continue;
         if (!context.names.broken_types.contains(context.model.variables[id].type))
             context.report(diagnose(empty_scope, name.span,
                                     fmt::format("'{}' has no value over the empty type '{}'",

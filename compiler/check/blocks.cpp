@@ -323,9 +323,10 @@ std::optional<Blocks> choose_blocks(const ast::Program& program, Context& contex
     // Each of them, so that all are reported.
     const bool domain = require_block(top.domain.node != nullptr, "domain",
                                       "give the domain's file before the instance's", context);
-    const bool instance = require_block(top.instance.node != nullptr, "instance",
+    const bool is_enough = domain && !context.needs_instance;
+    const bool instance = require_block(is_enough || top.instance.node != nullptr, "instance",
                                         "give the instance's file after the domain's", context);
-    const bool non_fluents = require_block(has_non_fluents_block, "non-fluents",
+    const bool non_fluents = require_block(is_enough || has_non_fluents_block, "non-fluents",
                                            "write 'non-fluents NAME { domain = ...; objects { ... "
                                            "}; }', or put both 'objects { ... };'"
                                            " and 'non-fluents { ... };' into the instance",
@@ -335,9 +336,13 @@ std::optional<Blocks> choose_blocks(const ast::Program& program, Context& contex
     Blocks blocks;
     take_domain(*top.domain.node, blocks, context);
     if (top.policy.node) take_policy(*top.policy.node, blocks, context);
-    take_instance(*top.instance.node, top, blocks, context);
+    blocks.has_objects = has_non_fluents_block;
+    if (top.instance.node)
+        take_instance(*top.instance.node, top, blocks, context);
+    else
+        take_non_fluents(top, {}, blocks, context);
     context.model.domain_name = blocks.domain->name.text;
-    context.model.instance_name = blocks.instance->name.text;
+    if (blocks.instance) context.model.instance_name = blocks.instance->name.text;
     // Without objects every fluent would be complained about.
     if (!non_fluents || !blocks.pvariables) return std::nullopt;
     return blocks;

@@ -13,6 +13,8 @@ struct Blocks {
     const ast::Domain* domain = nullptr;
     const ast::Instance* instance = nullptr;
     const ast::Policy* policy = nullptr;
+    // Objects and non-fluents are given, by an instance or by a block of their own.
+    bool has_objects = false;
 
     const ast::Types* types = nullptr;
     const ast::PVariables* pvariables = nullptr;
@@ -42,6 +44,7 @@ struct Blocks {
 };
 
 // Reports missing blocks and sections, and repeated ones; nothing if there is too little to go on.
+// There is no instance if the context needs none and the program has none.
 std::optional<Blocks> choose_blocks(const ast::Program& program, Context& context);
 
 // Horizon, discount and max-nondef-actions into the model, after the fluents are known.

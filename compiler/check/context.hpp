@@ -34,6 +34,8 @@ struct Names {
     // Declared with an error that was reported: what follows from it is not reported again.
     std::unordered_set<model::TypeId> broken_types;
     std::unordered_set<model::FluentId> broken_fluents;
+    // Those whose objects nobody has given: what depends on the objects is not checked.
+    std::unordered_set<model::TypeId> open_types;
 };
 
 struct Context {
@@ -44,6 +46,8 @@ struct Context {
     Names names = {};
     // Fluents that some expression mentions.
     std::unordered_set<model::FluentId> mentioned = {};
+    // False where a domain is checked alone.
+    bool needs_instance = true;
 
     void report(Diagnostic diagnostic) { diagnostics.report(std::move(diagnostic)); }
 

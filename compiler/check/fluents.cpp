@@ -142,6 +142,7 @@ bool check_grounding_count(const model::Fluent& fluent, Context& context) {
         fluent.role == Role::NonFluent ? max_groundings_of_tables : max_groundings;
     std::int64_t count = 1;
     for (const model::TypeId parameter : fluent.parameters) {
+        if (context.names.open_types.contains(parameter)) continue;
         const model::Type& type = context.type(parameter);
         if (type.objects.empty() && has_initial_values(fluent.role) &&
             !context.names.broken_types.contains(parameter))
@@ -214,9 +215,12 @@ void declare_policy_fluents(const Blocks& blocks, Context& context) {
 }
 
 void warn_of_unused_fluents(Context& context) {
+    // Random initial values may use non-fluents.
+    const bool instance_may_use = !context.needs_instance && context.standard == Standard::Rddlc;
     for (model::FluentId id = 0; id < context.model.fluents.size(); ++id) {
         const model::Fluent& fluent = context.fluent(id);
         if (fluent.role == Role::Observ || context.mentioned.contains(id)) continue;
+        if (fluent.role == Role::NonFluent && instance_may_use) continue;
         context.report({unused_fluent, fluent.span,
                         fmt::format("{} '{}' is never used", name_of(fluent.role), fluent.name)});
     }

@@ -164,6 +164,10 @@ void check_grounded_names(Context& context) {
     for (const model::Type& type : context.model.types) types.push_back(names_of(type));
     std::map<std::vector<model::TypeId>, std::optional<Pair>> found;  // by parameters
     for (const model::Fluent& fluent : context.model.fluents) {
+        const auto is_open = [&](model::TypeId type) {
+            return context.names.open_types.contains(type);
+        };
+        if (std::ranges::any_of(fluent.parameters, is_open)) continue;
         const bool is_named = fluent.role == Role::State || fluent.role == Role::Action ||
                               fluent.role == Role::Observ;
         const auto has_separators = [&](model::TypeId type) {

@@ -64,7 +64,8 @@ std::optional<model::TypeId> declare_type(const ast::TypeDeclaration& declaratio
     return id;
 }
 
-void add_listed_objects(model::TypeId id, const ObjectLists& lists, Context& context) {
+void add_listed_objects(model::TypeId id, const ObjectLists& lists, const Blocks& blocks,
+                        Context& context) {
     const model::Type& type = context.type(id);
     const auto list = lists.find(type.name);
     if (list != lists.end() && type.enumerated) {
@@ -75,6 +76,8 @@ void add_listed_objects(model::TypeId id, const ObjectLists& lists, Context& con
                            .note(type.span, "declared here"));
     } else if (list != lists.end()) {
         add_objects(id, list->second->objects, context);
+    } else if (!blocks.has_objects && !type.enumerated) {
+        context.names.open_types.insert(id);
     } else if (!type.enumerated) {
         context.names.broken_types.insert(id);
         context.report(
@@ -104,7 +107,7 @@ void declare_types(const Blocks& blocks, Context& context) {
             if (const auto id = declare_type(declaration, context); id && declaration.members)
                 add_objects(*id, *declaration.members, context);
     for (model::TypeId id = 0; id < context.model.types.size(); ++id)
-        add_listed_objects(id, lists, context);
+        add_listed_objects(id, lists, blocks, context);
     if (blocks.objects) report_undeclared(*blocks.objects, context);
 }
 

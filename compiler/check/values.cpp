@@ -71,7 +71,8 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
                                          const model::Fluent& fluent, Code code, Context& context) {
     const Object* object = find(context.names.objects, symbol.name);
     if (!object && fluent.range.kind == Kind::Object &&
-        context.names.broken_types.contains(fluent.range.type))
+        (context.names.broken_types.contains(fluent.range.type) ||
+         context.names.open_types.contains(fluent.range.type)))
         return std::nullopt;
     if (object && fluent.range == model::ValueType{Kind::Object, object->type})
         return model::Value{object->index};
@@ -330,8 +331,10 @@ void assign_values(const Blocks& blocks, Context& context) {
         assigner.assign_all(blocks.non_fluents->assignments, {"non-fluents", Role::NonFluent});
     if (blocks.init_state)
         assigner.assign_all(blocks.init_state->assignments, {"init-state", Role::State});
-    for (model::FluentId id = 0; id < context.model.fluents.size(); ++id)
-        assigner.report_missing(id);
+    for (model::FluentId id = 0; id < context.model.fluents.size(); ++id) {
+        const bool is_state = context.fluent(id).role == Role::State;
+        if (is_state ? blocks.instance != nullptr : blocks.has_objects) assigner.report_missing(id);
+    }
 }
 
 }  // namespace rddlc::checking

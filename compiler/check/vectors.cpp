@@ -170,6 +170,10 @@ bool check_square(std::string_view function, VariableId row, VariableId column, 
     const auto type_of = [&](VariableId id) -> const model::Type& {
         return context.model.type_of(context.model.variables[id]);
     };
+    const auto is_open = [&](VariableId id) {
+        return context.names.open_types.contains(context.model.variables[id].type);
+    };
+    if (is_open(row) || is_open(column)) return true;
     const model::Type& rows = type_of(row);
     const model::Type& columns = type_of(column);
     if (rows.objects.size() == columns.objects.size()) return true;

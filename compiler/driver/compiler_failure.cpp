@@ -97,4 +97,13 @@ Diagnostic failing_compiler(const std::vector<std::string>& command, const Proce
     return std::move(diagnostic).with_hint(hint_for(failed));
 }
 
+Diagnostic idle_compiler(const std::vector<std::string>& command) {
+    return Diagnostic{
+        .code = broken_cpp_compiler,
+        .span = {},
+        .message = fmt::format("the C++ compiler '{}' ends with status 0, but made no output",
+                               command.front())}
+        .with_hint("set CXX to g++ 12, clang++ 14 or a newer one");
+}
+
 }  // namespace rddlc

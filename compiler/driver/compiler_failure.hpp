@@ -27,4 +27,7 @@ bool is_our_mistake(const ProcessResult& failed, const std::function<bool()>& co
 // Any other failure, with what the compiler says.
 Diagnostic failing_compiler(const std::vector<std::string>& command, const ProcessResult& failed);
 
+// It said that all went well, and made no output.
+Diagnostic idle_compiler(const std::vector<std::string>& command);
+
 }  // namespace rddlc

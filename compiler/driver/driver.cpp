@@ -121,6 +121,11 @@ void take_policy_alone(ast::Program& tree, FileId file, const Sources& sources,
     });
 }
 
+// Who gives several files means one of them to be the instance.
+bool may_stand_alone(const CompileOptions& options) {
+    return options.domain_may_stand_alone && options.inputs.size() == 1;
+}
+
 void run_stages(Run& run) {
     Compilation& result = run.result;
     Diagnostics& diagnostics = result.diagnostics;
@@ -140,6 +145,16 @@ void run_stages(Run& run) {
     if (diagnostics.has_errors()) return;
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;
+
+    // Without an instance there is no model, but much to check.
+    if (may_stand_alone(run.options) && is_domain_alone(tree)) {
+        result.is_domain_alone = true;
+        run.measure(Stage::Check, [&] {
+            check_domain(tree, result.sources, diagnostics, standard);
+            return 0;
+        });
+        return;
+    }
 
     // What was written -> what it means: names, types, casts, the order of the CPFs.
     result.model = run.measure(Stage::Check,
@@ -197,10 +212,6 @@ void run_stages(Run& run) {
     });
 }
 
-std::string counted(std::size_t count, const char* word) {
-    return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::string_view name_of(Stage stage) {
@@ -254,7 +265,13 @@ std::optional<std::string> complaint_about_pass(std::string_view name) {
     return complaint;
 }
 
-std::string closing_lines(const Diagnostics& diagnostics) {
+namespace {
+
+std::string counted(std::size_t count, const char* word) {
+    return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
+}
+
+std::string counts_of(const Diagnostics& diagnostics) {
     const auto& all = diagnostics.all();
     const std::size_t errors = diagnostics.error_count();
     const std::size_t warnings = all.size() - errors;
@@ -265,6 +282,17 @@ std::string closing_lines(const Diagnostics& diagnostics) {
     return fmt::format("{}{}\n'rddlc --explain {}' tells more\n", counted(errors, "error"),
                        warnings == 0 ? "" : ", " + counted(warnings, "warning"),
                        to_string(first->code));
+}
+
+}  // namespace
+
+const std::string_view no_instance_given =
+    "no instance was given: objects, values and what depends on them were not checked";
+
+std::string closing_lines(const Compilation& compilation) {
+    std::string lines = counts_of(compilation.diagnostics);
+    if (compilation.is_domain_alone) lines += fmt::format("{}\n", no_instance_given);
+    return lines;
 }
 
 }  // namespace rddlc

@@ -40,6 +40,9 @@ struct CompileOptions {
     std::optional<std::filesystem::path> output;
     // C++ headers that define the external functions.
     std::vector<std::filesystem::path> extern_headers;
+    // A file that holds a domain and no instance is checked, as far as that can be done, and no
+    // more.
+    bool domain_may_stand_alone = false;
     std::set<Form> print;
     Stage stop_after = Stage::Write;
     bool line_directives = false;
@@ -68,6 +71,7 @@ struct Compilation {
     Sources sources;
     UsedFiles used;  // inputs, and outputs that are written
     Diagnostics diagnostics;
+    bool is_domain_alone = false;  // no instance was given, and none was needed
     std::optional<model::Model> model;
     std::optional<ir::Program> program;  // optimised, if it came so far
     std::optional<ir::Details> details;      // if they are wanted
@@ -87,8 +91,11 @@ std::vector<std::string> pass_names();
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 
-// What stands below diagnostics: how many there are, and how to learn more of the first error.
-// Empty if there are none.
-std::string closing_lines(const Diagnostics& diagnostics);
+// What stands below diagnostics: how many there are, how to learn more of the first error, and what
+// was not checked for lack of an instance. Empty if there is nothing to tell.
+std::string closing_lines(const Compilation& compilation);
+
+// "no instance was given: ..."
+extern const std::string_view no_instance_given;
 
 }  // namespace rddlc

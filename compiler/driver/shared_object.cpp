@@ -28,6 +28,18 @@ bool holds_runtime(const fs::path& folder) {
     return fs::exists(folder / "rddl" / "simulator.hpp", ignored);
 }
 
+// Empty if it is not set.
+std::string environment_value(const char* name) {
+    const char* const value = std::getenv(name);
+    return value ? value : "";
+}
+
+// Some compilers say that all went well, and made nothing.
+bool is_there(const fs::path& file) {
+    std::error_code missing;
+    return fs::file_size(file, missing) > 0 && !missing;
+}
+
 // The greatest level of x86-64 that this machine's processor has; null if it is another one.
 const char* processor_level() {
 #ifdef __x86_64__
@@ -234,6 +246,17 @@ std::optional<fs::path> runtime_include_folder() {
     return std::nullopt;
 }
 
+std::optional<std::string> complaint_about_environment() {
+    const std::string include = environment_value("RDDLC_INCLUDE");
+    if (!include.empty() && !holds_runtime(include))
+        return fmt::format("RDDLC_INCLUDE is '{}', which holds no rddl/simulator.hpp", include);
+    const std::string set = environment_value("RDDL_INSTRUCTION_SET");
+    if (!set.empty() && set != "sse2" && set != "avx2" && set != "avx512")
+        return fmt::format("RDDL_INSTRUCTION_SET is '{}', which is none of sse2, avx2 and avx512",
+                           set);
+    return std::nullopt;
+}
+
 std::vector<std::string> shared_object_command(const fs::path& source, const fs::path& output,
                                                Processors processors) {
     std::vector<std::string> command = compiler_command(processors);
@@ -254,14 +277,18 @@ bool prepare_runtime(const fs::path& folder) {
     if (is_refused(header_result) && !lacks_resources(*header_result)) {
         std::error_code ignored;
         fs::remove(folder / precompiled_name, ignored);
-        return succeeds(batches);
+        return succeeds(batches) && is_there(folder / batches_name);
     }
-    return succeeds(batches) && succeeds(header_result);
+    return succeeds(batches) && is_there(folder / batches_name) && succeeds(header_result);
 }
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
                          const std::vector<fs::path>& extern_headers, Diagnostics& diagnostics,
                          const std::optional<fs::path>& prepared) {
+    if (const auto complaint = complaint_about_environment()) {
+        diagnostics.report({no_cpp_compiler, {}, *complaint});
+        return false;
+    }
     if (!runtime_include_folder()) {
         diagnostics.report(Diagnostic{.code = no_cpp_compiler,
                                       .span = {},
@@ -278,7 +305,11 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
         diagnostics.report(not_started(command.front(), errno));
         return false;
     }
-    if (result->status == 0) return true;
+    if (result->status == 0 && is_there(output)) return true;
+    if (result->status == 0) {
+        diagnostics.report(idle_compiler(command));
+        return false;
+    }
     if (!extern_headers.empty() && names_a_mistake(*result)) {
         diagnostics.report(refused(extern_headers, result->output));
         return false;

@@ -14,6 +14,9 @@ namespace rddlc {
 // program, or that of the source tree from which it was built. Nothing if there is none.
 std::optional<std::filesystem::path> runtime_include_folder();
 
+// What is wrong with RDDLC_INCLUDE or RDDL_INSTRUCTION_SET, if they are set.
+std::optional<std::string> complaint_about_environment();
+
 // For which processors: any of the architecture, or those with the vector registers of this one
 // (fewer if RDDL_INSTRUCTION_SET says so: rddl/processor.hpp).
 enum class Processors { Any, LikeThis };

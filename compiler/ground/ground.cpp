@@ -1,6 +1,7 @@
 #include "ground/ground.hpp"
 
 #include "ground/bounds.hpp"
+#include "ground/certain_faults.hpp"
 #include "ground/codes.hpp"
 #include "ground/declare.hpp"
 #include "ground/finiteness.hpp"
@@ -74,6 +75,8 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
             program.reset.push_back(lowering.definition_of(draw));
         // At the end, so that neither sites nor nodes of the simulator change with the policy.
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
+        if (diagnostics.error_count() == errors_before)
+            grounding::warn_of_certain_faults(builder, diagnostics);
     }
     report_large_tables(program, diagnostics);
     report_memory(program, memory_limit, diagnostics);

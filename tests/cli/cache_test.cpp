@@ -163,5 +163,29 @@ TEST_F(Cache, FillsTheCacheInSeveralProcessesAtOnce) {
     EXPECT_EQ(file_count(cache() / "rddlc"), 2) << "nothing else is left behind";
 }
 
+TEST_F(Program, TellsOfWrongEnvironmentVariables) {
+    const auto told = [&](const std::string& environment) {
+        const Outcome outcome = run("run domain.rddl instance.rddl --quiet", environment);
+        EXPECT_EQ(outcome.status, environment.ends_with("= ") ? 0 : 1) << environment;
+        return outcome.err;
+    };
+    EXPECT_EQ(
+        told("RDDL_INSTRUCTION_SET=foo "),
+        "rddl: error: RDDL_INSTRUCTION_SET is 'foo', which is none of sse2, avx2 and avx512\n");
+    EXPECT_EQ(told("RDDLC_INCLUDE=/nonexistent "),
+              "rddl: error: RDDLC_INCLUDE is '/nonexistent', which holds no rddl/simulator.hpp\n");
+    EXPECT_EQ(told("RDDL_INSTRUCTION_SET= "), "");
+}
+
+TEST_F(Program, TellsOfACompilerThatMakesNothing) {
+    use_own_cache();
+    const Outcome outcome = run("run domain.rddl instance.rddl --quiet", "CXX=/bin/true ");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(
+        outcome.err.starts_with("error: the C++ compiler '/bin/true' ends with status 0, "
+                                "but made no output [E0910]\n"))
+        << outcome.err;
+}
+
 }  // namespace
 }  // namespace rddlc::cli

@@ -36,6 +36,9 @@ TEST_P(MisusedProgram, SaysWhatIsWrong) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_TRUE(outcome.err.starts_with(std::string("rddl: error: ") + GetParam().message))
         << outcome.err;
+    const std::string command =
+        std::string(GetParam().arguments).substr(0, 4) == "run " ? "rddl run" : "rddl";
+    EXPECT_NE(outcome.err.find("\n'" + command), std::string::npos) << outcome.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -46,14 +49,48 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{"run domain.rddl instance.rddl --episode=3",
                            "unknown option '--episode'; did you mean '--episodes'?"},
                     Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
-                    Misuse{"run domain.rddl instance.rddl --episodes 0", "--episodes: "},
-                    Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: "},
-                    Misuse{"run domain.rddl instance.rddl --engine fast", "--engine: "},
+                    Misuse{"run domain.rddl instance.rddl --episodes 0",
+                           "--episodes: '0' is not an int from 1 to 100000000"},
+                    Misuse{"run domain.rddl instance.rddl --episodes abc",
+                           "--episodes: 'abc' is not an int from 1 to 100000000"},
+                    Misuse{"run domain.rddl instance.rddl --seed -1",
+                           "--seed: '-1' is not an int from 0 to 18446744073709551615"},
+                    Misuse{"run domain.rddl instance.rddl --seed",
+                           "--seed is given no value; expected --seed S: "},
+                    Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
+                           "--seed is given twice: '1' and '2'"},
+                    Misuse{"run domain.rddl instance.rddl --engine compield",
+                           "--engine: 'compield' is not one of compiled, interpreter; did you "
+                           "mean 'compiled'?"},
+                    Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
+                           "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
+                    Misuse{"run domain.rddl instance.rddl --json=maybe",
+                           "--json: 'maybe' is not true or false"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit abc",
+                           "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit -1",
+                           "--memory-limit: '-1' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 0",
+                           "--memory-limit: '0' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
+                           "--memory-limit: '4X' is not a size"},
+                    Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
+                           "--memory-limit: '9999999999999G' is not a size"},
                     Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
                            "--trace is given no value"},
                     Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
                     Misuse{"check", "name a problem, or say --all"},
                     Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+
+TEST_F(Program, TakesSizesWithUnits) {
+    const auto told = [&](const std::string& size) {
+        return run("info domain.rddl instance.rddl --memory-limit " + size).err;
+    };
+    for (const char* one_kilobyte : {"1024", "1k", "1K", "1KB", "1KiB", "'1 kib'", "1024b"})
+        EXPECT_EQ(told(one_kilobyte), "") << one_kilobyte;
+    EXPECT_NE(told("8").find("more than the limit of 8 bytes"), std::string::npos) << told("8");
+    EXPECT_EQ(run("info domain.rddl instance.rddl --json=false").out.find('{'), std::string::npos);
+}
 
 TEST_F(Program, TellsOfFilesWhoseNamesAreNoUtf8) {
     const std::string name = "d\xff.rddl";
@@ -99,7 +136,7 @@ TEST_F(Repository, IsListed) {
     EXPECT_NE(outcome.out.find("Tanks_water  0-1        stochastic MDP  mixed    Tanks that leak."),
               std::string::npos)
         << outcome.out;
-    EXPECT_NE(outcome.out.find("1 problems, 2 instances"), std::string::npos);
+    EXPECT_NE(outcome.out.find("1 problem, 2 instances in "), std::string::npos);
 
     const json listed = json::parse(run_there("list leak --json").out);
     ASSERT_EQ(listed.size(), 1u);
@@ -177,6 +214,39 @@ TEST_F(Program, ChecksAProblem) {
     const Outcome missing = run("check none.rddl instance.rddl");
     EXPECT_EQ(missing.status, 1);
     EXPECT_NE(missing.err.find("cannot read 'none.rddl': No such file"), std::string::npos);
+}
+
+constexpr const char* domain_alone =
+    ": no errors in the domain, 1 warning\n"
+    "no instance was given: objects, values and what depends on them were not checked\n";
+
+TEST_F(Program, ChecksADomainAlone) {
+    const Outcome good = run("check domain.rddl");
+    EXPECT_EQ(good.status, 0) << good.err;
+    EXPECT_EQ(good.out, std::string("domain.rddl") + domain_alone);
+    EXPECT_NE(good.err.find("domain.rddl:7:9: warning: "), std::string::npos) << good.err;
+
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("LEAK(?t))"), 9, "LEAK(?s))");
+    domain.replace(domain.find("power;"), 6, "true;");
+    write_file(folder_ / "bad.rddl", domain);
+    const Outcome bad = run("check bad.rddl");
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_EQ(bad.out, "");
+    for (const char* place : {"bad.rddl:13:51: error: ", "bad.rddl:15:17: error: ", "2 errors\n",
+                              "no instance was given: "})
+        EXPECT_NE(bad.err.find(place), std::string::npos) << place << '\n' << bad.err;
+
+    // Nobody else can do without, nor is a second file meant to be another domain.
+    EXPECT_EQ(run("info domain.rddl").status, 1);
+    EXPECT_EQ(run("check domain.rddl domain.rddl").status, 1);
+}
+
+TEST_F(Program, ChecksAFolderWithoutInstances) {
+    write_file(folder_ / "alone/domain.rddl", tanks_domain);
+    const Outcome outcome = run("check alone");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, std::string("alone/domain.rddl") + domain_alone);
 }
 
 TEST_F(Program, TakesBothBlocksFromOneFile) {
@@ -281,6 +351,47 @@ TEST_F(Program, KeepsGoingAfterFaults) {
     EXPECT_NE(text.out.find("first fault: " + message), std::string::npos) << text.out;
 }
 
+// The lamp faults in its first step with this probability, or in none.
+std::string faulty_problem(const std::string& chance) {
+    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
+           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
+           chance +
+           "); }; reward = 0; }\n"
+           "non-fluents n { domain = faulty; }\n"
+           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
+}
+
+TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
+    const std::string all =
+        "rddl: error: all 5 episodes faulted; the first fault: episode 0, step 1: "
+        "faulty.rddl:2:17: "
+        "Bernoulli's probability must be in [0, 1], found 1.5\n";
+    for (const char* form : {"", " --json", " --quiet", " --trace -"}) {
+        const Outcome outcome =
+            run("run faulty.rddl --episodes 5" + std::string(interpreted) + form);
+        EXPECT_EQ(outcome.status, 1) << form;
+        EXPECT_EQ(outcome.err, all) << form;
+    }
+    EXPECT_TRUE(
+        run(std::string("run faulty.rddl") + interpreted)
+            .err.starts_with("rddl: error: the only episode faulted; the first fault: episode 0"));
+}
+
+TEST_F(Program, TellsHowManyEpisodesFaulted) {
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.5"));
+    const Outcome some = run(std::string("run faulty.rddl --episodes 40 --quiet") + interpreted);
+    EXPECT_EQ(some.status, 0);
+    EXPECT_TRUE(some.err.starts_with("rddl: warning: ")) << some.err;
+    EXPECT_NE(some.err.find(" of 40 episodes faulted; the first fault: episode "),
+              std::string::npos);
+
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.0"));
+    const Outcome none = run(std::string("run faulty.rddl --episodes 40") + interpreted);
+    EXPECT_EQ(none.status, 0);
+    EXPECT_EQ(none.err, "");
+}
+
 TEST_F(Program, RefusesEndlessEpisodes) {
     write_file(folder_ / "endless.rddl",
                "domain d { pvariables { x : { state-fluent, int, default = 0 }; };\n"
@@ -308,6 +419,12 @@ TEST_F(Program, ReadsExtensionsWhereAskedFor) {
         EXPECT_NE(refused.err.find("--std=rddlc allows it"), std::string::npos) << refused.err;
     }
     EXPECT_EQ(run("check --std=rddlc random.rddl").status, 0);
+    const std::string text = random_start;
+    const std::size_t instance = text.find("non-fluents n");
+    write_file(folder_ / "many/domain.rddl", text.substr(0, instance));
+    write_file(folder_ / "many/instance1.rddl", text.substr(instance));
+    EXPECT_EQ(run("check many").status, 1);
+    EXPECT_EQ(run("check --std=rddlc many").status, 0);
     EXPECT_EQ(run("fmt --std=rddlc --stdout random.rddl").status, 0);
     const json info = run_json("info --std=rddlc random.rddl --json");
     EXPECT_EQ(info["horizon"], 0);

@@ -86,5 +86,17 @@ TEST_F(Fmt, RefusesOptionsThatContradict) {
     EXPECT_EQ(run("fmt").status, 2);
 }
 
+// As docs/commands.md says: a file is replaced as a whole, not written through.
+TEST_F(Program, FollowsSymbolicLinksAndLeavesHardOnes) {
+    const std::string text = "domain   d { pvariables { }; cpfs { }; reward = 0; }\n";
+    write_file(folder_ / "file.rddl", text);
+    std::filesystem::create_hard_link(folder_ / "file.rddl", folder_ / "hard.rddl");
+    std::filesystem::create_symlink("file.rddl", folder_ / "symbolic.rddl");
+    EXPECT_EQ(run("fmt symbolic.rddl").status, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "symbolic.rddl"));
+    EXPECT_NE(read_file(folder_ / "file.rddl"), text);
+    EXPECT_EQ(read_file(folder_ / "hard.rddl"), text);
+}
+
 }  // namespace
 }  // namespace rddlc::cli

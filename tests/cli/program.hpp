@@ -83,9 +83,9 @@ class Program : public testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out),
                 read_file(stderr_file())};
     }
-    nlohmann::json run_json(const std::string& arguments) const {
+    nlohmann::json run_json(const std::string& arguments, int status = 0) const {
         const Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.status, status) << outcome.err;
         return nlohmann::json::parse(outcome.out);
     }
     std::string stderr_file() const { return (folder_ / "stderr").string(); }

@@ -53,6 +53,9 @@ TEST_F(Replay, SetsTheStateBeforeTheStep) {
 TEST_F(Replay, RefusesALineAndGoesOn) {
     EXPECT_NE(error("{").find("parse error"), std::string::npos);
     EXPECT_EQ(error("3"), "the line is not a JSON object");
+    EXPECT_EQ(error(R"({"action": {"repair___mill": true, "repair___mill": false}})"),
+              "the member 'repair___mill' is given twice");
+    EXPECT_EQ(error(R"({"action": {}, "action": {}})"), "the member 'action' is given twice");
     EXPECT_EQ(error(R"({"actoin": {}})"), "unknown member 'actoin'; did you mean 'action'?");
     EXPECT_EQ(error(R"({"action": {"repair__mill": true}})"),
               "no action-fluent is called 'repair__mill'; did you mean 'repair___mill'?");

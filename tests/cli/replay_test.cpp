@@ -48,6 +48,8 @@ TEST_F(ReplayProgram, AnswersEveryLine) {
               "no action-fluent is called 'pump___t4'; did you mean 'pump___t1'?");
     EXPECT_EQ(answers[4]["error"], "3 action values differ from their default; at most 2 may");
     EXPECT_TRUE(answers[5].contains("error"));
+    EXPECT_EQ(answers[3]["line"], 5) << "blank lines count";
+    EXPECT_EQ(answers[5]["line"], 7);
     EXPECT_EQ(answers[6]["samples"].size(), 3u);
     EXPECT_TRUE(answers[7].contains("state"));
 }
@@ -90,6 +92,49 @@ TEST_F(ReplayProgram, RepeatsTraces) {
     }
     EXPECT_EQ(number, answers.size());
     EXPECT_EQ(episodes, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST_F(ReplayProgram, RefusesTracesOfOtherProblems) {
+    const std::string replayed = "replay domain.rddl instance.rddl --engine interpreter --input ";
+    ASSERT_EQ(run("run domain.rddl instance.rddl --engine interpreter --trace trace.jsonl --quiet")
+                  .status,
+              0);
+    EXPECT_EQ(run(replayed + "trace.jsonl").err, "");
+
+    std::string other = tanks_instance;
+    other.replace(other.find("tanks_1"), 7, "tanks_2");
+    write_file(folder_ / "other.rddl", other);
+    const Outcome foreign =
+        run("replay domain.rddl other.rddl --engine interpreter --input trace.jsonl");
+    EXPECT_EQ(foreign.status, 1);
+    EXPECT_EQ(foreign.out, "");
+    EXPECT_EQ(foreign.err,
+              "rddl: error: line 1 of the input: the trace is of instance 'tanks_1' "
+              "of domain 'tanks', not of 'tanks_2' of 'tanks'\n");
+    EXPECT_EQ(run("verify domain.rddl other.rddl --engine interpreter --no-pyrddlgym --states "
+                  "trace.jsonl")
+                  .status,
+              1);
+
+    write_file(folder_ / "version.jsonl", "\n{\"rddl_trace\": 2}\n{}\n");
+    const Outcome version = run(replayed + "version.jsonl");
+    EXPECT_EQ(version.status, 1);
+    EXPECT_EQ(version.err,
+              "rddl: error: line 2 of the input: 'rddl_trace' is 2; this program reads "
+              "version 1\n");
+}
+
+TEST_F(ReplayProgram, WarnsOfFilesThatHaveChanged) {
+    ASSERT_EQ(run("run domain.rddl instance.rddl --engine interpreter --trace trace.jsonl --quiet")
+                  .status,
+              0);
+    write_file(folder_ / "domain.rddl", std::string(tanks_domain) + "// another comment\n");
+    const Outcome changed =
+        run("replay domain.rddl instance.rddl --engine interpreter --input trace.jsonl");
+    EXPECT_EQ(changed.status, 0);
+    EXPECT_EQ(changed.err,
+              "rddl: warning: 'domain.rddl' is not the file that the trace was made "
+              "with: its steps may come out differently\n");
 }
 
 // Two pipes around the program.

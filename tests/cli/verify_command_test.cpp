@@ -67,6 +67,8 @@ TEST_F(Program, VerifiesPolicies) {
     const json report =
         run_json(std::string(interpreted) + "--policy policy.rddl --no-pyrddlgym --json");
     EXPECT_GT(report["values"]["actions"], 0);
+    EXPECT_EQ(run_json(std::string(interpreted) + "--policy noop --no-pyrddlgym --json")["agree"],
+              true);
     const Outcome none = run(std::string(interpreted) + "--policy rddl");
     EXPECT_EQ(none.status, 1);
     expect_part(none.err, "there is no policy block");

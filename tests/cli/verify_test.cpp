@@ -13,9 +13,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <span>
 
 namespace rddlc::cli {
 namespace {
@@ -214,7 +216,7 @@ TEST_F(Verify, BlamesAPassForWhatThePolicyDoes) {
     plant_wrong_pass(problem, altered(problem.plain, 16.875, 25.0));
     const OutcomeComparison comparison(problem.description());
     WalkOptions options = short_walk(problem);
-    options.policy = true;
+    options.policy = Policy::Rddl;
     const VerifyReport report = report_of(problem, comparison, options);
     ASSERT_TRUE(report.walk.disagreement);
     EXPECT_EQ(report.walk.disagreement->difference.what, Shown::Action);
@@ -222,6 +224,23 @@ TEST_F(Verify, BlamesAPassForWhatThePolicyDoes) {
     const std::string text = difference_text(report);
     expect_part(text, "the engines differ in pump(");
     expect_part(text, "pump(?t) = (?t == argmax_{?u : tank} [INFLOW(?u)]) ^ seen > 16.875;");
+}
+
+TEST_F(Verify, TakesTheDefaultActionUnderNoop) {
+    VerifiedProblem problem = load();
+    const OutcomeComparison comparison(problem.description());
+    WalkOptions options = short_walk(problem);
+    options.policy = Policy::Noop;
+    options.most_samples = 20;
+    const VerifyReport report = report_of(problem, comparison, options);
+    EXPECT_TRUE(report.agrees());
+    ASSERT_FALSE(report.walk.samples.empty());
+    const auto* const defaults =
+        static_cast<const std::byte*>(problem.description().default_action);
+    for (const StepSample& sample : report.walk.samples)
+        EXPECT_TRUE(std::ranges::equal(
+            sample.start.action,
+            std::span(defaults, static_cast<std::size_t>(problem.description().action_size))));
 }
 
 TEST_F(Verify, TellsOfAPassThatMakesNoValidProgram) {

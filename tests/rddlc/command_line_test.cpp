@@ -40,6 +40,9 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
         {"domain.rddl", "instance.rddl", "--without=everything"},
         {"--explain", "E9999"},
         {"--explain", "nonsense"},
+        {"--explain"},
+        {"domain.rddl", "instance.rddl", "--memory-limit=-1"},
+        {"domain.rddl", "instance.rddl", "-w=maybe"},
     };
     for (const auto& arguments : wrong) {
         const Result result = rddlc(arguments);
@@ -47,6 +50,15 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
         EXPECT_EQ(result.output.substr(0, 13), "rddlc: error:") << result.output;
         EXPECT_NE(result.output.find("--help"), std::string::npos);
     }
+}
+
+TEST_F(CommandLine, ListsTheDiagnostics) {
+    const Result list = rddlc({"--explain", "list"});
+    EXPECT_EQ(list.status, 0);
+    EXPECT_EQ(list.output.substr(0, 7), "E0101: ");
+    EXPECT_NE(list.output.find("\nW0601: fault for certain\n"), std::string::npos);
+    EXPECT_NE(rddlc({"--explain"}).output.find("--explain is given no value; expected --explain CODE"),
+              std::string::npos);
 }
 
 TEST_F(CommandLine, PrintsEveryForm) {
@@ -72,6 +84,17 @@ TEST_F(CommandLine, WritesTheTextToStandardOutputWithoutAnOutput) {
 TEST_F(CommandLine, ReadsBothBlocksFromOneFile) {
     write("problem.rddl", read("domain.rddl") + read("instance.rddl"));
     EXPECT_EQ(rddlc({"problem.rddl", "--check"}).status, 0);
+}
+
+TEST_F(CommandLine, ChecksADomainAlone) {
+    const Result alone = rddlc({"domain.rddl", "--check"});
+    EXPECT_EQ(alone.status, 0) << alone.output;
+    EXPECT_TRUE(alone.output.ends_with("no instance was given: objects, values and what depends on "
+                                       "them were not checked\n"))
+        << alone.output;
+    EXPECT_EQ(rddlc({"domain.rddl", "--check", "--diagnostics-format=json"}).output, "[]\n");
+    for (const char* needs_instance : {"--print=model", "--stop-after=ground", "--print=cpp"})
+        EXPECT_EQ(rddlc({"domain.rddl", needs_instance}).status, 1) << needs_instance;
 }
 
 TEST_F(CommandLine, TakesThePolicyFromAThirdFile) {

@@ -48,7 +48,11 @@ class Files(CommandTest):
         self.assert_all_refuse("/dev/null", "/dev/null", code="E0114")
 
     def test_one_file_of_two(self):
-        self.assert_all_refuse(PROBLEM[0], code="there is no instance block")
+        # A domain can be checked alone, and no more.
+        for checking in [[RDDL, "check"], [RDDLC, "--check"]]:
+            self.assertEqual(self.run_command(*checking, PROBLEM[0]).status, SUCCESS)
+        for using in [[RDDL, "info"], [RDDLC, "--print=model"], [RDDLC, "--stop-after=emit"]]:
+            self.assert_refused(self.run_command(*using, PROBLEM[0]), "there is no instance block")
         self.assert_all_refuse(PROBLEM[1], code="there is no domain block")
 
     def test_same_file_twice(self):

@@ -64,7 +64,7 @@ void expect_no_allocations(const rddl_batch_options& options) {
     }
     std::int32_t violated[environments];
     std::uint8_t masks[environments * 5];
-    rddl_fault fault;
+    rddl_fault fault{};
     ASSERT_EQ(simulator()->action_choice_count(simulator()), 5);
     simulator()->action_mask(batch.get(), nullptr, masks);
     simulator()->violated_preconditions(batch.get(), batch.actions.data(), violated);

@@ -93,6 +93,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
 }  // namespace
 
 CachedObject cached_object(const std::string& text, const CacheOptions& options) {
+    if (const auto complaint = complaint_about_environment()) throw Failure(*complaint);
     const std::string toolchain = toolchain_text();
     give_up_if_interrupted();
     const fs::path target = cache_folder() / (content_key(text, toolchain, options) + ".so");

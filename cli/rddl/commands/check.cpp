@@ -33,19 +33,24 @@ std::size_t warning_count(const Diagnostics& diagnostics) {
     return diagnostics.all().size() - diagnostics.error_count();
 }
 
+// "no errors, 1 warning", and what was not checked.
+std::string verdict(const Compilation& compilation) {
+    const std::size_t warnings = warning_count(compilation.diagnostics);
+    return fmt::format("no errors{}{}{}", compilation.is_domain_alone ? " in the domain" : "",
+                       warnings == 0 ? "" : ", " + counted(warnings, "warning"),
+                       compilation.is_domain_alone ? fmt::format("\n{}", no_instance_given) : "");
+}
+
 // External functions are only checked where somebody defines them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
-    CompileOptions front_end =
-        compile_options(files, has_externs ? Stage::Verify : Stage::Check);
+    CompileOptions front_end = check_options(files, has_externs ? Stage::Verify : Stage::Ground);
     front_end.extern_headers = extern_files(options.externs).headers;
     const Compilation compilation = compile(front_end);
     print_diagnostics(compilation);
     if (compilation.diagnostics.has_errors()) return diagnosed;
-    if (has_externs) external_library(*compilation.program, files, options);
-    const std::size_t warnings = warning_count(compilation.diagnostics);
-    fmt::print("{}: no errors{}\n", files.name,
-               warnings == 0 ? "" : fmt::format(", {}", counted(warnings, "warning")));
+    if (has_externs && compilation.program) external_library(*compilation.program, files, options);
+    fmt::print("{}: {}\n", files.name, verdict(compilation));
     return success;
 }
 
@@ -58,7 +63,7 @@ struct Outcome {
 };
 
 Outcome check_quietly(const ProblemFiles& files) {
-    const Compilation compilation = compile(compile_options(files, Stage::Check));
+    const Compilation compilation = compile(check_options(files, Stage::Ground));
     return {true, compilation.diagnostics.error_count(), warning_count(compilation.diagnostics),
             render(compilation.diagnostics, compilation.sources, {})};
 }
@@ -113,14 +118,15 @@ ExitStatus summarise(const std::vector<RepositoryProblem>& problems,
     return total.errors == 0 ? success : diagnosed;
 }
 
-ExitStatus check_problems(const std::vector<RepositoryProblem>& problems, bool verbose) {
+ExitStatus check_problems(const std::vector<RepositoryProblem>& problems,
+                          const CheckOptions& options) {
     std::vector<ProblemFiles> files;
     for (const RepositoryProblem& problem : problems)
         for (const std::string& instance : problem.instances)
-            files.push_back(find_instance(problem, instance));
+            files.push_back(options.problem.with_options(find_instance(problem, instance)));
     const std::vector<Outcome> outcomes = check_many(files);
     for (const Outcome& outcome : outcomes)
-        if (outcome.errors > 0 || verbose) tell(outcome.text);
+        if (outcome.errors > 0 || options.verbose) tell(outcome.text);
     return summarise(problems, outcomes);
 }
 
@@ -128,15 +134,21 @@ ExitStatus check(const CheckOptions& options) {
     const ProblemArguments& problem = options.problem;
     if (options.all) {
         if (!problem.first.empty())
-            throw Failure("--all checks the whole repository; name no problem", "", usage_error);
-        return check_problems(require_repository().problems, options.verbose);
+            throw UsageError("--all checks the whole repository; name no problem");
+        return check_problems(require_repository().problems, options);
     }
-    if (problem.first.empty()) throw Failure("name a problem, or say --all", "", usage_error);
-    if (problem.second.empty() && std::filesystem::is_directory(problem.first))
-        return check_problems({problem_in(problem.first)}, options.verbose);
+    if (problem.first.empty()) throw UsageError("name a problem, or say --all");
+    if (problem.second.empty() && std::filesystem::is_directory(problem.first)) {
+        const RepositoryProblem found = problem_in(problem.first);
+        const std::filesystem::path domain = found.domain_file();
+        if (found.instances.empty())
+            return check_one(problem.with_options({domain.string(), domain, std::nullopt}),
+                             options.load);
+        return check_problems({found}, options);
+    }
     if (problem.second.empty() && !is_path(problem.first)) {
         const Repository repository = require_repository();
-        return check_problems({find_problem(repository, problem.first)}, options.verbose);
+        return check_problems({find_problem(repository, problem.first)}, options);
     }
     return check_one(problem.files(), options.load);
 }
@@ -152,6 +164,7 @@ Command check_command() {
         "The exit status is 1 if there are errors. 'rddlc --explain E0203' explains a code.\n\n"
         "Examples:\n"
         "  rddl check domain.rddl instance.rddl\n"
+        "  rddl check domain.rddl                what can be checked without an instance\n"
         "  rddl check Wildfire_MDP_ippc2014      all instances of a problem\n"
         "  rddl check my_problem/                all instances in a folder\n"
         "  rddl check --all                      the whole of rddlrepository";

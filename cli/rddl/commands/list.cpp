@@ -103,8 +103,11 @@ void print_table(const std::vector<ListedProblem>& all, const Repository& reposi
                        kind_text(listed), actions_text(listed),
                        shortened(listed.problem.description, description_width)});
     if (!table.empty()) fmt::print("{}\n", table.text());
-    fmt::print("{} problems, {} instances in {}\n", all.size(), instance_count(all),
-               repository.folder.string());
+    const auto counted = [](auto count, std::string_view what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    fmt::print("{}, {} in {}\n", counted(all.size(), "problem"),
+               counted(instance_count(all), "instance"), repository.folder.string());
 }
 
 void print_descriptions(const std::vector<ListedProblem>& all) {

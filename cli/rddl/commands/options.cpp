@@ -2,10 +2,15 @@
 
 #include "driver/driver.hpp"
 
+#include <fmt/format.h>
+
 namespace rddlc::cli {
 
 ProblemFiles ProblemArguments::files() const {
-    ProblemFiles files = find_files(first, second);
+    return with_options(find_files(first, second));
+}
+
+ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
     files.standard = standard;
     files.memory_limit = memory_limit;
     return files;
@@ -72,6 +77,34 @@ void add_engine_options(Command& command, LoadOptions& options) {
                })
         .choices = {"double", "float"};
     add_cache_option(command, options);
+}
+
+namespace {
+
+void choose_policy(const std::string& name, Policy& policy,
+                   std::optional<std::filesystem::path>& file) {
+    for (const Policy each : {Policy::Random, Policy::Noop, Policy::Rddl}) {
+        if (name_of(each) != name) continue;
+        policy = each;
+        file.reset();
+        return;
+    }
+    if (!is_path(name))
+        throw UsageError(
+            fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
+    policy = Policy::Rddl;
+    file = name;
+}
+
+}  // namespace
+
+void add_policy_option(Command& command, Policy& policy,
+                       std::optional<std::filesystem::path>& file) {
+    add_option(command, "--policy", "POLICY",
+               "random (default): legal random actions; noop: default actions; rddl: the policy "
+               "block of the problem; FILE: the policy block in it",
+               [&](const std::string& name) { choose_policy(name, policy, file); })
+        .suggestions = {"random", "noop", "rddl"};
 }
 
 void add_preconditions_option(Command& command, Preconditions& preconditions) {

@@ -5,10 +5,13 @@
 #include "command_line/command_line.hpp"
 #include "engines/load_simulator.hpp"
 #include "problems/problem_lookup.hpp"
+#include "rollouts/rollouts.hpp"
 #include "rollouts/violations.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace rddlc::cli {
@@ -25,6 +28,8 @@ struct ProblemArguments {
     std::int64_t memory_limit = default_memory_limit;
 
     ProblemFiles files() const;
+    // Others, read as the options say.
+    ProblemFiles with_options(ProblemFiles files) const;
 };
 // These, --std and --memory-limit.
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required = true);
@@ -57,6 +62,10 @@ void add_cache_option(Command& command, LoadOptions& options);
 
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
+
+// --policy; of a file its policy block
+void add_policy_option(Command& command, Policy& policy,
+                       std::optional<std::filesystem::path>& file);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);

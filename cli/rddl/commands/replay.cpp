@@ -2,15 +2,20 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/line_stream.hpp"
+#include "formats/trace.hpp"
 #include "rollouts/replay_session.hpp"
 #include "rollouts/violations.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace rddlc::cli {
 
@@ -50,6 +55,27 @@ class ViolationLog {
     std::size_t count_ = 0;
 };
 
+// The first trace whose files had another text tells so, for all.
+class ChangedFiles {
+  public:
+    explicit ChangedFiles(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
+
+    void see_header(const nlohmann::json& header) {
+        if (is_told_) return;
+        for (const auto& file : changed_files(header, files_)) {
+            tell(
+                "rddl: warning: '{}' is not the file that the trace was made with: its steps may "
+                "come out differently\n",
+                file.string());
+            is_told_ = true;
+        }
+    }
+
+  private:
+    std::vector<std::filesystem::path> files_;
+    bool is_told_ = false;
+};
+
 ExitStatus replay(const ReplayCommandOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     UsedFiles used = problem.used;
@@ -59,6 +85,10 @@ ExitStatus replay(const ReplayCommandOptions& options) {
     ReplayOptions session_options = options.session;
     session_options.explain = [&](const Violation& violation) {
         return log.add(violation);
+    };
+    ChangedFiles changed(problem.files.inputs());
+    session_options.see_header = [&](const nlohmann::json& header) {
+        changed.see_header(header);
     };
     ReplaySession session(*problem.simulator, session_options);
     while (const auto line = input.next()) output.write(session.answer(*line));

@@ -33,31 +33,6 @@ struct RunOptions {
     bool quiet = false;
 };
 
-std::string_view name_of(Policy policy) {
-    switch (policy) {
-        case Policy::Random:
-            return "random";
-        case Policy::Noop:
-            return "noop";
-        case Policy::Rddl:
-            break;
-    }
-    return "rddl";
-}
-
-void choose_policy(RunOptions& options, const std::string& name) {
-    for (const Policy policy : {Policy::Random, Policy::Noop, Policy::Rddl}) {
-        if (name_of(policy) != name) continue;
-        options.rollouts.policy = policy;
-        return;
-    }
-    if (!is_path(name))
-        throw UsageError(
-            fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
-    options.rollouts.policy = Policy::Rddl;
-    options.policy_file = name;
-}
-
 struct Summary {
     Statistics undiscounted_return, discounted_return, length;
     std::int64_t episodes = 0;  // finished ones
@@ -107,6 +82,22 @@ void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
 
 std::string fault_line(const EpisodeFault& fault) {
     return fmt::format("{}: {}", when(fault), fault.message);
+}
+
+bool all_faulted(const Summary& summary) {
+    return summary.faulted > 0 && summary.faulted == summary.episodes;
+}
+
+// Who sees no summary learns of it here.
+void report_faults(const Summary& summary, const EpisodeFault& first) {
+    if (summary.faulted == 0) return;
+    const std::string_view severity = all_faulted(summary) ? "error" : "warning";
+    const std::string episodes = grouped(summary.episodes);
+    const std::string who =
+        !all_faulted(summary) ? fmt::format("{} of {} episodes", grouped(summary.faulted), episodes)
+        : summary.episodes == 1 ? "the only episode"
+                                : fmt::format("all {} episodes", episodes);
+    tell("rddl: {}: {} faulted; the first fault: {}\n", severity, who, fault_line(first));
 }
 
 std::string illegal_actions_line(std::int64_t count, Preconditions preconditions) {
@@ -255,7 +246,9 @@ ExitStatus run(const RunOptions& options) {
         print_json(options, summary, rollouts, problem, explainer);
     else if (!options.quiet && options.trace != "-")
         print_summary(options, summary, rollouts, problem, explainer);
-    if (!is_interrupted()) return summary.refused > 0 ? diagnosed : success;
+    if (rollouts.first_fault) report_faults(summary, *rollouts.first_fault);
+    const bool failed = summary.refused > 0 || all_faulted(summary);
+    if (!is_interrupted()) return failed ? diagnosed : success;
     tell("rddl: interrupted after {} of {} episodes\n", summary.episodes,
          options.rollouts.episodes);
     return interrupted;
@@ -281,11 +274,7 @@ Command run_command() {
         "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl";
     add_problem_arguments(command, options->problem);
-    add_option(command, "--policy", "POLICY",
-               "random (default): legal random actions; noop: default actions; rddl: the policy "
-               "block of the problem; FILE: the policy block in it",
-               [options](const std::string& name) { choose_policy(*options, name); })
-        .suggestions = {"random", "noop", "rddl"};
+    add_policy_option(command, options->rollouts.policy, options->policy_file);
     RolloutOptions& rollouts = options->rollouts;
     add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
                                     1, 100'000'000);

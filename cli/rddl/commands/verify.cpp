@@ -33,7 +33,7 @@ struct VerifyOptions {
     std::optional<std::filesystem::path> policy_file;
     LoadOptions load;
     EngineChoice engines;
-    bool policy = false;
+    Policy policy = Policy::Random;
     std::int64_t steps = 20'000;
     double seconds = 10;
     std::uint64_t seed = 0;
@@ -104,7 +104,7 @@ ExitStatus verify(const VerifyOptions& options) {
                                       : invalid_program_text(problem, words));
         return diagnosed;
     }
-    if (options.policy) require_policy(problem);
+    if (options.policy == Policy::Rddl) require_policy(problem);
     const OutcomeComparison comparison(problem.description());
     VerifyReport report{
         problem, comparison, words, options.seed, walk(problem, comparison, options, begin),
@@ -124,14 +124,6 @@ ExitStatus verify(const VerifyOptions& options) {
     return interrupted;
 }
 
-void choose_policy(VerifyOptions& options, const std::string& name) {
-    options.policy = name != "random";
-    if (name == "random" || name == "rddl") return;
-    if (!is_path(name))
-        throw UsageError(fmt::format("--policy: '{}' is neither random, rddl nor a file", name));
-    options.policy_file = name;
-}
-
 void add_amount_options(Command& command, VerifyOptions& options) {
     add_number_option<std::int64_t>(command, "--steps", "N", "Steps, at most (20000)",
                                     options.steps, 1, std::int64_t{1} << 40);
@@ -142,10 +134,7 @@ void add_amount_options(Command& command, VerifyOptions& options) {
     add_text_option(command, "--states", "FILE",
                     "Step from the states of this file instead: a trace, or lines for rddl replay",
                     options.states);
-    add_option(command, "--policy", "POLICY",
-               "random (default): random actions; rddl: the policy block of the problem; FILE: "
-               "the policy block in it",
-               [&options](const std::string& name) { choose_policy(options, name); });
+    add_policy_option(command, options.policy, options.policy_file);
 }
 
 void add_compared_options(Command& command, VerifyOptions& options) {

@@ -1,6 +1,10 @@
 #include "formats/json_text.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <unordered_set>
+#include <vector>
 
 namespace rddlc::cli {
 
@@ -11,6 +15,21 @@ std::string text_of(const nlohmann::ordered_json& value, int indent) {
 }
 
 }  // namespace
+
+nlohmann::json parse_json(std::string_view text) {
+    using nlohmann::json;
+    std::vector<std::unordered_set<std::string>> members;  // of the objects around, outermost first
+    const auto see = [&](int, json::parse_event_t event, json& parsed) {
+        if (event == json::parse_event_t::object_start) members.emplace_back();
+        if (event == json::parse_event_t::object_end) members.pop_back();
+        if (event == json::parse_event_t::key &&
+            !members.back().insert(parsed.get_ref<const std::string&>()).second)
+            throw RepeatedMember(fmt::format("the member '{}' is given twice",
+                                             parsed.get_ref<const std::string&>()));
+        return true;
+    };
+    return json::parse(text, see);
+}
 
 std::string json_line(const nlohmann::ordered_json& value) {
     return text_of(value, -1);

@@ -8,24 +8,72 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 namespace rddlc::cli {
+
+namespace {
+
+constexpr int format_version = 1;
+
+// Of the header or of one of its files; empty if it is absent or no text.
+std::string text_of(const nlohmann::json& object, const char* member) {
+    const auto found = object.find(member);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::set<std::string> hashes_of(const nlohmann::json& header) {
+    std::set<std::string> hashes;
+    const auto files = header.find("files");
+    if (files == header.end() || !files->is_array()) return hashes;
+    for (const auto& file : *files)
+        if (file.is_object()) hashes.insert(text_of(file, "sha256"));
+    return hashes;
+}
+
+}  // namespace
+
+std::optional<std::string> complaint_about_header(const nlohmann::json& header,
+                                                  const rddl_problem& problem) {
+    const auto& version_of_trace = header.at("rddl_trace");
+    if (version_of_trace != format_version)
+        return fmt::format("'rddl_trace' is {}; this program reads version {}",
+                           json_line(version_of_trace), format_version);
+    const auto differs = [&](const char* member, const char* ours) {
+        const std::string theirs = text_of(header, member);
+        return !theirs.empty() && theirs != ours;
+    };
+    if (!differs("domain", problem.domain) && !differs("instance", problem.instance))
+        return std::nullopt;
+    return fmt::format("the trace is of instance '{}' of domain '{}', not of '{}' of '{}'",
+                       text_of(header, "instance"), text_of(header, "domain"), problem.instance,
+                       problem.domain);
+}
+
+std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
+                                                 const std::vector<std::filesystem::path>& files) {
+    const std::set<std::string> known = hashes_of(header);
+    std::vector<std::filesystem::path> changed;
+    for (const auto& file : files) {
+        // What came through a pipe cannot be read again.
+        const bool is_readable = std::filesystem::is_regular_file(file);
+        if (is_readable && !known.empty() && !known.contains(sha256_of_file(file)))
+            changed.push_back(file);
+    }
+    return changed;
+}
 
 std::string trace_header_line(const TraceHeader& header, const rddl_problem& problem) {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const auto& path : header.files)
         files.push_back({{"path", path.string()}, {"sha256", sha256_of_file(path)}});
-    const nlohmann::ordered_json line{{"rddl_trace", 1},
-                                      {"rddlc", version},
-                                      {"problem", header.problem},
-                                      {"domain", problem.domain},
-                                      {"instance", problem.instance},
-                                      {"files", files},
-                                      {"policy", header.policy},
-                                      {"engine", header.engine},
-                                      {"seed", header.seed},
-                                      {"episodes", header.episodes},
-                                      {"horizon", header.horizon},
-                                      {"discount", problem.discount}};
+    const nlohmann::ordered_json line{
+        {"rddl_trace", format_version}, {"rddlc", version},
+        {"problem", header.problem},    {"domain", problem.domain},
+        {"instance", problem.instance}, {"files", files},
+        {"policy", header.policy},      {"engine", header.engine},
+        {"seed", header.seed},          {"episodes", header.episodes},
+        {"horizon", header.horizon},    {"discount", problem.discount}};
     return json_line(line) + '\n';
 }
 

@@ -5,9 +5,12 @@
 
 #include <rddl/simulator.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,14 @@ struct TraceHeader {
     std::int64_t episodes = 0;
     std::int64_t horizon = 0;  // in force; 0: none
 };
+
+// Why steps of a trace with this header cannot be made in the problem: another version of the
+// format, or another problem. What the header does not say is no complaint.
+std::optional<std::string> complaint_about_header(const nlohmann::json& header,
+                                                  const rddl_problem& problem);
+// Those whose text is none of the header's files.
+std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
+                                                 const std::vector<std::filesystem::path>& files);
 
 // With the line break.
 std::string trace_header_line(const TraceHeader& header, const rddl_problem& problem);

@@ -20,11 +20,17 @@ CompileOptions compile_options(const ProblemFiles& files, Stage last) {
     return options;
 }
 
+CompileOptions check_options(const ProblemFiles& files, Stage last) {
+    CompileOptions options = compile_options(files, last);
+    options.domain_may_stand_alone = true;
+    return options;
+}
+
 void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = tells_in_color();
     tell(render(compilation.diagnostics, compilation.sources, options));
-    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation.diagnostics));
+    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation));
 }
 
 Compilation compile_or_give_up(const CompileOptions& options) {

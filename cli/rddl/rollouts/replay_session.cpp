@@ -1,6 +1,8 @@
 #include "rollouts/replay_session.hpp"
 
 #include "engines/faults.hpp"
+#include "formats/json_text.hpp"
+#include "formats/trace.hpp"
 #include "support/diagnostic.hpp"
 
 #include <rddl/random.hpp>
@@ -106,12 +108,17 @@ ReplaySession::ReplaySession(const rddl_simulator& simulator, ReplayOptions opti
       initial_state_(state()) {}
 
 std::string ReplaySession::answer(std::string_view line) {
+    ++line_;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
     std::string message;
     try {
-        return answer_object(json::parse(line));
+        return answer_object(parse_json(line));
     } catch (const json::exception& error) {
         message = message_of(error);
+    } catch (const RepeatedMember& error) {
+        message = error.what();
+    } catch (const ForeignTrace&) {
+        throw;
     } catch (const Refusal& refusal) {
         message = refusal.message;
     } catch (const Failure& failure) {  // such as a lack of memory: the next line may need less
@@ -119,7 +126,7 @@ std::string ReplaySession::answer(std::string_view line) {
     }
     std::string out = R"({"error":)";
     write_string(out, message);
-    return out + "}\n";
+    return out + fmt::format(",\"line\":{}}}\n", line_);
 }
 
 std::string ReplaySession::answer_object(const json& line) {
@@ -145,6 +152,9 @@ std::string ReplaySession::answer_object(const json& line) {
 
 // The trace's own seed and horizon, so that replaying it gives the same steps again.
 void ReplaySession::read_header(const json& header) {
+    if (const auto complaint = complaint_about_header(header, problem_))
+        throw ForeignTrace(fmt::format("line {} of the input: {}", line_, *complaint));
+    if (options_.see_header) options_.see_header(header);
     const auto seed = read_seed(header);
     const auto horizon = read_count(header, "horizon", 0, std::numeric_limits<std::int64_t>::max());
     if (!options_.seed && seed) seed_ = *seed;

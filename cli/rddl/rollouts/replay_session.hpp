@@ -4,6 +4,7 @@
 #include "engines/batch.hpp"
 #include "formats/records_json.hpp"
 #include "rollouts/violations.hpp"
+#include "support/failure.hpp"
 
 #include <rddl/simulator.h>
 
@@ -26,6 +27,14 @@ struct ReplayOptions {
     Preconditions preconditions = Preconditions::Ignore;
     // Tells what is wrong, in one line; called for each violated precondition.
     std::function<std::string(const Violation&)> explain = {};
+    // Sees the header of each trace that is replayed.
+    std::function<void(const nlohmann::json&)> see_header = {};
+};
+
+// The input is a trace of another problem, or in another version of the format: none of its lines
+// means what it says.
+struct ForeignTrace : Failure {
+    using Failure::Failure;
 };
 
 class ReplaySession {
@@ -33,7 +42,8 @@ class ReplaySession {
     // `simulator` must outlive the session.
     ReplaySession(const rddl_simulator& simulator, ReplayOptions options);
 
-    // The answer with its line break; empty for blank lines and a trace's header.
+    // The answer with its line break; empty for blank lines and a trace's header. May throw a
+    // ForeignTrace.
     std::string answer(std::string_view line);
 
   private:
@@ -78,6 +88,7 @@ class ReplaySession {
     std::uint64_t seed_;
     std::int64_t horizon_;  // in force; 0: none
     RecordLayout state_layout_, action_layout_, observation_layout_;
+    std::int64_t line_ = 0;         // the number of the last one, from 1 on
     std::int64_t environment_ = 0;  // identity of the one that is stepped
     std::int64_t next_sample_;      // identity of the next environment that draws a sample
     Batch batch_;

@@ -356,6 +356,18 @@ std::int64_t batch_size(const RolloutOptions& options, const rddl_simulator& sim
 
 }  // namespace
 
+std::string_view name_of(Policy policy) {
+    switch (policy) {
+        case Policy::Random:
+            return "random";
+        case Policy::Noop:
+            return "noop";
+        case Policy::Rddl:
+            break;
+    }
+    return "rddl";
+}
+
 Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
                       const TraceSink& trace, bool progress) {
     Rollouts rollouts;

@@ -13,12 +13,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rddlc::cli {
 
 // Rddl: the policy block of the problem, which must have one.
 enum class Policy { Random, Noop, Rddl };
+std::string_view name_of(Policy policy);  // "random", ...
 
 struct RolloutOptions {
     Policy policy = Policy::Random;

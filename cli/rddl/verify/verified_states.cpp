@@ -1,6 +1,8 @@
 #include "verify/verified_states.hpp"
 
+#include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
+#include "formats/trace.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -38,6 +40,19 @@ bool is_number(const RecordEntry& entry) {
 double number_at(const Record& record, const RecordEntry& entry) {
     if (entry.fluent->scalar == RDDL_REAL) return load<double>(record, entry.offset);
     return static_cast<double>(load<std::int64_t>(record, entry.offset));
+}
+
+// `refuse` throws.
+json read_line(const std::string& text, const auto& refuse) {
+    json line;
+    try {
+        line = parse_json(text);
+    } catch (const json::exception&) {
+    } catch (const RepeatedMember& error) {
+        refuse(error.what());
+    }
+    if (!line.is_object()) refuse("it is not a JSON object");
+    return line;
 }
 
 }  // namespace
@@ -125,9 +140,11 @@ std::vector<RecordedState> read_states(const std::filesystem::path& file,
     while (const auto text = reader.next()) {
         ++number;
         if (text->find_first_not_of(" \t\r") == std::string::npos) continue;
-        const json line = json::parse(*text, nullptr, false);
-        if (!line.is_object()) refuse("it is not a JSON object");
-        if (line.contains("rddl_trace")) continue;
+        const json line = read_line(*text, refuse);
+        if (line.contains("rddl_trace")) {
+            if (const auto complaint = complaint_about_header(line, problem)) refuse(*complaint);
+            continue;
+        }
         if (!line.contains("state")) refuse("it has no state");
         RecordedState& step = recorded.emplace_back(RecordedState{initial_state, {}});
         if (const auto message = states.read(line["state"], step.state.data())) refuse(*message);

@@ -125,16 +125,31 @@ class Walker {
     // ------------------------------------------------------------------------------ what they do
 
     void choose_actions() {
-        if (options_.policy)
-            ask_policies();
-        else
-            draw_actions();
+        switch (options_.policy) {
+            case Policy::Random:
+                draw_actions();
+                break;
+            case Policy::Noop:
+                leave_defaults();
+                break;
+            case Policy::Rddl:
+                ask_policies();
+                break;
+        }
         const auto size = static_cast<std::size_t>(problem_.action_size);
         for (std::size_t i = 0; i < count(); ++i) {
             std::byte* const action = actions_.data() + i * size;
             if (recorded_action_[i]) std::copy_n(recorded_action_[i]->data(), size, action);
             starts_[i].action.assign(action, action + size);
         }
+    }
+
+    void leave_defaults() {
+        const auto* const defaults = static_cast<const std::byte*>(problem_.default_action);
+        actions_.clear();
+        for (std::size_t i = 0; i < count(); ++i)
+            actions_.insert(actions_.end(), defaults, defaults + problem_.action_size);
+        if (actions_.empty()) actions_.resize(1);
     }
 
     void ask_policies() {

@@ -2,6 +2,7 @@
 // step.
 #pragma once
 
+#include "rollouts/rollouts.hpp"
 #include "rollouts/step_outcome.hpp"
 #include "verify/blame_pass.hpp"
 #include "verify/verified_engine.hpp"
@@ -19,7 +20,7 @@ struct WalkOptions {
     std::uint64_t seed = 0;
     std::int64_t steps = 0;  // of all environments together, about
     std::chrono::steady_clock::time_point end = std::chrono::steady_clock::time_point::max();
-    bool policy = false;                  // the policy block acts, not random actions
+    Policy policy = Policy::Random;       // who acts
     std::vector<RecordedState> recorded;  // if any, each is stepped from once, and nothing else
     std::size_t most_samples = 0;
     bool progress = false;

@@ -1,0 +1,17 @@
+// What a word of the command line means to an option.
+#pragma once
+
+#include "command_line/command_line.hpp"
+
+#include <string>
+
+namespace rddlc::cli {
+
+// What Option::take gets for this word. A word that the option does not take is a UsageError, which
+// says what is expected.
+std::string value_of(const Option& option, const std::string& word);
+
+// "--seed is given no value; expected --seed S: Seed of all random numbers (0)"
+UsageError no_value_for(const Option& option);
+
+}  // namespace rddlc::cli

@@ -1,0 +1,13 @@
+// Draws and operators that fault whenever they are evaluated, such as Bernoulli(1.5).
+#pragma once
+
+#include "ir/builder.hpp"
+#include "support/diagnostic.hpp"
+
+namespace rddlc::grounding {
+
+// Warns of those in the program whose parameters the instance fixes, and which fault for every
+// object in scope. Whether a run ever gets there nobody knows, so they are no errors.
+void warn_of_certain_faults(const ir::Builder& builder, Diagnostics& diagnostics);
+
+}  // namespace rddlc::grounding
