@@ -287,6 +287,19 @@ inline constexpr rddl_fluent fluents[] = {
      offsetof(Action<rddl::Scalar>, push_right), nullptr, nullptr, {source_file, 38, 9}},
 };
 
+inline constexpr rddl::Constants constants[] = {
+    rddl::constant<double>(0, 9.8),        // GRAVITY
+    rddl::constant<double>(1, 1.0),        // CART-MASS
+    rddl::constant<double>(2, 0.1),        // POLE-MASS
+    rddl::constant<double>(3, 0.5),        // POLE-LENGTH
+    rddl::constant<double>(4, 5e-04),      // CART-FRICTION
+    rddl::constant<double>(5, 2e-06),      // POLE-FRICTION
+    rddl::constant<double>(6, 10.0),       // PUSH-FORCE
+    rddl::constant<double>(7, 0.02),       // TIME-STEP
+    rddl::constant<double>(8, 2.4),        // TRACK-LIMIT
+    rddl::constant<double>(9, 0.2094384),  // ANGLE-LIMIT
+};
+
 inline constexpr rddl_condition terminations[] = {
     {"abs[position] > TRACK-LIMIT", {source_file, 84, 9}},
     {"abs[angle] > ANGLE-LIMIT", {source_file, 85, 9}},
@@ -300,6 +313,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "cart_pole",
     .instance = "cart_pole_1",
     .types = nullptr,
@@ -309,6 +326,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 0,
     .default_action = &default_action,
@@ -328,7 +346,8 @@ inline constexpr rddl_problem problem = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, {}, Engine());
+    constexpr rddl::About description{about::problem, {}, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

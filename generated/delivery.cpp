@@ -344,6 +344,17 @@ inline constexpr rddl_fluent fluents[] = {
      nullptr, nullptr, {source_file, 51, 9}},
 };
 
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, ROAD_),           // ROAD
+    rddl::constants(1, STEEP_),          // STEEP
+    rddl::constants(2, ORIGIN_),         // ORIGIN
+    rddl::constants(3, DESTINATION_),    // DESTINATION
+    rddl::constants(4, PRICE_),          // PRICE
+    rddl::constants(5, CHANGE_),         // CHANGE
+    rddl::constant<double>(6, 1.0),      // DRIVE-COST
+    rddl::constant<std::int64_t>(7, 2),  // CAPACITY
+};
+
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ "
      "position(?v) == ORIGIN(?p)) ]",
@@ -364,6 +375,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "delivery",
     .instance = "delivery_1",
     .types = types,
@@ -373,6 +388,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 1,
     .default_action = &default_action,
@@ -401,7 +417,8 @@ inline constexpr rddl::Site sites[] = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

@@ -337,6 +337,28 @@ inline constexpr rddl_fluent fluents[] = {
     {"clear", RDDL_ACTION, RDDL_BOOL, -1, 2, of_xpos_ypos, 25,
      offsetof(Action<rddl::Scalar>, clear), nullptr, nullptr, {source_file, 46, 9}},
 };
+// clang-format on
+
+inline constexpr std::array<std::int64_t, 5> X_values_ = {1, 2, 3, 4, 5};
+inline constexpr std::array<std::int64_t, 5> Y_values_ = {1, 2, 3, 4, 5};
+inline constexpr std::array<std::int64_t, 3> HOUSE_places_ = {20, 22, 24};
+
+// clang-format off
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, X_values_),             // X
+    rddl::constants(1, Y_values_),             // Y
+    rddl::constants(2, false, HOUSE_places_),  // HOUSE
+    rddl::constants(3, CLEARING_),             // CLEARING
+    rddl::constant<double>(4, 0.12),           // SPREAD
+    rddl::constant<double>(5, 0.2),            // WIND
+    rddl::constant<std::int64_t>(6, 1),        // WIND-X
+    rddl::constant<std::int64_t>(7, 0),        // WIND-Y
+    rddl::constant<double>(8, 5e-04),          // LIGHTNING
+    rddl::constant<double>(9, 0.15),           // BURN-OUT
+    rddl::constant<double>(10, 1.0),           // FIRE-COST
+    rddl::constant<double>(11, 50.0),          // HOUSE-COST
+    rddl::constant<double>(12, 0.5),           // CREW-COST
+};
 
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]", {source_file, 77, 9}},
@@ -358,6 +380,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "fire",
     .instance = "fire_1",
     .types = types,
@@ -367,6 +393,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 1,
     .default_action = &default_action,
@@ -395,7 +422,8 @@ inline constexpr rddl::Site sites[] = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

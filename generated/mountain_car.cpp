@@ -244,6 +244,36 @@ inline constexpr rddl_fluent fluents[] = {
      {source_file, 45, 9}},
 };
 
+inline constexpr std::array<double, 9> LEFT_X_values_ = {
+    -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4
+};
+
+inline constexpr std::array<double, 9> LEFT_Y_values_ = {
+    0.443, -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932
+};
+
+inline constexpr std::array<double, 9> RIGHT_X_values_ = {
+    -1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6
+};
+
+inline constexpr std::array<double, 9> RIGHT_Y_values_ = {
+    -0.141, -0.675, -0.974, -0.932, -0.565, 0, 0.565, 0.932, 0.974
+};
+
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, LEFT_X_values_),     // LEFT-X
+    rddl::constants(1, LEFT_Y_values_),     // LEFT-Y
+    rddl::constants(2, RIGHT_X_values_),    // RIGHT-X
+    rddl::constants(3, RIGHT_Y_values_),    // RIGHT-Y
+    rddl::constant<double>(4, -1.2),        // WALL
+    rddl::constant<double>(5, 0.5),         // FLAG
+    rddl::constant<double>(6, 0.0015),      // POWER
+    rddl::constant<double>(7, 0.00083333),  // GRAVITY
+    rddl::constant<double>(8, 0.07),        // MAX-SPEED
+    rddl::constant<double>(9, 0.1),         // FUEL-COST
+    rddl::constant<double>(10, 100.0),      // FLAG-REWARD
+};
+
 inline constexpr rddl_condition preconditions[] = {
     {"throttle >= -1.0", {source_file, 75, 9}},
     {"throttle <= 1.0", {source_file, 76, 9}},
@@ -261,6 +291,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "mountain_car",
     .instance = "mountain_car_1",
     .types = types,
@@ -270,6 +304,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 0,
     .default_action = &default_action,
@@ -289,7 +324,8 @@ inline constexpr rddl_problem problem = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, {}, Engine());
+    constexpr rddl::About description{about::problem, {}, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

@@ -173,6 +173,18 @@ inline constexpr rddl_fluent fluents[] = {
 };
 // clang-format on
 
+inline constexpr std::array<std::int64_t, 8> LINK_places_ = {1, 10, 19, 28, 37, 46, 55, 56};
+
+// clang-format off
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, false, LINK_places_),  // LINK
+    rddl::constant<double>(1, 0.45),          // ALONE-UP
+    rddl::constant<double>(2, 0.5),           // AROUND-UP
+    rddl::constant<double>(3, 0.05),          // REPAIR
+    rddl::constant<double>(4, 0.75),          // REBOOT-COST
+};
+// clang-format on
+
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
     rddl::assign(action.reboot, false);
@@ -180,6 +192,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "network",
     .instance = "network_1",
     .types = types,
@@ -189,6 +205,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 1,
     .default_action = &default_action,
@@ -217,7 +234,8 @@ inline constexpr rddl::Site sites[] = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

@@ -247,6 +247,14 @@ inline constexpr rddl_fluent fluents[] = {
     {"open", RDDL_ACTION, RDDL_BOOL, -1, 1, of_plot, 3, offsetof(Action<rddl::Scalar>, open),
      nullptr, nullptr, {source_file, 26, 9}},
 };
+
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, CAPACITY_),    // CAPACITY
+    rddl::constants(1, RUNS_TO_),     // RUNS-TO
+    rddl::constant<double>(2, 6.0),   // VALVE-RATE
+    rddl::constant<double>(3, 0.1),   // PRICE
+    rddl::constant<double>(4, 12.0),  // THIRSTY-BELOW
+};
 // clang-format on
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
@@ -256,6 +264,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "orchard",
     .instance = "orchard_1",
     .types = types,
@@ -265,6 +277,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 1,
     .default_action = &default_action,
@@ -289,7 +302,8 @@ inline constexpr rddl::Site sites[] = {
 
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
-    static const rddl::SimulatorTable<Engine> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine> table(description, Engine());
     return table.get();
 }
 

@@ -275,6 +275,24 @@ inline constexpr rddl_fluent fluents[] = {
     {"release", RDDL_ACTION, RDDL_REAL, -1, 1, of_basin, 4, offsetof(Action<rddl::Scalar>, release),
      release_lower.data(), release_upper.data(), {source_file, 43, 9}},
 };
+// clang-format on
+
+inline constexpr std::array<std::int64_t, 3> FLOWS_TO_places_ = {1, 7, 11};
+
+// clang-format off
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, false, FLOWS_TO_places_),  // FLOWS-TO
+    rddl::constants(1, CAPACITY_),                // CAPACITY
+    rddl::constants(2, SAFE_LOW_),                // SAFE-LOW
+    rddl::constants(3, SAFE_HIGH_),               // SAFE-HIGH
+    rddl::constants(4, RAIN_CHANCE_),             // RAIN-CHANCE
+    rddl::constant<double>(5, 2.0),               // RAIN-SHAPE
+    rddl::constants(6, RAIN_SCALE_),              // RAIN-SCALE
+    rddl::constant<double>(7, 0.02),              // EVAPORATION
+    rddl::constant<double>(8, 5.0),               // LOW-COST
+    rddl::constant<double>(9, 10.0),              // HIGH-COST
+    rddl::constant<double>(10, 50.0),             // SPILL-COST
+};
 
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?b : basin} [release(?b) >= 0.0]", {source_file, 71, 9}},
@@ -294,6 +312,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "reservoir",
     .instance = "reservoir_1",
     .types = types,
@@ -303,6 +325,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(State<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 0,
     .stochastic = 1,
     .default_action = &default_action,
@@ -331,7 +354,8 @@ inline constexpr rddl::Site sites[] = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

@@ -397,6 +397,23 @@ inline constexpr rddl_fluent fluents[] = {
      turn_lower.data(), turn_upper.data(), {source_file, 58, 9}},
 };
 
+inline constexpr rddl::Constants constants[] = {
+    rddl::constants(0, BEACON_X_),      // BEACON-X
+    rddl::constants(1, BEACON_Y_),      // BEACON-Y
+    rddl::constant<double>(2, 8.0),     // GOAL-X
+    rddl::constant<double>(3, 8.0),     // GOAL-Y
+    rddl::constant<double>(4, 0.5),     // GOAL-RADIUS
+    rddl::constant<double>(5, 10.0),    // FIELD
+    rddl::constant<double>(6, 0.02),    // DRIVE-VARIANCE
+    rddl::constant<double>(7, 0.01),    // TURN-VARIANCE
+    rddl::constant<double>(8, 6.0),     // REACH
+    rddl::constant<double>(9, 0.05),    // RANGE-DEVIATION
+    rddl::constant<double>(10, 0.05),   // BUMPER-FAILURE
+    rddl::constant<double>(11, 1.0),    // STEP-COST
+    rddl::constant<double>(12, 5.0),    // WALL-COST
+    rddl::constant<double>(13, 100.0),  // GOAL-REWARD
+};
+
 inline constexpr rddl_condition preconditions[] = {
     {"drive >= -1.0", {source_file, 100, 9}},
     {"drive <= 1.0", {source_file, 101, 9}},
@@ -417,6 +434,10 @@ inline constexpr Action<rddl::Scalar> default_action = [] {
 }();
 
 inline constexpr rddl_problem problem = {
+    .struct_size = sizeof(rddl_problem),
+    .type_size = sizeof(rddl_type),
+    .fluent_size = sizeof(rddl_fluent),
+    .condition_size = sizeof(rddl_condition),
     .domain = "robot",
     .instance = "robot_1",
     .types = types,
@@ -426,6 +447,7 @@ inline constexpr rddl_problem problem = {
     .state_size = sizeof(State<rddl::Scalar>),
     .action_size = sizeof(Action<rddl::Scalar>),
     .observation_size = sizeof(Observation<rddl::Scalar>),
+    .interm_size = 0,
     .partially_observed = 1,
     .stochastic = 1,
     .default_action = &default_action,
@@ -457,7 +479,8 @@ inline constexpr rddl::Site sites[] = {
 inline const rddl_simulator* simulator() {
     using Engine = rddl::Compiled<Simulator, about::problem>;
     using Packed = rddl::Packed<Simulator, about::problem, 16>;
-    static const rddl::SimulatorTable<Engine, Packed> table(about::problem, about::sites, Engine());
+    constexpr rddl::About description{about::problem, about::sites, about::constants};
+    static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
 }
 

@@ -140,7 +140,7 @@ const Command& command_in(const Command& program, std::span<char* const> words) 
 
 const Option* option_named(const Command& command, const std::string& name) {
     for (const Option& option : command.options)
-        for (const std::string& each : split(option.names))
+        for (const std::string& each : names_of(option))
             if (option.kind != OptionKind::Argument && each == name) return &option;
     return nullptr;
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "emit/emit.hpp"
-#include "ir/ir.hpp"
 #include "ir/details.hpp"
+#include "ir/ir.hpp"
 #include "model/model.hpp"
 #include "passes/passes.hpp"
 #include "support/diagnostic.hpp"
@@ -74,7 +74,7 @@ struct Compilation {
     bool is_domain_alone = false;  // no instance was given, and none was needed
     std::optional<model::Model> model;
     std::optional<ir::Program> program;  // optimised, if it came so far
-    std::optional<ir::Details> details;      // if they are wanted
+    std::optional<ir::Details> details;  // if they are wanted
     std::string text;                    // the emitted C++
     std::string declaration;             // of what it exports
     std::string printed;                 // the forms asked for, in the order of the stages

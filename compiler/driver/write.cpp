@@ -52,7 +52,8 @@ void write_outputs(const CompileOptions& options, const OutputTexts& texts, Used
         else
             write_file(*options.output, texts.cpp, used);
         if (diagnostics.has_errors()) return;
-        if (options.declaration_file) write_file(*options.declaration_file, texts.declaration, used);
+        if (options.declaration_file)
+            write_file(*options.declaration_file, texts.declaration, used);
         if (options.dependency_file)
             write_file(*options.dependency_file, dependency_rule(options), used);
     } catch (const UnwritableFile& failure) {

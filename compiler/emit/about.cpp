@@ -254,8 +254,8 @@ class Describer {
             if (fluent.role != Role::NonFluent) continue;
             const ConstantText text = constants_of(unit_, index, scope_);
             if (!text.tables.empty()) add(text.tables);
-            lines.push_back({std::string(indentation, ' ') + text.value + ",",
-                             comment_text(fluent.name)});
+            lines.push_back(
+                {std::string(indentation, ' ') + text.value + ",", comment_text(fluent.name)});
         }
         if (lines.empty()) return;
         add("// clang-format off\ninline constexpr rddl::Constants constants[] = {\n" +
@@ -363,9 +363,8 @@ class Describer {
     void sites() {
         std::vector<std::vector<std::string>> table;
         for (const ir::Site& site : unit_.program.sites) {
-            table.push_back(
-                {source(site.span), literal(std::string_view(site.what)),
-                 scope_table(unit_.program, site.scope)});
+            table.push_back({source(site.span), literal(std::string_view(site.what)),
+                             scope_table(unit_.program, site.scope)});
         }
         rows("rddl::Site", "sites", table);
     }
@@ -412,14 +411,12 @@ bool has_packs(const Unit& unit) {
 std::string table_definition(const Unit& unit, bool has_details) {
     const bool has_constants =
         std::ranges::count(unit.program.fluents, Role::NonFluent, &ir::Fluent::role) > 0;
-    std::vector<std::string> arguments = {
-        "{about::problem", unit.program.sites.empty() ? "{}" : "about::sites",
-        has_constants ? "about::constants" : "{}"};
+    std::vector<std::string> parts = {"about::problem",
+                                      unit.program.sites.empty() ? "{}" : "about::sites",
+                                      has_constants ? "about::constants" : "{}"};
     if (unit.program.policy || has_details)
-        arguments.push_back(unit.program.policy ? "&about::policy" : "nullptr");
-    if (has_details) arguments.push_back("&about::step_details");
-    arguments.back() += "}";
-    arguments.push_back("Engine()");
+        parts.push_back(unit.program.policy ? "&about::policy" : "nullptr");
+    if (has_details) parts.push_back("&about::step_details");
     const std::string engines = has_packs(unit) ? "Engine, Packed" : "Engine";
     std::string text;
     if (has_packs(unit)) {
@@ -428,10 +425,10 @@ std::string table_definition(const Unit& unit, bool has_details) {
                             unit.options.lane_count, floats ? ", float" : "");
     }
     for (const std::string& line :
-         fill_call("static const rddl::SimulatorTable<" + engines + "> table(", arguments, ");",
-                   indentation)) {
+         fill_call("constexpr rddl::About description{", parts, "};", indentation))
         text += std::string(indentation, ' ') + line + "\n";
-    }
+    text +=
+        "    static const rddl::SimulatorTable<" + engines + "> table(description, Engine());\n";
     return text;
 }
 

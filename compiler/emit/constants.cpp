@@ -28,8 +28,8 @@ std::optional<std::string> emitted_table(const Unit& unit, std::size_t index) {
 
 std::string array(ir::Scalar scalar, const std::string& name, const Values& values) {
     const auto count = static_cast<std::int64_t>(values.size());
-    const std::string type = "std::array<" + table_type(scalar, RealType::Double) + ", " +
-                             std::to_string(count) + ">";
+    const std::string type =
+        "std::array<" + table_type(scalar, RealType::Double) + ", " + std::to_string(count) + ">";
     return table("inline constexpr " + type + " " + name, std::span(&count, 1), values,
                  RealType::Double);
 }
@@ -52,9 +52,9 @@ ConstantText sparse(const ir::Fluent& fluent, const std::string& number, Scope& 
         return {tables, "rddl::constants(" + number + ", " + common + ", " + places_name + ")"};
     const std::string name = scope.claim(fluent.name, marks::values);
     const std::string type = table_type(fluent.scalar, RealType::Double);
-    return {tables + array(fluent.scalar, name, others),
-            "rddl::constants<" + type + ">(" + number + ", " + common + ", " + places_name + ", " +
-                name + ")"};
+    return {tables + array(fluent.scalar, name, others), "rddl::constants<" + type + ">(" + number +
+                                                             ", " + common + ", " + places_name +
+                                                             ", " + name + ")"};
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ struct EmitOptions {
     std::vector<std::string> extern_headers = {};
 };
 
-// The whole text, formatted. `program` must be verified. `details` are of the same problem, or null.
+// The whole text, formatted. `program` must be verified. `details` are of the same problem, or
+// null.
 std::string emit(const ir::Program& program, const Sources& sources, const EmitOptions& options,
                  const ir::Details* details = nullptr);
 

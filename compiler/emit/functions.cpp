@@ -356,23 +356,14 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
            parted.parts;
 }
 
-// By BufferId: how many of its elements are drawn when an episode starts.
-std::vector<std::int64_t> draw_counts(const ir::Program& program) {
-    std::vector<std::int64_t> counts(program.buffers.size(), 0);
-    for (const ir::Definition& definition : program.reset) ++counts[definition.target.index];
-    return counts;
-}
-
 }  // namespace
 
 std::string assignments(const Unit& unit, ir::Storage storage, const std::string& record,
                         int levels) {
     std::string text;
-    const std::vector<std::int64_t> draws = draw_counts(unit.program);
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const ir::Buffer& buffer = unit.program.buffers[index];
         if (buffer.storage != storage || buffer.values.empty()) continue;
-        if (draws[index] == buffer.count()) continue;
         const std::string target = record + "." + unit.names.buffers[index];
         const std::string& table = unit.names.initial[index];
         const std::string value =
@@ -386,8 +377,7 @@ std::string assignments(const Unit& unit, ir::Storage storage, const std::string
 
 std::string record_aliases(const Unit& unit, const std::vector<std::string>& records) {
     std::string text;
-    for (const std::string& record : records)
-        text += alias(unit, record, record);
+    for (const std::string& record : records) text += alias(unit, record, record);
     return text;
 }
 
@@ -405,8 +395,8 @@ std::string reset_function(const Unit& unit) {
     const Uses& uses = body.uses();
     const Parameter state = record_parameter(ir::Storage::State, has_values || uses.state, true);
     if (draws.empty()) return function("void", "reset", {state, context_parameter(uses)}, text);
-    return function("void", "initial_state", {state}, text) +
-           "\n" + indented("// With what is drawn at random.", level) +
+    return function("void", "initial_state", {state}, text) + "\n" +
+           indented("// With what is drawn at random.", level) +
            function("void", "reset", {state, context_parameter(uses)},
                     type_aliases(body.lines()) + (uses.scratch ? own_scratch() : "") +
                         indented("initial_state(state);", level + 1) + draws);

@@ -9,9 +9,8 @@
 namespace rddlc::cpp {
 
 // The records by the names that the runtime looks for.
-std::string record_aliases(const Unit& unit,
-                           const std::vector<std::string>& records = {"State", "Action", "Scratch",
-                                                                      "Observation"});
+std::string record_aliases(const Unit& unit, const std::vector<std::string>& records = {
+                                                 "State", "Action", "Scratch", "Observation"});
 
 std::string reset_function(const Unit& unit);
 std::string reward_function(const Unit& unit);

@@ -117,9 +117,8 @@ class DetailsBuilder {
     }
     ir::VariableId variable_over(std::uint32_t type) {
         const ir::ObjectType& objects = program_.types[type];
-        program_.variables.push_back({.name = objects.name.substr(0, 1),
-                                      .type = type,
-                                      .size = std::ssize(objects.objects)});
+        program_.variables.push_back(
+            {.name = objects.name.substr(0, 1), .type = type, .size = std::ssize(objects.objects)});
         return {static_cast<std::uint32_t>(program_.variables.size() - 1)};
     }
     std::vector<ir::NodeId> indices(const std::vector<ir::VariableId>& variables) {

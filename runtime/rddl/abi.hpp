@@ -206,6 +206,10 @@ class Functions {
         }
     }
     static rddl_batch* failed_batch(rddl_error) { return nullptr; }
+    // Whether an array of records is needed and not there.
+    static bool lacks(const void* records, std::int64_t count, std::int64_t size) {
+        return records == nullptr && count > 0 && size > 0;
+    }
     static rddl_error missing(std::string_view what) { return bad_argument(what, " is missing"); }
 
     static void destroy(rddl_batch* batch) {
@@ -251,9 +255,11 @@ class Functions {
             return handle(batch).use([&](auto& environments) {
                 const Columns& columns = environments.action_columns();
                 const std::int64_t count = environments.environment_count();
-                if (columns.value_count > 0 && rows == nullptr) return missing("the actions");
+                if (columns.value_count > 0 && rows == nullptr)
+                    return refused_records("actions", nullptr);
                 if (columns.value_count > 0 && !values_are_valid(columns, rows, count))
-                    return bad_argument("an action is nan, or the index of no object");
+                    return bad_argument(
+                        "an action is nan, the index of no object, or beyond the ints");
                 environments.step_values(rows, static_cast<Number*>(observations), *out);
                 return RDDL_OK;
             });
@@ -382,7 +388,9 @@ class Functions {
 
     static rddl_error get_state(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                 void* states) {
-        if (states == nullptr) return missing("the room for states");
+        if (batch == nullptr) return missing("the batch");
+        if (lacks(states, count, handle(batch).problem().state_size))
+            return missing("the room for states");
         return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
             const std::int64_t size = handle(batch).problem().state_size;
             all.get_state(i, static_cast<std::byte*>(states) + k * size);
@@ -391,7 +399,9 @@ class Functions {
 
     static rddl_error get_observation(const rddl_batch* batch, std::int64_t begin,
                                       std::int64_t count, void* records) {
-        if (records == nullptr) return missing("the room for observations");
+        if (batch == nullptr) return missing("the batch");
+        if (lacks(records, count, handle(batch).problem().observation_size))
+            return missing("the room for observations");
         return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
             const std::int64_t size = handle(batch).problem().observation_size;
             all.get_observation(i, static_cast<std::byte*>(records) + k * size);
@@ -400,7 +410,9 @@ class Functions {
 
     static rddl_error set_state(rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                 const void* states, const std::int64_t* steps) {
-        if (batch == nullptr || states == nullptr) return missing("the batch or the states");
+        if (batch == nullptr) return missing("the batch");
+        if (lacks(states, count, handle(batch).problem().state_size))
+            return refused_records("states", nullptr);
         if (const rddl_error error = handle(batch).check(begin, count)) return error;
         for (std::int64_t k = 0; steps != nullptr && k < count; ++k)
             if (steps[k] < 0) return bad_argument("a count of steps is negative: ", steps[k]);
@@ -461,8 +473,7 @@ class Functions {
                                    std::int64_t* steps, std::int64_t* episodes) {
         return for_each(batch, begin, count, [&](const auto& all, std::int64_t k, std::int64_t i) {
             if (steps != nullptr) steps[k] = all.steps(i);
-            if (episodes != nullptr)
-                episodes[k] = std::max<std::int64_t>(all.episode_number(i), 0);
+            if (episodes != nullptr) episodes[k] = std::max<std::int64_t>(all.episode_number(i), 0);
         });
     }
 
@@ -495,8 +506,9 @@ class Functions {
 
     static rddl_error get_interm(const rddl_batch* batch, std::int64_t begin, std::int64_t count,
                                  void* records) {
-        if (batch == nullptr || records == nullptr)
-            return missing("the batch or the room for records");
+        if (batch == nullptr) return missing("the batch");
+        if (lacks(records, count, handle(batch).problem().interm_size))
+            return missing("the room for records");
         if (const rddl_error error = handle(batch).check(begin, count)) return error;
         const Details* const details = handle(batch).maker->details;
         if (details == nullptr)
@@ -559,7 +571,7 @@ class Functions {
             }
         });
     }
-    // "reservoir.rddl:52:9: precondition violated: release(?r) <= rlevel(?r) (at ?r = t2)"
+    // "domain.rddl:52:9: precondition violated: release(?r) <= rlevel(?r) (at ?r = t2)"
     static rddl_violation violation_of(const Parts& maker, std::int32_t violated,
                                        const std::byte* state, const std::byte* action,
                                        Context<Scalar> context) {
@@ -584,7 +596,7 @@ class Functions {
 
     static rddl_error get_constants(const rddl_simulator* simulator, std::int32_t fluent,
                                     std::int64_t begin, std::int64_t count, void* values) {
-        if (simulator == nullptr || values == nullptr)
+        if (simulator == nullptr || lacks(values, count, 1))
             return missing("the simulator or the room for values");
         const rddl_problem& problem = *simulator->problem;
         if (fluent < 0 || fluent >= problem.fluent_count)
@@ -625,7 +637,7 @@ class Functions {
         }
     }
     static rddl_error initial_state(const rddl_simulator* simulator, void* state) {
-        if (simulator == nullptr || state == nullptr)
+        if (simulator == nullptr || lacks(state, 1, simulator->problem->state_size))
             return missing("the simulator or the room for the state");
         try {
             write_initial_state(*static_cast<const Parts*>(simulator->self),

@@ -63,9 +63,13 @@ struct Environment {
     explicit Environment(const rddl_problem& problem, std::size_t memory_size)
         : state(1, static_cast<std::size_t>(problem.state_size)),
           observation(1, static_cast<std::size_t>(problem.observation_size)),
-          memory(1, memory_size) {}
+          memory(1, memory_size),
+          last_state(1, static_cast<std::size_t>(problem.state_size)),
+          last_action(1, static_cast<std::size_t>(problem.action_size)) {}
 
     Records state, observation, memory;
+    Records last_state, last_action;
+    std::optional<Context<Scalar>> last_step;  // nothing: it has made none, or does not keep it
     Episodes<Scalar> episode;
     Stream stream{};
 };
@@ -186,6 +190,7 @@ class Batch {
     void set_state(std::int64_t i, const std::byte* record, const std::int64_t* steps) {
         read_record(L{}, state_columns_, record, state(i / width), lane_of(i));
         if (steps != nullptr) set_lane(at(i).steps, lane_of(i), *steps);
+        set_lane(at(i).has_fault, lane_of(i), false);
         end_if_terminal(*engine_, at(i), only(i), state(i / width));
         if (steps != nullptr && *steps >= blocks_.horizon && !(causes(i) & RDDL_FAULTED))
             set_lane(at(i).ends.beyond_horizon, lane_of(i), true);
@@ -211,6 +216,11 @@ class Batch {
             copy_record(to.memory[0], memories_[i / width], memory_size(*engine_));
         to.episode = at(i).of(lane_of(i));
         if (!streams_.empty()) to.stream = streams_[index(i)];
+        to.last_step.reset();
+        if (!keeps_steps()) return;
+        to.last_step = last_steps_[index(i)];
+        copy_record(to.last_state[0], last_states_[i], state_size());
+        copy_record(to.last_action[0], last_actions_[i], action_size());
     }
     void set_environment(std::int64_t i, const Environment& from) {
         const int lane = lane_of(i);
@@ -222,6 +232,10 @@ class Batch {
             copy_record(memories_[i / width], from.memory[0], memory_size(*engine_));
         at(i).set(lane, from.episode);
         if (!streams_.empty()) streams_[index(i)] = from.stream;
+        if (!keeps_steps()) return;
+        last_steps_[index(i)] = from.last_step;
+        copy_record(last_states_[i], from.last_state[0], state_size());
+        copy_record(last_actions_[i], from.last_action[0], action_size());
     }
 
     // -------------------------------------------------------------- all environments
@@ -286,8 +300,7 @@ class Batch {
     std::int64_t violated_precondition(std::int64_t i, const std::byte* action) {
         Workspace& workspace = workspaces_.front();
         read_record(L{}, action_columns_, action, workspace.action[0], lane_of(i));
-        return get_lane(violated_precondition_of_block(i / width, workspace.action[0]),
-                        lane_of(i));
+        return get_lane(violated_precondition_of_block(i / width, workspace.action[0]), lane_of(i));
     }
     // The context in which the environment's next step is evaluated.
     Context<Scalar> context_of_next_step(std::int64_t i) const {
@@ -324,7 +337,7 @@ class Batch {
         for_each_block([&](Workspace& workspace, std::int64_t b) {
             std::uint8_t* const rows = masks + b * width * choices;
             const int lanes = lanes_of(b);
-            std::array<std::int64_t, width> changed;
+            std::array<std::int64_t, width> changed{};
             for (int lane = 0; lane < lanes; ++lane) {
                 std::byte* const action = copy_of_action(workspace, actions, b, lane);
                 changed[index(lane)] = count_non_default(*problem_, action);
@@ -334,7 +347,7 @@ class Batch {
                 rows[lane * choices] =
                     get_lane(stands, lane) && is_within_limit(changed[index(lane)]);
             for_each_choice(*problem_, [&](std::int64_t choice, const Change& change) {
-                std::array<std::int64_t, width> before;
+                std::array<std::int64_t, width> before{};
                 for (int lane = 0; lane < lanes; ++lane)
                     before[index(lane)] = change.exchange(workspace.choices[lane], change.value);
                 const Bool legal = satisfies_preconditions(workspace, b);
@@ -342,8 +355,8 @@ class Batch {
                     const std::int64_t old = before[index(lane)];
                     const std::int64_t others =
                         changed[index(lane)] - (old != change.default_value);
-                    rows[lane * choices + choice] = get_lane(legal, lane) && old != change.value &&
-                                                    is_within_limit(others + 1);
+                    rows[lane * choices + choice] =
+                        get_lane(legal, lane) && old != change.value && is_within_limit(others + 1);
                     change.exchange(workspace.choices[lane], old);
                 }
             });
@@ -376,7 +389,8 @@ class Batch {
 
     std::vector<Workspace> make_workspaces() const {
         std::vector<Workspace> workspaces;
-        for (int k = 0; k < options_.thread_count; ++k) workspaces.emplace_back(*engine_, *problem_);
+        for (int k = 0; k < options_.thread_count; ++k)
+            workspaces.emplace_back(*engine_, *problem_);
         return workspaces;
     }
 
@@ -412,6 +426,9 @@ class Batch {
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
 
+    // Of records of the C interface.
+    std::size_t state_size() const { return static_cast<std::size_t>(problem_->state_size); }
+    std::size_t action_size() const { return static_cast<std::size_t>(problem_->action_size); }
     std::size_t count() const { return static_cast<std::size_t>(options_.environment_count); }
     std::size_t block_count() const {
         return static_cast<std::size_t>((options_.environment_count - 1) / width + 1);
@@ -498,8 +515,7 @@ class Batch {
         merge(L{}, observation_columns_, lanes, workspace.observation[0], observations_[b]);
     }
 
-    typename L::Int violated_precondition_of_block(std::int64_t b,
-                                                   const std::byte* actions) const {
+    typename L::Int violated_precondition_of_block(std::int64_t b, const std::byte* actions) const {
         const Episodes<L>& episodes = episodes_[index(b)];
         Context<L> context = episodes.context_of_step(episodes.present);
         return engine_->violated_precondition(state(b), actions, context);
@@ -623,8 +639,7 @@ class Batch {
             const std::int64_t i = b * width + lane;
             if (out.final_observations != nullptr)
                 get_observation(i, row(out.final_observations, observation_columns_, i));
-            if (out.final_states != nullptr)
-                get_state(i, row(out.final_states, state_columns_, i));
+            if (out.final_states != nullptr) get_state(i, row(out.final_states, state_columns_, i));
             if (out.final_observation_values == nullptr || !workspace.number) return;
             if (*workspace.number == RDDL_FLOAT)
                 write_final_values(static_cast<float*>(out.final_observation_values), i);
@@ -646,9 +661,9 @@ class Batch {
     const rddl_problem* problem_;
     BatchOptions options_;
     Columns state_columns_, action_columns_, observation_columns_;
-    Records states_;        // two for each block
-    Records observations_;  // blocks; none when fully observed
-    Records memories_;      // of the policy; none without one
+    Records states_;               // two for each block
+    Records observations_;         // blocks; none when fully observed
+    Records memories_;             // of the policy; none without one
     std::vector<Stream> streams_;  // of each environment; none if nothing is drawn
     // Of each environment, if they are kept.
     std::vector<std::optional<Context<Scalar>>> last_steps_;

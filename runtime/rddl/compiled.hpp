@@ -60,7 +60,8 @@ struct Compiled {
 
     static void initial_state(std::byte* state) requires requires(State& initial) {
         Simulator::initial_state(initial);
-    } { Simulator::initial_state(as<State>(state)); }
+    }
+    { Simulator::initial_state(as<State>(state)); }
 
     static typename L::Real step(const std::byte* state, const std::byte* action,
                                  std::byte* scratch, std::byte* next, std::byte* observation,

@@ -46,14 +46,17 @@ inline std::optional<rddl_column> column_at(const rddl_problem& problem, rddl_ro
         const bool is_limited = fluent.scalar == RDDL_BOOL || objects > 0;
         const auto last = static_cast<double>(fluent.scalar == RDDL_BOOL ? 1 : objects - 1);
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        return rddl_column{
-            .struct_size = sizeof(rddl_column),
-            .fluent = f,
-            .grounding = column,
-            .scalar = fluent.scalar,
-            .object_count = static_cast<std::int32_t>(objects),
-            .lower = is_limited ? 0.0 : fluent.lower != nullptr ? fluent.lower[column] : -infinity,
-            .upper = is_limited ? last : fluent.upper != nullptr ? fluent.upper[column] : infinity};
+        return rddl_column{.struct_size = sizeof(rddl_column),
+                           .fluent = f,
+                           .grounding = column,
+                           .scalar = fluent.scalar,
+                           .object_count = static_cast<std::int32_t>(objects),
+                           .lower = is_limited                ? 0.0
+                                    : fluent.lower != nullptr ? fluent.lower[column]
+                                                              : -infinity,
+                           .upper = is_limited                ? last
+                                    : fluent.upper != nullptr ? fluent.upper[column]
+                                                              : infinity};
     }
     return std::nullopt;
 }
@@ -65,8 +68,7 @@ inline void write_constants(const Constants& constants, std::int64_t begin, std:
         [&]<class T>(const ConstantValues<T>& values) {
             for (std::int64_t k = 0; k < count; ++k) {
                 const T value = values.at(begin + k);
-                std::memcpy(to + k * static_cast<std::int64_t>(sizeof value), &value,
-                            sizeof value);
+                std::memcpy(to + k * static_cast<std::int64_t>(sizeof value), &value, sizeof value);
             }
         },
         constants.values);

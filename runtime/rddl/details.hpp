@@ -26,8 +26,8 @@ struct Details {
     std::size_t interm_size, record_size, scratch_size;
     std::span<const ConditionPlaces> preconditions;
 
-    // Fills the record; state and action are records of the C interface, with plain bools. After a
-    // fault it holds what was computed before.
+    // Fills the record; state and action are records of the C interface, with plain bools. What is
+    // computed from a draw or operator at fault means nothing.
     void (*compute)(const void* self, const std::byte* state, const std::byte* action,
                     std::byte* scratch, std::byte* record, Context<Scalar>& context);
     const void* self = nullptr;
@@ -41,17 +41,20 @@ constexpr Details details_of(std::size_t interm_size,
     using Action = typename Simulator::template Action<Scalar>;
     using Scratch = typename Step::template Scratch<Scalar>;
     using Record = typename Step::template Observation<Scalar>;
+    struct Room {
+        Scratch scratch;
+        State no_next_state;
+    };
     return {.interm_size = interm_size,
             .record_size = sizeof(Record),
-            .scratch_size = sizeof(Scratch),
+            .scratch_size = sizeof(Room),
             .preconditions = preconditions,
             .compute = [](const void*, const std::byte* state, const std::byte* action,
                           std::byte* scratch, std::byte* record, Context<Scalar>& context) {
-                State no_next_state;
+                Room& room = *reinterpret_cast<Room*>(scratch);
                 Step::step(*reinterpret_cast<const State*>(state),
-                           *reinterpret_cast<const Action*>(action),
-                           *reinterpret_cast<Scratch*>(scratch), no_next_state,
-                           *reinterpret_cast<Record*>(record), context);
+                           *reinterpret_cast<const Action*>(action), room.scratch,
+                           room.no_next_state, *reinterpret_cast<Record*>(record), context);
             }};
 }
 

@@ -22,7 +22,7 @@ namespace rddl {
 // The sizes of records, and the conditions on states.
 template <class E>
 concept StateEngine = requires(const E engine, const std::byte* record, std::byte* target,
-                                  Context<typename E::Lane>& context) {
+                               Context<typename E::Lane>& context) {
     // Bytes of one record; 0 for an empty one. Scratch is whatever a step needs beside them.
     { engine.state_size() } -> std::convertible_to<std::size_t>;
     { engine.action_size() } -> std::convertible_to<std::size_t>;
@@ -38,9 +38,8 @@ concept StateEngine = requires(const E engine, const std::byte* record, std::byt
 };
 
 template <class E>
-concept Engine = StateEngine<E> &&
-    requires(const E engine, const std::byte* record, std::byte* target,
-             Context<typename E::Lane>& context) {
+concept Engine = StateEngine<E> && requires(const E engine, const std::byte* record,
+                                            std::byte* target, Context<typename E::Lane>& context) {
     // reset(state, context): the initial values.
     {engine.reset(target, context)};
     // step(state, action, scratch, next, observation, context): fills the next state, and the

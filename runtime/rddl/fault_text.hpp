@@ -91,7 +91,7 @@ inline void describe_objects(FixedText& text, std::span<const SiteVariable> scop
 
 }  // namespace detail
 
-// "reservoir.rddl:52:9: precondition violated: release(?r) <= rlevel(?r)", on one line.
+// "domain.rddl:52:9: precondition violated: release(?r) <= rlevel(?r)", on one line.
 inline void describe_violation(FixedText& text, const rddl_condition& condition) {
     text << condition.source.file << ":" << std::int64_t{condition.source.line} << ":"
          << std::int64_t{condition.source.column} << ": precondition violated:";

@@ -36,16 +36,21 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
-// Every number must be one, and every object value the index of an object.
+// Every number must be one, every object value the index of an object, and every int one of 64
+// bits.
 template <class Number>
 bool values_are_valid(const Columns& columns, const Number* rows, std::int64_t row_count) {
+    const auto is_valid = [](const Column& column, Number value) {
+        if (column.limit > 0)
+            return value > Number(-0.5) && value < Number(column.limit) - Number(0.5);
+        if (column.scalar == RDDL_INT) return value > Number(-0x1p63) && value < Number(0x1p63);
+        return value == value;
+    };
     bool valid = true;
     for (std::int64_t i = 0; i < row_count; ++i, rows += columns.value_count)
         for (const Column& column : columns.list)
             for (std::int64_t k = column.first; k < column.first + column.count; ++k)
-                valid &= column.limit > 0 ? rows[k] > Number(-0.5) &&
-                                                rows[k] < Number(column.limit) - Number(0.5)
-                                          : rows[k] == rows[k];
+                valid &= is_valid(column, rows[k]);
     return valid;
 }
 

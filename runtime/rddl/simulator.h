@@ -13,10 +13,11 @@
  * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
  * does not exist are refused with RDDL_BAD_ARGUMENT.
  *
- * Sizes. Structs grow at their ends only, and each tells its size. Who fills in a struct sets
- * struct_size to its sizeof; 0 means as long as in version 3.0, so that a struct of zeros is right.
- * Structs in arrays grow, too: element k of an array lies k * ..._size bytes behind its beginning
- * (rddl_fluent_at and its like). Who compiles with the simulator's own header may write array[k].
+ * Sizes. Structs grow at their ends only, and each tells its size. The caller sets
+ * struct_size of every struct that it passes, also of those that a call fills, to the sizeof; 0
+ * means as long as in version 3.0, so that a struct of zeros is right. Structs in arrays grow, too:
+ * element k of an array lies k * ..._size bytes behind its beginning (rddl_fluent_at and its like).
+ * Who compiles with the simulator's own header may write array[k].
  *
  * Alignment. Arrays of numbers are aligned for their elements; records may lie anywhere, and those
  * that are aligned to 8 bytes are read quickest.
@@ -92,8 +93,8 @@ typedef struct {
 
 typedef struct {
     uint32_t struct_size;
-    uint32_t type_size; /* of an element of types, */
-    uint32_t fluent_size; /* of fluents, */
+    uint32_t type_size;      /* of an element of types, */
+    uint32_t fluent_size;    /* of fluents, */
     uint32_t condition_size; /* and of preconditions, invariants and terminations */
     const char* domain;
     const char* instance;
@@ -104,7 +105,7 @@ typedef struct {
     int64_t state_size; /* bytes of one record */
     int64_t action_size;
     int64_t observation_size; /* equals state_size when not partially observed */
-    int64_t interm_size; /* of get_interm; 0 without details (rddlc --details) */
+    int64_t interm_size;      /* of get_interm; 0 without details (rddlc --details) */
     int32_t partially_observed;
     int32_t stochastic;         /* 1: something is drawn at random, in a step or at reset */
     const void* default_action; /* one action record */
@@ -170,10 +171,10 @@ typedef struct {
                                   and the identity, never on batch size, place, threads or ranks */
     uint64_t seed;
     rddl_autoreset autoreset;
-    int32_t lane_count; /* environments stepped together in vector registers: 0: what suits the
-                           batch; else 1 or the simulator's lane_count. Trajectories do not depend
-                           on it. */
-    int64_t horizon;    /* steps; 0: the instance's; RDDL_NO_HORIZON: none */
+    int32_t lane_count;  /* environments stepped together in vector registers: 0: what suits the
+                            batch; else 1 or the simulator's lane_count. Trajectories do not depend
+                            on it. */
+    int64_t horizon;     /* steps; 0: the instance's; RDDL_NO_HORIZON: none */
     int32_t keeps_steps; /* 1: the batch remembers the last step of each environment (get_interm) */
 } rddl_batch_options;
 
@@ -216,7 +217,8 @@ typedef struct {
     uint32_t struct_size;
     int32_t precondition; /* the first one; -1: none, and the rest is unset then */
     rddl_source source;
-    char message[512]; /* names the condition and, with details, the first objects that violate it */
+    char message[512]; /* names the condition and, with details, the first objects that violate
+                          it: those of the foralls that it begins with, unless they are too many */
 } rddl_violation;
 
 /* What a choice changes (action_choice). */
@@ -275,13 +277,14 @@ struct rddl_simulator {
     rddl_error (*get_state)(const rddl_batch*, int64_t begin, int64_t count, void* states);
     rddl_error (*get_observation)(const rddl_batch*, int64_t begin, int64_t count, void* records);
     /* The episodes go on from these states, after so many steps (NULL: as many as before), which
-     * are not negative. An ended episode runs again, unless the new state terminates or the steps
-     * reach the horizon. What the policy remembers stays as it is. */
+     * are not negative. An ended episode runs again, unless the new state terminates or these steps
+     * reach the horizon; without steps it makes one more even there. What was observed, what the
+     * policy remembers and the last step (get_interm) stay as they are. */
     rddl_error (*set_state)(rddl_batch*, int64_t begin, int64_t count, const void* states,
                             const int64_t* steps);
 
     /* Steps made in the current episode, and episodes ended before it (since the batch was created,
-     * or since seeds were set); either may be NULL. */
+     * or since seeds were set, when one that was under way is not counted); either may be NULL. */
     rddl_error (*get_progress)(const rddl_batch*, int64_t begin, int64_t count, int64_t* steps,
                                int64_t* episodes);
     /* The causes of the current episode's end (RDDL_RUNNING while it runs). */
@@ -293,7 +296,8 @@ struct rddl_simulator {
     rddl_batch* (*copy)(const rddl_batch*);
     /* Makes environments [begin, begin + count) such copies of environments sources[0 .. count) of
      * `from` (NULL: of the first ones), one after the other. `from` is a batch of the same
-     * simulator, and may be the same batch. Horizon and autoreset stay those of `to`. */
+     * simulator, and may be the same batch. Horizon and autoreset stay those of `to`; the next step
+     * looks at them. The last step is copied, too, where both batches keep steps. */
     rddl_error (*copy_environments)(rddl_batch* to, int64_t begin, int64_t count,
                                     const rddl_batch* from, const int64_t* sources);
 
@@ -330,7 +334,7 @@ struct rddl_simulator {
      * max_nondef_actions is 0. With actions, one record for each environment, for solvers that
      * change several values one after the other: 1 where the action satisfies all preconditions and
      * max_nondef_actions as it stands (choice 0), or with the choice's value set in it; 0, too,
-     * where it has that value already. */
+     * where it has that value already. Choices never lead back to the default. */
     rddl_error (*action_mask)(rddl_batch*, const void* actions, uint8_t* masks);
 
     /* The policy block; NULL, as policy_act is, if the problem has none. */
@@ -359,8 +363,8 @@ struct rddl_simulator {
     rddl_error (*action_column)(const rddl_simulator*, int64_t column, rddl_column* out);
     rddl_error (*observation_column)(const rddl_simulator*, int64_t column, rddl_column* out);
     /* `observations` may be NULL. out->observations and the final records are written as ever, and
-     * so is the matrix out->final_observation_values. An action that is nan, or an index without an
-     * object, is refused. */
+     * so is the matrix out->final_observation_values. An action that is nan, an index without an
+     * object, or a number beyond the ints for an int, is refused. */
     rddl_error (*step_values)(rddl_batch*, rddl_number, const void* actions, void* observations,
                               const rddl_transition* out);
     rddl_error (*get_observation_values)(const rddl_batch*, rddl_number, void* observations);
@@ -370,7 +374,8 @@ struct rddl_simulator {
     /* Records of the interm- and derived-fluents of the last step of environments [begin, begin +
      * count), whether or not a new episode has begun since. They are computed again, in double:
      * only for batches that keep steps, and by simulators with details; else RDDL_UNSUPPORTED. An
-     * environment that has made no step is refused. */
+     * environment that has made no step is refused. A step that faulted is one; what it computed
+     * from the draw or operator at fault means nothing. Neither reset nor set_state is a step. */
     rddl_error (*get_interm)(const rddl_batch*, int64_t begin, int64_t count, void* records);
 
     /* ---- what the instance fixes */

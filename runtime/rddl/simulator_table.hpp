@@ -57,14 +57,9 @@ class SimulatorTable {
   public:
     SimulatorTable(const About& about, E engine)
         : engine_(std::move(engine)),
-          parts_{&about.problem,
-                 about.sites,
-                 about.constants,
-                 AnyEngine<typename E::Lane>(engine_),
-                 packed_engine(),
-                 about.policy,
-                 about.details,
-                 simd::level},
+          parts_{
+              &about.problem,  about.sites,  about.constants, AnyEngine<typename E::Lane>(engine_),
+              packed_engine(), about.policy, about.details,   simd::level},
           table_(table_of(parts_)) {}
     SimulatorTable(const SimulatorTable&) = delete;
     SimulatorTable& operator=(const SimulatorTable&) = delete;

@@ -55,8 +55,13 @@ class Batch {
         : told(*simulator.problem, static_cast<std::size_t>(count)),
           simulator_(simulator),
           count_(count) {
-        const rddl_batch_options options{count, 3,    42, threads, RDDL_AUTORESET_SAME_STEP,
-                                         -1,    lanes};
+        rddl_batch_options options{};
+        options.environment_count = count;
+        options.first_environment = 3;
+        options.seed = 42;
+        options.thread_count = threads;
+        options.autoreset = RDDL_AUTORESET_SAME_STEP;
+        options.lane_count = lanes;
         batch_ = simulator.create(&simulator, &options);
         if (!batch_) give_up("no batch");
     }
@@ -68,9 +73,13 @@ class Batch {
     const rddl_simulator& simulator() const { return simulator_; }
 
     void step(const Bytes& actions) {
-        const rddl_transition out{told.observations.data(), told.rewards.data(),
-                                  told.terminated.data(),   told.truncated.data(),
-                                  told.causes.data(),       told.final_observations.data()};
+        rddl_transition out{};
+        out.observations = told.observations.data();
+        out.rewards = told.rewards.data();
+        out.terminated = told.terminated.data();
+        out.truncated = told.truncated.data();
+        out.causes = told.causes.data();
+        out.final_observations = told.final_observations.data();
         if (simulator_.step(batch_, actions.data(), &out) != RDDL_OK) give_up("refused actions");
         if (simulator_.get_state(batch_, 0, count_, told.states.data()) != RDDL_OK)
             give_up("refused to tell states");
@@ -101,7 +110,8 @@ class Records {
         for (std::size_t i = 0; i < count_; ++i) {
             std::uint8_t* const record = records.data() + i * size_;
             if (role_ == RDDL_ACTION)
-                simulator_.action_choice(&simulator_, i % 2 ? 0 : within(0, choices_ - 1), record);
+                simulator_.action_choice(&simulator_, i % 2 ? 0 : within(0, choices_ - 1), record,
+                                         nullptr);
             if (i % 2 || role_ != RDDL_ACTION) draw_all(record);
         }
     }

@@ -129,7 +129,7 @@ json compare(void* object, const json& request) {
         for (Engine& engine : engines) {
             if (step % 4 == 3)
                 engine.batch->simulator().set_state(engine.batch->get(), 0, count,
-                                                    states.records.data());
+                                                    states.records.data(), nullptr);
             engine.look(actions.records);
             const bool decides = simulator.policy && step % 2 == 0;
             engine.batch->step(decides ? engine.actions : actions.records);

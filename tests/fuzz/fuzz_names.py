@@ -116,7 +116,7 @@ class Names:
         if choice == 0:
             name = name.replace("_", "-")
         if choice == 1:
-            for ending in ("_count", "_objects", "_lower", "_upper", "_2", "_0"):
+            for ending in ("_count", "_objects", "_lower", "_upper", "_values", "_places", "_2", "_0"):
                 name = name.removesuffix(ending)
         if choice == 2:
             for beginning in ("initial_", "set_", "of_", "scope_", "rddl_"):

@@ -101,8 +101,8 @@ TEST(Constants, AreThoseOfTheInstance) {
             const std::int32_t fluent = fluent_named(*simulator, name);
             std::vector<double> values(
                 static_cast<std::size_t>(simulator->problem->fluents[fluent].count));
-            ASSERT_EQ(simulator->get_constants(simulator.get(), fluent, 0,
-                                               std::ssize(values), values.data()),
+            ASSERT_EQ(simulator->get_constants(simulator.get(), fluent, 0, std::ssize(values),
+                                               values.data()),
                       RDDL_OK);
             tables.push_back(values);
             EXPECT_EQ(values, tables[(tables.size() - 1) % 3]) << kind << " " << name;
@@ -165,6 +165,27 @@ TEST(Interm, IsWhatTheLastStepComputed) {
     }
 }
 
+TEST(Interm, GoesAlongWithCopies) {
+    for (const auto& [kind, simulator] : reservoirs()) {
+        rddl_batch_options options{};
+        options.environment_count = 2;
+        options.keeps_steps = 1;
+        const Batch from = create_batch(*simulator, options),
+                    to = create_batch(*simulator, options);
+        const std::vector<double> actions(2 * 4, 1.0);
+        const rddl_transition nothing{};
+        ASSERT_EQ(simulator->step(from.get(), actions.data(), &nothing), RDDL_OK);
+        const std::int64_t source = 1;
+        ASSERT_EQ(simulator->copy_environments(to.get(), 0, 1, from.get(), &source), RDDL_OK);
+        const auto size = static_cast<std::size_t>(simulator->problem->interm_size);
+        std::vector<std::byte> expected(size), copied(size);
+        ASSERT_EQ(simulator->get_interm(from.get(), 1, 1, expected.data()), RDDL_OK);
+        ASSERT_EQ(simulator->get_interm(to.get(), 0, 1, copied.data()), RDDL_OK) << kind;
+        EXPECT_EQ(copied, expected) << kind;
+        EXPECT_EQ(simulator->get_interm(to.get(), 1, 1, copied.data()), RDDL_BAD_ARGUMENT);
+    }
+}
+
 TEST(Interm, NeedsABatchThatKeepsStepsAndASimulatorWithDetails) {
     const Simulator plain = load("reservoir", Engine::Interpreter, false);
     EXPECT_EQ(plain->problem->interm_size, 0);
@@ -176,8 +197,7 @@ TEST(Interm, NeedsABatchThatKeepsStepsAndASimulatorWithDetails) {
     const Simulator& detailed = reservoirs().at("interpreted");
     const Batch forgetful = create_batch(*detailed, {});
     EXPECT_EQ(detailed->get_interm(forgetful.get(), 0, 1, record), RDDL_UNSUPPORTED);
-    EXPECT_STREQ(detailed->last_error(detailed.get()),
-                 "the batch was created without keeps_steps");
+    EXPECT_STREQ(detailed->last_error(detailed.get()), "the batch was created without keeps_steps");
 }
 
 TEST(Violations, NameTheObjects) {

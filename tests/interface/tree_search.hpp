@@ -1,9 +1,9 @@
 // Monte-Carlo tree search against the C interface alone: what a solver's author writes.
 //
 // The tree branches over choices of single action values. A node is what has been decided since the
-// root; its state is sampled anew each time, so that one tree serves all outcomes (open-loop search;
-// L. Kocsis and C. Szepesvári, "Bandit based Monte-Carlo Planning", ECML 2006, with the random
-// numbers of a rollout as its luck).
+// root; its state is sampled anew each time, so that one tree serves all outcomes (open-loop
+// search; L. Kocsis and C. Szepesvári, "Bandit based Monte-Carlo Planning", ECML 2006, with the
+// random numbers of a rollout as its luck).
 #pragma once
 
 #include <rddl/simulator.h>
@@ -81,7 +81,8 @@ class TreeSearch {
             nodes_[node].children[choice] = nodes_.size();
             nodes_.push_back(Node(choices_));
         }
-        value += problem_.discount * (is_known ? descend(nodes_[node].children[choice]) : rollout());
+        value +=
+            problem_.discount * (is_known ? descend(nodes_[node].children[choice]) : rollout());
         const std::int64_t visits = ++nodes_[node].visits[choice];
         double& mean = nodes_[node].values[choice];
         mean += (value - mean) / static_cast<double>(visits);
@@ -98,8 +99,8 @@ class TreeSearch {
         for (std::size_t k = 0; k < choices_; ++k) {
             if (mask_[k] == 0) continue;
             if (node.visits[k] == 0) return k;
-            const double spread = std::sqrt(std::log(static_cast<double>(all)) /
-                                            static_cast<double>(node.visits[k]));
+            const double spread =
+                std::sqrt(std::log(static_cast<double>(all)) / static_cast<double>(node.visits[k]));
             const double bound = node.values[k] + exploration * spread;
             if (bound > best_bound) best_bound = bound, best = k;
         }

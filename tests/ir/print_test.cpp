@@ -94,8 +94,8 @@ TEST_F(PrintTest, ShowsDrawsAndFaultsWithTheirPlace) {
 TEST_F(PrintTest, ShowsBounds) {
     const double infinity = std::numeric_limits<double>::infinity();
     w.program.fluents = {
-        {"level", Role::State, Scalar::Real, {}, {}, w.level, {}, {0}, {infinity}},
-        {"count", Role::State, Scalar::Int, {}, {}, w.count, {}, {-infinity}, {infinity}}};
+        {"level", Role::State, Scalar::Real, {}, {}, w.level, {}, {}, {0}, {infinity}},
+        {"count", Role::State, Scalar::Int, {}, {}, w.count, {}, {}, {-infinity}, {infinity}}};
     EXPECT_NE(print(w.program).find("bounds\n    level in 0.0 .. inf\n\nstep"), std::string::npos);
 }
 

@@ -80,7 +80,7 @@ TEST(Allocations, DoNotHappenInSteps) {
     for (const int lanes : {1, simulator()->lane_count})
         for (const int threads : {1, 2})
             for (const rddl_autoreset mode : {RDDL_AUTORESET_NEXT_STEP, RDDL_AUTORESET_SAME_STEP})
-                expect_no_allocations({environments, 0, 42, threads, mode, -1, lanes});
+                expect_no_allocations(batch_options(environments, 0, 42, threads, mode, 0, lanes));
 }
 
 TEST(Allocations, DoNotHappenInStepsWithMatrices) {
@@ -105,9 +105,10 @@ TEST(Allocations, DoNotHappenInStepsWithMatrices) {
 TEST(Allocations, DoNotHappenWithFloats) {
     using Engine = rddl::Compiled<Simulator, problem, rddl::ScalarOf<float>>;
     static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, 16, float>> table(
-        problem, sites, {});
+        {problem, sites, {}}, {});
     for (const int lanes : {1, 16}) {
-        TinyBatch batch(batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, 0, lanes), table.get());
+        TinyBatch batch(batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP, 0, lanes),
+                        table.get());
         const std::int64_t before = allocations;
         for (int time = 0; time < 1000; ++time) batch.step();
         EXPECT_EQ(allocations, before) << lanes;
@@ -116,7 +117,8 @@ TEST(Allocations, DoNotHappenWithFloats) {
 
 TEST(Allocations, DoNotHappenInDecisions) {
     const rddl_simulator& functions = *simulator_with_policy();
-    const rddl_batch_options options = batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP);
+    const rddl_batch_options options =
+        batch_options(environments, 0, 42, 2, RDDL_AUTORESET_SAME_STEP);
     TinyBatch batch(options, &functions);
     const std::int64_t before = allocations;
     for (int time = 0; time < 1000; ++time) {

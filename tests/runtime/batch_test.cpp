@@ -42,7 +42,8 @@ Told told_of(const TinyBatch& batch, std::size_t i) {
 // One trajectory for each environment from `first` on.
 std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads,
                                      const rddl_simulator* functions = simulator(), int lanes = 0) {
-    TinyBatch batch(batch_options(count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, 0, lanes), functions);
+    TinyBatch batch(batch_options(count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, 0, lanes),
+                    functions);
     std::vector<Trajectory> result(batch.size());
     for (int time = 0; time < step_count; ++time) {
         for (std::size_t i = 0; i < batch.size(); ++i)
@@ -198,6 +199,7 @@ TEST(Matrices, OfActionsThatAreNoneAreRefused) {
     EXPECT_EQ(status_of(1, -1), RDDL_BAD_ARGUMENT);
     EXPECT_EQ(simulator()->step_values(batch.get(), RDDL_DOUBLE, nullptr, nullptr, &out),
               RDDL_BAD_ARGUMENT);
+    EXPECT_STREQ(simulator()->last_error(simulator()), "the actions are missing");
 }
 
 TEST(Trajectories, DependOnTheSeed) {

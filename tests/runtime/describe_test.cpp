@@ -126,8 +126,7 @@ TEST(Errors, HaveAReason) {
     EXPECT_STREQ(functions.last_error(&functions), "the room for causes is missing");
     std::uint8_t causes[8];
     EXPECT_EQ(functions.get_causes(batch.get(), 3, 2, causes), RDDL_BAD_ARGUMENT);
-    EXPECT_STREQ(functions.last_error(&functions),
-                 "there are no 2 environments from 3 on among 4");
+    EXPECT_STREQ(functions.last_error(&functions), "there are no 2 environments from 3 on among 4");
     rddl_batch_options options = batch_options(1);
     options.lane_count = 5;
     EXPECT_EQ(functions.create(&functions, &options), nullptr);

@@ -143,7 +143,8 @@ TEST(Interface, ReadsAnyByteButZeroAsTrue) {
     for (const std::int64_t count : {1, 40})  // alone, and in packs
         for (const int value : {2, 0x80, 0xFF}) {
             const auto byte = static_cast<std::uint8_t>(value);
-            const rddl_batch_options options = batch_options(count, 0, 42, 1, RDDL_AUTORESET_DISABLED);
+            const rddl_batch_options options =
+                batch_options(count, 0, 42, 1, RDDL_AUTORESET_DISABLED);
             TinyBatch usual(options), unusual(options);
             const auto last = static_cast<std::size_t>(count) - 1;
             usual.actions[last].repair[2] = true;
@@ -201,7 +202,8 @@ TEST(Interface, RefusesRangesAndPointersThatAreWrong) {
                                        {1, std::numeric_limits<std::int64_t>::max()},
                                        {5, 0}}) {
         EXPECT_EQ(functions.get_state(batch.get(), begin, count, states), RDDL_BAD_ARGUMENT);
-        EXPECT_EQ(functions.set_state(batch.get(), begin, count, states, nullptr), RDDL_BAD_ARGUMENT);
+        EXPECT_EQ(functions.set_state(batch.get(), begin, count, states, nullptr),
+                  RDDL_BAD_ARGUMENT);
         EXPECT_EQ(functions.get_progress(batch.get(), begin, count, nullptr, nullptr),
                   RDDL_BAD_ARGUMENT);
     }
@@ -269,7 +271,8 @@ TEST(Choices, AreTheSingleChangesOfTheDefaultAction) {
     EXPECT_EQ(choice(4), std::pair(Repair{false, false, false}, std::int64_t{1}));
     ActionRecord action;
     EXPECT_EQ(functions.action_choice(&functions, -1, &action, nullptr), RDDL_BAD_ARGUMENT);
-    EXPECT_EQ(functions.action_choice(&functions, tiny_choices, &action, nullptr), RDDL_BAD_ARGUMENT);
+    EXPECT_EQ(functions.action_choice(&functions, tiny_choices, &action, nullptr),
+              RDDL_BAD_ARGUMENT);
 }
 
 using Mask = std::array<std::uint8_t, tiny_choices>;
@@ -347,9 +350,8 @@ TEST(Choices, OfIntsNeedTwoBoundsNotTooFarApart) {
         same.exchange(written.data(), same.value);
         EXPECT_EQ(written, all.back());
     });
-    EXPECT_EQ(all,
-              (std::vector<std::vector<std::int64_t>>{
-                  {1, 2, 2, 2, 2}, {3, 2, 2, 2, 2}, {2, 2, 2, 5, 2}, {2, 2, 2, 6, 2}}));
+    EXPECT_EQ(all, (std::vector<std::vector<std::int64_t>>{
+                       {1, 2, 2, 2, 2}, {3, 2, 2, 2, 2}, {2, 2, 2, 5, 2}, {2, 2, 2, 6, 2}}));
     EXPECT_EQ(rddl::choice_count(ints), 5);
 }
 

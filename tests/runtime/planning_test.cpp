@@ -1,5 +1,5 @@
-// Planning from a state: step counters, copies of environments, new random numbers, ends of episodes
-// that are reset at once, and masks for several changes.
+// Planning from a state: step counters, copies of environments, new random numbers, ends of
+// episodes that are reset at once, and masks for several changes.
 #include "tiny_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -143,7 +143,8 @@ TEST(Seeds, GiveACopyAFutureOfItsOwn) {
         TinyBatch batch(batch_options(size));
         batch.step();
         const auto count = static_cast<std::size_t>(size);
-        TinyBatch copy(functions.copy(batch.get()), count), other(functions.copy(batch.get()), count);
+        TinyBatch copy(functions.copy(batch.get()), count),
+            other(functions.copy(batch.get()), count);
         const std::vector<std::uint64_t> seeds(count, 5), others(count, 6);
         functions.set_seeds(copy.get(), 0, size, seeds.data());
         functions.set_seeds(other.get(), 0, size, others.data());
@@ -183,8 +184,7 @@ TEST(FinalStates, AreToldWhereAStepResets) {
                 staying.finals[i].repairs = 1;  // seen
                 ++ended;
                 EXPECT_EQ(finals[i].wear, staying.observations[i].wear);
-                EXPECT_EQ(values[i * width],
-                          static_cast<float>(staying.observations[i].wear[0]));
+                EXPECT_EQ(values[i * width], static_cast<float>(staying.observations[i].wear[0]));
                 EXPECT_EQ(observations[i * width], 0.0F);
             }
         }

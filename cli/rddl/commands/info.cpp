@@ -22,7 +22,8 @@ ExitStatus info(const InfoOptions& options) {
     ProblemDescription description;
     description.files = options.problem.files();
     if (!options.policy_file.empty()) description.files.policy = options.policy_file;
-    Compilation compilation = compile_or_give_up(compile_options(description.files, Stage::Optimise));
+    Compilation compilation =
+        compile_or_give_up(compile_options(description.files, Stage::Optimise));
     description.model = *std::move(compilation.model);
     description.characteristics = characteristics_of(description.model);
     description.simulator =

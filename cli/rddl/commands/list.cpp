@@ -71,8 +71,8 @@ std::vector<ListedProblem> look_at(const std::vector<RepositoryProblem>& problem
     for_each_in_parallel("looking at problems", listed.size(), [&](std::size_t i) {
         const RepositoryProblem& problem = listed[i].problem;
         if (problem.instances.empty()) return;
-        const Compilation compilation =
-            compile(compile_options(find_instance(problem, problem.instances.front()), Stage::Check));
+        const Compilation compilation = compile(
+            compile_options(find_instance(problem, problem.instances.front()), Stage::Check));
         if (compilation.model) listed[i].characteristics = characteristics_of(*compilation.model);
     });
     return listed;

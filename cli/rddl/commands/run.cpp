@@ -215,8 +215,7 @@ ExitStatus run(const RunOptions& options) {
     const LoadedProblem problem = load_problem(files, options.load);
     if (options.rollouts.policy == Policy::Rddl) require_policy_block(*problem.simulator);
     const rddl_problem& description = *problem.simulator->problem;
-    const std::int64_t horizon =
-        options.rollouts.horizon.value_or(description.horizon);
+    const std::int64_t horizon = options.rollouts.horizon.value_or(description.horizon);
     require_an_end(description, horizon);
 
     std::optional<LineWriter> trace;

@@ -23,9 +23,8 @@ void ConstantTables::add(std::int32_t fluent, ir::Scalar scalar, const Table& ta
     if (table.empty()) return;
     switch (scalar) {
         case ir::Scalar::Bool:
-            list_.push_back({fluent, rddl::ConstantValues<bool>{std::get<bool>(table.common()),
-                                                                places_of(table),
-                                                                {}}});
+            list_.push_back({fluent, rddl::ConstantValues<bool>{
+                                         std::get<bool>(table.common()), places_of(table), {}}});
             break;
         case ir::Scalar::Int:
             list_.push_back({fluent, values_of<std::int64_t>(table, ints_)});

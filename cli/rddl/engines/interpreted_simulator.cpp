@@ -84,8 +84,7 @@ class Description {
                 .action_size = record_size(ir::Storage::Action),
                 .observation_size =
                     record_size(partially_observed ? ir::Storage::Observation : ir::Storage::State),
-                .interm_size =
-                    details_ ? static_cast<std::int64_t>(details_->interm_size()) : 0,
+                .interm_size = details_ ? static_cast<std::int64_t>(details_->interm_size()) : 0,
                 .partially_observed = partially_observed,
                 .stochastic = ir::is_stochastic(program_),
                 .default_action = default_action,

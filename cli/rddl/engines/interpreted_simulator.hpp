@@ -15,8 +15,8 @@ namespace rddlc::cli {
 
 // The pointer owns everything that the simulator refers to. Without the library, a program that
 // calls external functions only describes itself.
-std::shared_ptr<const rddl_simulator> interpreted_simulator(ir::Program program, Sources sources,
-                                                            ExternalLibrary library = {},
-                                                            std::optional<ir::Details> details = {});
+std::shared_ptr<const rddl_simulator> interpreted_simulator(
+    ir::Program program, Sources sources, ExternalLibrary library = {},
+    std::optional<ir::Details> details = {});
 
 }  // namespace rddlc::cli

@@ -47,15 +47,16 @@ LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options)
     const ExternFiles externs = extern_files(options.externs);
     const Stopwatch watch;
     LoadCosts costs;
-    Compilation compilation = compile_or_give_up(front_end_options(files, Stage::Optimise, options));
+    Compilation compilation =
+        compile_or_give_up(front_end_options(files, Stage::Optimise, options));
     costs.compile_seconds = watch.seconds();
     if (options.externs.empty())
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
     give_up_on_errors(compilation);
     ExternalLibrary library = external_library(*compilation.program, files, options);
-    Simulator simulator = interpreted_simulator(*std::move(compilation.program),
-                                                std::move(compilation.sources), std::move(library),
-                                                std::move(compilation.details));
+    Simulator simulator =
+        interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources),
+                              std::move(library), std::move(compilation.details));
     costs.load_seconds = watch.seconds();
     return {files, std::move(simulator), costs};
 }

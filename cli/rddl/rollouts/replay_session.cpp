@@ -213,7 +213,8 @@ void ReplaySession::prepare(const Request& request) {
         batch_ = create(environment_, 1, horizon_);
     }
     if (request.reset) simulator_.reset(batch_.get(), nullptr, nullptr);
-    if (request.state && simulator_.set_state(batch_.get(), 0, 1, request.state->data(), nullptr) != RDDL_OK)
+    if (request.state &&
+        simulator_.set_state(batch_.get(), 0, 1, request.state->data(), nullptr) != RDDL_OK)
         throw Refusal{"the simulator refuses the state"};
 }
 

@@ -28,8 +28,8 @@ struct RolloutOptions {
     std::int64_t episodes = 1;
     std::uint64_t seed = 0;
     std::optional<std::int64_t> horizon = {};  // 0: none; absent: the instance's
-    int threads = 0;            // 0: one per core
-    std::int64_t batch = 0;     // environments stepped together; 0: chosen here
+    int threads = 0;                           // 0: one per core
+    std::int64_t batch = 0;                    // environments stepped together; 0: chosen here
     std::int64_t memory_limit = default_memory_limit;  // bytes of all environments
 };
 
