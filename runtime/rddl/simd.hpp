@@ -144,14 +144,30 @@ template <class To, class From>
 [[gnu::always_inline]] inline MaskBits equal(Floats a, Floats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ);
 }
+
+namespace detail {
+
+// What a comparison of ints leaves in a mask register. GCC 12 makes one instruction of comparing
+// and widening such a mask, and splits it again as if only mask registers could hold the wide
+// number: where one waits in memory, only its first byte is ever written. So GCC must not know that
+// this is a comparison. It does not join comparisons of reals with anything.
+[[gnu::always_inline]] inline __mmask8 hidden(__mmask8 mask) {
+#ifndef __clang__
+    asm("" : "+k"(mask));
+#endif
+    return mask;
+}
+
+}  // namespace detail
+
 [[gnu::always_inline]] inline MaskBits less(Ints a, Ints b) {
-    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LT);
+    return detail::hidden(_mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LT));
 }
 [[gnu::always_inline]] inline MaskBits less_equal(Ints a, Ints b) {
-    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LE);
+    return detail::hidden(_mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_LE));
 }
 [[gnu::always_inline]] inline MaskBits equal(Ints a, Ints b) {
-    return _mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_EQ);
+    return detail::hidden(_mm512_cmp_epi64_mask((__m512i)a, (__m512i)b, _MM_CMPINT_EQ));
 }
 
 // a where the bit is set, else b.
