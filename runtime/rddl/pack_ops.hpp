@@ -489,12 +489,34 @@ RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
         return begin + place_in<Row, Int>(rest...);
 }
 
+// Where the lowest bits are 1.
+template <int n>
+RDDL_INLINE Mask<n> lowest_bits(const Lanes<std::int64_t, n>& a) {
+    return (a & Lanes<std::int64_t, n>(1)) != Lanes<std::int64_t, n>(0);
+}
+
 // The elements that each lane chooses from a table of `count`: its own where the elements are
 // packs.
-template <std::int64_t, class T, int n>
-requires std::is_arithmetic_v<T>
-auto gather(const T* elements, const Lanes<std::int64_t, n>& indices) {
-    return map_lanes(indices, [elements](std::int64_t place) { return elements[place]; });
+template <std::int64_t count, int n>
+Mask<n> gather(const bool* elements, const Lanes<std::int64_t, n>& indices) {
+    using Ints = simd::Ints;
+    using Words = simd::Words;
+    if constexpr (count <= 64) {
+        const std::uint64_t bits = simd::bits_of_bytes(elements, count);
+        return lowest_bits(Lanes<std::int64_t, n>::each(
+            [bits](Ints place) { return (Ints)((Words{} + bits) >> (Words)place); }, indices));
+    } else {
+        return lowest_bits(Lanes<std::int64_t, n>::each(
+            [elements](Ints place) { return (Ints)simd::gather_bytes<count>(elements, place); },
+            indices));
+    }
+}
+template <std::int64_t count, int n>
+RDDL_INLINE auto gather(const std::int64_t* elements, const Lanes<std::int64_t, n>& indices) {
+    const auto* const reals = reinterpret_cast<const double*>(elements);
+    return Lanes<std::int64_t, n>::each(
+        [reals](auto x) { return simd::reinterpret<simd::Ints>(simd::look_up<count>(reals, x)); },
+        indices);
 }
 template <std::int64_t count, int n>
 RDDL_INLINE auto gather(const double* elements, const Lanes<std::int64_t, n>& indices) {
@@ -522,11 +544,19 @@ auto gather(const Lanes<T, n>* elements, const Lanes<std::int64_t, n>& indices) 
         return Lanes<T, n>::each([values](auto part) { return simd::gather(values, part); },
                                  places);
 }
-template <std::int64_t, int n>
-auto gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
-    Mask<n> result{false};
-    for (int lane = 0; lane < n; ++lane) result.set(lane, elements[indices[lane]][lane]);
-    return result;
+template <std::int64_t count, int n>
+Mask<n> gather(const Mask<n>* elements, const Lanes<std::int64_t, n>& indices) {
+    constexpr std::int64_t bytes = sizeof(Mask<n>);
+    Lanes<std::int64_t, n> bits;
+    for (int p = 0; p < bits.part_count; ++p) {
+        simd::Words lane{};
+        for (int i = 0; i < simd::lanes; ++i)
+            lane[i] = static_cast<std::uint64_t>(p * simd::lanes + i);
+        const simd::Words words =
+            simd::gather_bytes<count * bytes>(elements, indices.part[p] * bytes);
+        bits.part[p] = (simd::Ints)(words >> lane);
+    }
+    return lowest_bits(bits);
 }
 
 }  // namespace detail

@@ -92,6 +92,34 @@ template <std::int64_t count>
     return reinterpret<Ints>(gather(reinterpret_cast<const double*>(from), indices));
 }
 
+// The 8 bytes from each offset on in an object of `size` bytes; behind its end there are zeros, and
+// nothing is read there.
+template <std::int64_t size>
+[[gnu::always_inline]] inline Words gather_bytes(const void* from, Ints offsets) {
+    if constexpr (size < 8) {
+        std::uint64_t all = 0;
+        __builtin_memcpy(&all, from, size);
+        return (Words{} + all) >> (Words)(offsets * 8);
+    } else {
+        const Ints last = Ints{} + (size - 8);
+        const Ints begin = offsets < last ? offsets : last;
+        Words words{};
+#if defined(RDDL_SIMD_AVX512)
+        words = (Words)_mm512_mask_i64gather_epi64(__m512i{}, 0xFF, (__m512i)begin, from, 1);
+#elif defined(__AVX2__)
+        words =
+            (Words)_mm256_i64gather_epi64(static_cast<const long long*>(from), (__m256i)begin, 1);
+#else
+        for (int i = 0; i < lanes; ++i) {
+            std::uint64_t word;
+            __builtin_memcpy(&word, static_cast<const char*>(from) + begin[i], sizeof word);
+            words[i] = word;
+        }
+#endif
+        return words >> (Words)((offsets - begin) * 8);
+    }
+}
+
 // Values of 8 bytes whose addresses are `distance` bytes apart.
 template <class V>
 [[gnu::always_inline]] inline V load_apart(const void* from, std::int64_t distance) {

@@ -255,9 +255,13 @@ template <std::size_t size>
 void expect_elements_of_scalars() {
     std::array<double, size> table;
     std::array<std::int64_t, size> numbers;
+    std::array<bool, size> flags;
+    std::array<Bools, size> flags_of_lanes;
     for (std::size_t i = 0; i < size; ++i) {
         table[i] = 0.1 * static_cast<double>(i);
         numbers[i] = -static_cast<std::int64_t>(i * i);
+        flags[i] = i * i % 7 < 3;
+        flags_of_lanes[i] = Bools::of_bits(0x9E3779B9 * (i + 1) >> 7);
     }
     std::vector<std::int64_t> indices = ints(11);
     for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{size});
@@ -265,9 +269,16 @@ void expect_elements_of_scalars() {
         "at", [&](auto i) { return at(table, i); }, indices);
     expect_bits_of_scalars(
         "at", [&](auto i) { return at(numbers, i); }, indices);
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(flags, i); }, indices);
+    const Ints own = Ints::load(indices.data());
+    const Bools found = at(flags_of_lanes, own);
+    for (int lane = 0; lane < width; ++lane)
+        EXPECT_EQ(found[lane], flags_of_lanes[static_cast<std::size_t>(own[lane])][lane])
+            << own[lane] << " of " << size << " in lane " << lane << " on " << simd::level;
 }
 
-// Tables of up to 16 reals are kept in registers.
+// Tables of up to 16 reals or 64 bools are kept in registers. Of small tables no 8 bytes are read.
 TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<1>();
     expect_elements_of_scalars<3>();
@@ -276,6 +287,9 @@ TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<16>();
     expect_elements_of_scalars<17>();
     expect_elements_of_scalars<37>();
+    expect_elements_of_scalars<64>();
+    expect_elements_of_scalars<65>();
+    expect_elements_of_scalars<513>();
 }
 
 }  // namespace
