@@ -372,7 +372,7 @@ void FunctionBody::write_lambda_call(const std::string& lead, ir::NodeId id) {
 
 // A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
 // What packs may evaluate in all lanes, since it costs little and neither draws nor faults, needs
-// no context.
+// no context. An elementary function costs more than a jump that lanes do not agree about.
 void FunctionBody::write_branch(const std::string& lead, const ir::Select& select) {
     std::vector<ir::NodeId> lambdas = {select.then_value};
     ir::NodeId last = select.else_value;
@@ -401,7 +401,8 @@ bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
     double cost = 0;
     for (ir::NodeId lambda : lambdas) cost += expressions_.unit().facts_of(lambda).cost;
     return cost <= cost_without_jumps && std::ranges::all_of(lambdas, [&](ir::NodeId lambda) {
-               return ir::is_droppable(expressions_.unit().facts_of(lambda));
+               const ir::Facts& facts = expressions_.unit().facts_of(lambda);
+               return ir::is_droppable(facts) && !facts.elementary;
            });
 }
 

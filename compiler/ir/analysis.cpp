@@ -11,6 +11,7 @@ namespace rddlc::ir {
 namespace {
 
 constexpr double cheap_cost = 6;
+constexpr double elementary_cost = 20;
 
 // In units of an addition.
 double cost_of(Operator op) {
@@ -38,7 +39,7 @@ double cost_of(Operator op) {
         case Operator::Atan2:
         case Operator::LnGamma:
         case Operator::Gamma:
-            return 20;
+            return elementary_cost;
         default:
             return 1;
     }
@@ -67,6 +68,7 @@ class Collector {
         facts_.random |= operand.random;
         facts_.uniform &= operand.uniform;
         facts_.finite &= operand.finite;
+        facts_.elementary |= operand.elementary;
         facts_.cost += operand.cost;
         std::vector<VariableId> merged;
         std::set_union(facts_.free_variables.begin(), facts_.free_variables.end(),
@@ -128,6 +130,7 @@ class Collector {
 
     void describe(Scalar type, const Apply& apply) {
         facts_.cost += cost_of(apply.op);
+        facts_.elementary |= cost_of(apply.op) == elementary_cost;
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
         if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
