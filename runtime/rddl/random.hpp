@@ -198,14 +198,25 @@ RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
 // The random numbers of one draw in one environment, as many as it needs.
 class Draws {
   public:
+    // Of these, few draws need more.
+    static constexpr std::uint32_t first_count = 3;
+
     constexpr Draws(StreamKey key, std::uint32_t step, Place place)
         : step_(step), place_(place), key_{key.low, key.high} {}
+    // The first numbers are known.
+    constexpr Draws(StreamKey key, std::uint32_t step, Place place,
+                    const std::array<double, first_count>& first)
+        : Draws(key, step, place) {
+        known_ = first_count;
+        first_ = first;
+    }
     template <class R = double>
     constexpr Draws(const Context<ScalarOf<R>>& context, Place place)
         : Draws(context.key, context.step, place) {}
 
     constexpr double uniform() {
         const std::uint32_t number = number_++;
+        if (number < known_) return first_[number];
         if (number == 0) return first();
         if (number % 2 == 0) return second_;
         const philox::Block<std::uint64_t> words = generate(place_.index, 1 + (number - 1) / 2);
@@ -231,7 +242,33 @@ class Draws {
     philox::Key<std::uint64_t> key_;
     std::uint32_t number_ = 0;
     double second_ = 0;  // of the counter value used last
+    std::uint32_t known_ = 0;
+    std::array<double, first_count> first_{};
 };
+
+// The first numbers of a draw in all lanes, made in registers.
+template <int n>
+struct FirstDraws {
+    Lanes<double, n> numbers[Draws::first_count];
+
+    std::array<double, Draws::first_count> of(int lane) const {
+        return {numbers[0][lane], numbers[1][lane], numbers[2][lane]};
+    }
+};
+template <int n, class R>
+[[gnu::noinline]] FirstDraws<n> first_draws(const Context<Pack<n, R>>& context, Place place) {
+    using Word = Lanes<std::uint64_t, n>;
+    const auto generate = [&](std::uint64_t index, std::uint64_t number) {
+        return philox::generate<philox::draw_rounds>(
+            philox::Block<Word>{context.step, Word{std::uint64_t{place.series}}, Word{index},
+                                Word{number}},
+            {context.key_low, context.key_high});
+    };
+    const philox::Block<Word> shared = generate(place.index / 2, 0), own = generate(place.index, 1);
+    const std::size_t half = 2 * (place.index % 2);
+    return {{unit_real<double>(shared[half], shared[half + 1]), unit_real<double>(own[0], own[1]),
+             unit_real<double>(own[2], own[3])}};
+}
 
 // An int, or the lane type's real instead of double.
 template <class L, class T>
@@ -252,8 +289,12 @@ auto draw_in_each_lane(const Context<Pack<n, R>>& context, Place place, Mask<n> 
     using Drawn = decltype(kernel(std::declval<Draws&>(), parameters[0]...));
     using Result = DrawnBy<Pack<n, R>, Drawn>;
     LanesOf<Result, n> results{Result{}};
-    for_each_lane(valid && context.active, [&](int lane) {
-        Draws draws(context.key(lane), static_cast<std::uint32_t>(context.step[lane]), place);
+    const Mask<n> drawing = valid && context.active;
+    if (!any(drawing)) return results;
+    const FirstDraws<n> first = first_draws(context, place);
+    for_each_lane(drawing, [&](int lane) {
+        Draws draws(context.key(lane), static_cast<std::uint32_t>(context.step[lane]), place,
+                    first.of(lane));
         results.set(lane, static_cast<Result>(kernel(draws, parameters[lane]...)));
     });
     return results;

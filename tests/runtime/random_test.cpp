@@ -90,8 +90,9 @@ TEST(Draws, AreTheSameHoweverOftenAndInWhateverOrderTheyAreMade) {
     EXPECT_EQ(uniform_at(context, {0, 0}), first);
 }
 
-TEST(Draws, OfPacksAreThoseOfTheirLanes) {
-    using Sixteen = Pack<16>;
+using Sixteen = Pack<16>;
+
+Context<Sixteen> context_of_sixteen() {
     Sixteen::Word low, high, step;
     for (int lane = 0; lane < 16; ++lane) {
         const StreamKey key = stream_key(1, static_cast<std::uint64_t>(lane), 3);
@@ -99,7 +100,11 @@ TEST(Draws, OfPacksAreThoseOfTheirLanes) {
         high.set(lane, key.high);
         step.set(lane, static_cast<std::uint64_t>(lane) + 1);
     }
-    auto context = Context<Sixteen>::of(low, high, step, true);
+    return Context<Sixteen>::of(low, high, step, true);
+}
+
+TEST(Draws, OfPacksAreThoseOfTheirLanes) {
+    auto context = context_of_sixteen();
     const auto expect_same = [&](const Lanes<double, 16>& numbers, Place place) {
         for (int lane = 0; lane < 16; ++lane) {
             Draws draws(context.key(lane), static_cast<std::uint32_t>(lane) + 1, place);
@@ -112,6 +117,28 @@ TEST(Draws, OfPacksAreThoseOfTheirLanes) {
     expect_same(uniform_at(context, {6, 3}), {6, 3});  // of an index that the compiler knows
     expect_same(uniform_at(context, {6, 0}), {6, 0});
     expect_same(uniform_at(context, {6, 1}), {6, 1});
+}
+
+// The first three are made for all lanes at once.
+TEST(Draws, OfSeveralNumbersInPacksAreThoseOfTheirLanes) {
+    const auto context = context_of_sixteen();
+    Mask<16> valid{true};
+    valid.set(5, false);
+    for (const Index index : {0, 1, 2, 1000001}) {
+        const Place place{7, index, 2};
+        for (int count = 1; count <= 8; ++count) {
+            const auto last = [count](Draws& draws) {
+                for (int i = 1; i < count; ++i) draws.uniform();
+                return draws.uniform();
+            };
+            const Lanes<double, 16> numbers = draw_in_each_lane(context, place, valid, last);
+            for (int lane = 0; lane < 16; ++lane) {
+                Draws draws(context.key(lane), static_cast<std::uint32_t>(lane) + 1, place);
+                EXPECT_EQ(numbers[lane], valid[lane] ? last(draws) : 0.0)
+                    << count << " of index " << index << " in lane " << lane;
+            }
+        }
+    }
 }
 
 }  // namespace
