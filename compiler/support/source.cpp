@@ -35,6 +35,22 @@ std::string_view without_line_break(std::string_view line) {
     return line;
 }
 
+std::string on_one_line(std::string_view rddl) {
+    std::string result;
+    for (std::size_t i = 0; i < rddl.size(); ++i) {
+        if (rddl.substr(i, 2) == "//") i = rddl.find('\n', i);
+        if (i >= rddl.size()) break;  // the comment ends with the text
+        const bool blank = std::string_view(" \t\r\n").find(rddl[i]) != std::string_view::npos;
+        if (!blank) {
+            result += rddl[i];
+        } else if (!result.empty() && result.back() != ' ') {
+            result += ' ';
+        }
+    }
+    if (result.ends_with(' ')) result.pop_back();
+    return result;
+}
+
 }  // namespace
 
 Span cover(Span first, Span last) {
@@ -93,6 +109,10 @@ std::optional<FileId> Sources::load(const std::filesystem::path& path) {
 
 std::string_view Sources::text(Span span) const {
     return std::string_view(files_[span.file].text()).substr(span.begin, span.end - span.begin);
+}
+
+std::string Sources::text_on_one_line(Span span) const {
+    return on_one_line(text(span));
 }
 
 std::string Sources::location(Span span) const {
