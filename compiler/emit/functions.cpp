@@ -7,6 +7,7 @@
 #include "emit/tables.hpp"
 #include "emit/templates.hpp"
 #include "support/template_slots.hpp"
+#include "support/utf8.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -154,7 +155,7 @@ std::string comment(std::string text, const std::string& place) {
     const std::size_t room = line_width - level * indentation - 3 - tail.size();
     if (text.size() > room) {
         std::size_t end = room - 3;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+        while (end > 0 && !begins_character(text[end])) --end;
         text = text.substr(0, end) + "...";
     }
     return indented("// " + text + tail, level);

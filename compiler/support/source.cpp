@@ -1,5 +1,7 @@
 #include "support/source.hpp"
 
+#include "support/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,10 +26,6 @@ std::vector<std::uint32_t> find_line_begins(std::string_view text) {
         if (ends_line) begins.push_back(static_cast<std::uint32_t>(i + 1));
     }
     return begins;
-}
-
-bool is_utf8_continuation(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
 }
 
 std::string_view without_line_break(std::string_view line) {
@@ -66,8 +64,7 @@ Position Source::position(std::uint32_t offset) const {
     const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
     const std::uint32_t begin = *(after - 1);
     const std::string_view before = std::string_view(text_).substr(begin, offset - begin);
-    const auto column = std::count_if(before.begin(), before.end(),
-                                      [](char byte) { return !is_utf8_continuation(byte); });
+    const auto column = std::count_if(before.begin(), before.end(), begins_character);
     return {static_cast<int>(after - line_begins_.begin()), static_cast<int>(column) + 1};
 }
 
