@@ -152,12 +152,17 @@ std::string zsh_option(const Option& option, const std::string& name) {
                        zsh_values(option));
 }
 
-std::string zsh_arguments(const Command& command, bool is_program, const std::string& margin) {
-    std::string text = margin + "_arguments \\\n";
+std::string zsh_options(const Command& command, bool is_program, const std::string& margin) {
+    std::string text;
     for (const Option& option : options_of(command, is_program))
         for (const std::string& name : names_of(option))
             text += fmt::format("{}    {} \\\n", margin, zsh_option(option, name));
-    return text + fmt::format("{}    '*:file:_files'\n", margin);
+    return text;
+}
+
+std::string zsh_arguments(const Command& command, bool is_program, const std::string& margin) {
+    return fmt::format("{0}_arguments \\\n{1}{0}    '*:file:_files'\n", margin,
+                       zsh_options(command, is_program, margin));
 }
 
 std::string zsh_body(const Command& program) {
@@ -172,7 +177,8 @@ std::string zsh_body(const Command& program) {
     text +=
         "        'help:Tell more about a command'\n"
         "    )\n"
-        "    _arguments -C '--help[Show the help]' '--version[Show the version]' \\\n"
+        "    _arguments -C \\\n" +
+        zsh_options(program, true, "    ") +
         "        '1:command:->command' '*::argument:->argument'\n"
         "    case $state in\n"
         "    command) _describe command commands ;;\n"
