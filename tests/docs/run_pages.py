@@ -105,8 +105,8 @@ class Session:
 
 def make_repository(folder: Path) -> None:
     def git(*words: str) -> None:
-        author = ["-c", "user.name=test", "-c", "user.email=test", "-c", "advice.addEmbeddedRepo=false"]
-        subprocess.run(["git", *author, "--git-dir", folder, "--work-tree", ROOT, *words], check=True)
+        settings = ["-c", "user.name=test", "-c", "user.email=test", "-c", "commit.gpgSign=false"]
+        subprocess.run(["git", *settings, "--git-dir", folder, "--work-tree", ROOT, *words], check=True)
     subprocess.run(["git", "init", "--quiet", "--bare", "--initial-branch=main", folder], check=True)
     git("add", "--all")
     git("commit", "--quiet", "--message=As it is now")

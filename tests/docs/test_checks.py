@@ -47,7 +47,7 @@ class Pages(unittest.TestCase):
         self.folder = folder.name
 
     def play(self, text: str) -> run_pages.Session:
-        session = run_pages.Session(page_of(text, self.folder), Path(self.folder), dict(os.environ))
+        session = run_pages.Session(page_of(text, self.folder), Path(self.folder), {**os.environ, "HOME": self.folder})
         session.play()
         return session
 
