@@ -36,7 +36,7 @@ struct Option {
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left
     bool has_commas = false;  // between values of a list
-    bool is_enough = false;   // no argument is required beside it
+    bool is_enough = false;   // no argument and no command is required beside it
 };
 
 struct Command {
@@ -45,7 +45,8 @@ struct Command {
     std::string details;  // below the options: what else there is to know, and examples
     std::vector<Option> options;
     std::function<ExitStatus()> run;  // after all values were taken
-    std::vector<Command> commands;    // if there are some, one has to be named
+    // If there are some, one has to be named, unless an option of the program is enough.
+    std::vector<Command> commands;
 };
 
 // Parses the words and runs the command that they name. Mistakes are told on standard error, with

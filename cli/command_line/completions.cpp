@@ -65,6 +65,16 @@ std::vector<std::string> command_names(const Command& program) {
     return names;
 }
 
+// The branches of a `case` over the commands, of what a shell does for one of them.
+std::string branches(const Command& program, std::string text_of(const Command&, bool is_program,
+                                                                 const std::string& margin)) {
+    std::string text;
+    for (const Command& command : program.commands)
+        text += fmt::format("        {})\n{}            ;;\n", command.name,
+                            text_of(command, false, "            "));
+    return text;
+}
+
 // ---------------------------------------------------------------------------------------- bash
 
 // `case` over the word before: what an option takes, else the options. Where nothing that is
@@ -89,18 +99,17 @@ std::string bash_case(const Command& command, bool is_program, const std::string
 
 std::string bash_body(const Command& program) {
     if (program.commands.empty()) return bash_case(program, true, "    ");
-    std::string text = fmt::format(
+    return fmt::format(
         "    if ((COMP_CWORD == 1)); then\n"
-        "        offered='{} {}'\n"
+        "        offered='{0} {1}'\n"
         "    else\n"
         "        case ${{COMP_WORDS[1]}} in\n"
-        "        help) offered='{}' ;;\n",
+        "        help) offered='{0}' ;;\n"
+        "{2}"
+        "        esac\n"
+        "    fi\n",
         fmt::join(command_names(program), " "), fmt::join(names_of(options_of(program, true)), " "),
-        fmt::join(command_names(program), " "));
-    for (const Command& command : program.commands)
-        text += fmt::format("        {})\n{}            ;;\n", command.name,
-                            bash_case(command, false, "            "));
-    return text + "        esac\n    fi\n";
+        branches(program, bash_case));
 }
 
 std::string bash(const Command& program) {
@@ -143,12 +152,17 @@ std::string zsh_option(const Option& option, const std::string& name) {
                        zsh_values(option));
 }
 
-std::string zsh_arguments(const Command& command, bool is_program, const std::string& margin) {
-    std::string text = margin + "_arguments \\\n";
+std::string zsh_options(const Command& command, bool is_program, const std::string& margin) {
+    std::string text;
     for (const Option& option : options_of(command, is_program))
         for (const std::string& name : names_of(option))
             text += fmt::format("{}    {} \\\n", margin, zsh_option(option, name));
-    return text + fmt::format("{}    '*:file:_files'\n", margin);
+    return text;
+}
+
+std::string zsh_arguments(const Command& command, bool is_program, const std::string& margin) {
+    return fmt::format("{0}_arguments \\\n{1}{0}    '*:file:_files'\n", margin,
+                       zsh_options(command, is_program, margin));
 }
 
 std::string zsh_body(const Command& program) {
@@ -163,17 +177,15 @@ std::string zsh_body(const Command& program) {
     text +=
         "        'help:Tell more about a command'\n"
         "    )\n"
-        "    _arguments -C '--help[Show the help]' '--version[Show the version]' \\\n"
+        "    _arguments -C \\\n" +
+        zsh_options(program, true, "    ") +
         "        '1:command:->command' '*::argument:->argument'\n"
         "    case $state in\n"
         "    command) _describe command commands ;;\n"
         "    argument)\n"
         "        case $words[1] in\n"
         "        help) _describe command commands ;;\n";
-    for (const Command& command : program.commands)
-        text += fmt::format("        {})\n{}            ;;\n", command.name,
-                            zsh_arguments(command, false, "            "));
-    return text + "        esac\n        ;;\n    esac\n";
+    return text + branches(program, zsh_arguments) + "        esac\n        ;;\n    esac\n";
 }
 
 std::string zsh(const Command& program) {

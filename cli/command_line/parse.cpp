@@ -113,22 +113,32 @@ std::string message_of(const CLI::ParseError& error, const std::vector<std::stri
                            did_you_mean_text(name, option_names(chosen ? *chosen : program)));
     }
     if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
-    if (!chosen)
-        return fmt::format("name a command, such as '{} {}'", program.name,
-                           program.commands.front().name);
     return error.what();
+}
+
+bool was_given(const Answer& answer) {
+    return answer.handle->count() > 0;
+}
+
+bool has_enough(const Declared& declared) {
+    return std::ranges::any_of(declared.answers, [](const Answer& answer) {
+        return answer.option->is_enough && was_given(answer);
+    });
 }
 
 // Is not left to CLI11, which knows no options that are enough.
 void require_arguments(const Declared& declared) {
-    const auto was_given = [](const Answer& answer) {
-        return answer.handle->count() > 0;
-    };
-    for (const Answer& answer : declared.answers)
-        if (answer.option->is_enough && was_given(answer)) return;
+    if (has_enough(declared)) return;
     for (const Answer& answer : declared.answers)
         if (answer.option->is_required && !was_given(answer))
             throw UsageError(answer.option->names + " is required");
+}
+
+// A program that has commands is run itself if it was told enough.
+void require_command(const Declared& program, const Declared* chosen) {
+    if (chosen || has_enough(program)) return;
+    throw UsageError(fmt::format("name a command, such as '{} {}'", program.command->name,
+                                 program.command->commands.front().name));
 }
 
 // The one that the words name, or else the program.
@@ -196,7 +206,7 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
     declare(all.emplace_back(Declared{&program, &app, {}}));
     for (const Command& command : program.commands)
         declare(all.emplace_back(Declared{&command, app.add_subcommand(command.name), {}}));
-    if (!program.commands.empty()) app.require_subcommand(1);
+    app.require_subcommand(0, 1);
 
     const auto chosen = [&]() -> const Declared* {
         if (program.commands.empty()) return &all.front();
@@ -220,7 +230,9 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
             return success;
         }
         app.parse(words_of(program, words));
-        return run_declared(*chosen());
+        const Declared* const command = chosen();
+        require_command(all.front(), command);
+        return run_declared(has_enough(all.front()) ? all.front() : *command);
     } catch (const CLI::CallForHelp&) {
         const Declared* const command = chosen();
         fmt::print("{}", help_text(command ? *command->command : program, full_name()));

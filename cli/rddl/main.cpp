@@ -1,8 +1,14 @@
 // `rddl`: RDDL problems at work. Each subcommand has a file of its own in commands/.
+#include "command_line/explain_option.hpp"
 #include "commands/commands.hpp"
 #include "driver/version.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
 
 namespace rddlc::cli {
 
@@ -22,8 +28,15 @@ Command rddl_command() {
         "  rddl check domain.rddl instance.rddl\n"
         "  rddl fmt domain.rddl instance.rddl\n"
         "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n"
-        "  rddl verify domain.rddl instance.rddl\n\n"
+        "  rddl verify domain.rddl instance.rddl\n"
+        "  rddl --explain E0203\n\n"
         "'rddl help COMMAND' tells more about a command.";
+    const auto explanation = std::make_shared<std::string>();
+    add_explain_option(program, *explanation);
+    program.run = [explanation] {
+        fmt::print("{}", *explanation);
+        return success;
+    };
     program.commands = {list_command(), info_command(),   check_command(), fmt_command(),
                         run_command(),  replay_command(), bench_command(), verify_command()};
     return program;

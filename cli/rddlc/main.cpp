@@ -1,6 +1,5 @@
 // `rddlc`: an RDDL problem in, a simulator out.
 #include "driver/driver.hpp"
-#include "driver/explain.hpp"
 #include "driver/statistics.hpp"
 #include "driver/version.hpp"
 #include "options.hpp"
@@ -30,21 +29,9 @@ std::string statistics(const Compilation& compilation, Statistics format) {
                                       : statistics_text(compilation.passes);
 }
 
-// "E0101: unexpected text" and so on, the titles of the pages.
-std::string list_of_codes() {
-    std::string list;
-    for (const Page& page : pages)
-        list += fmt::format("{}\n", page.text.substr(2, page.text.find('\n') - 2));
-    return list;
-}
-
 ExitStatus run(const Options& options) {
-    if (options.lists_codes) {
-        fmt::print("{}", list_of_codes());
-        return success;
-    }
-    if (options.explained) {
-        fmt::print("{}", *explain(*options.explained));
+    if (!options.explanation.empty()) {
+        fmt::print("{}", options.explanation);
         return success;
     }
     const Compilation compilation = compile(options.compile);

@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include "command_line/explain_option.hpp"
 #include "driver/explain.hpp"
 #include "driver/files.hpp"
 #include "support/program.hpp"
@@ -48,7 +49,7 @@ struct Arguments {
     std::string lanes = "16";
     std::string real = "double";
     std::int64_t memory_limit = default_memory_limit;
-    std::string explained;
+    std::string explanation;
     std::vector<std::string> without;
     bool fast_math = false;
     std::string statistics;  // "true" without a format
@@ -127,10 +128,7 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
         .choices = {"text", "json"};
     add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
         .choices = {"auto", "always", "never"};
-    add_text_option(command, "--explain", "CODE",
-                    "explain a diagnostic, such as E0203, and exit; list: all codes",
-                    arguments.explained)
-        .is_enough = true;
+    add_explain_option(command, arguments.explanation);
     add_flag(command, "-v,--verbose", "tell how long each stage takes", arguments.verbose);
 }
 
@@ -307,16 +305,8 @@ Options options_of(const Arguments& arguments) {
     options.render.format =
         arguments.format == "json" ? DiagnosticsFormat::Json : DiagnosticsFormat::Text;
     options.render.color = use_color(arguments.color);
-    options.lists_codes = arguments.explained == "list";
-    if (options.lists_codes) return options;
-    if (!arguments.explained.empty()) {
-        options.explained = parse_code(arguments.explained);
-        if (!options.explained || !explain(*options.explained)) {
-            throw usage(fmt::format("there is no diagnostic '{}'; '--explain list' shows all",
-                                    arguments.explained));
-        }
-        return options;
-    }
+    options.explanation = arguments.explanation;
+    if (!options.explanation.empty()) return options;
     options.statistics = statistics_format(arguments.statistics);
     options.compile = compile_options(arguments);
     return options;

@@ -6,7 +6,7 @@
 #include "support/render.hpp"
 
 #include <functional>
-#include <optional>
+#include <string>
 
 namespace rddlc::cli {
 
@@ -17,8 +17,7 @@ struct Options {
     RenderOptions render;
     Statistics statistics = Statistics::None;
     bool verbose = false;
-    std::optional<Code> explained;  // --explain
-    bool lists_codes = false;       // --explain=list
+    std::string explanation;  // what --explain asks for; else empty
 };
 
 // Its command line, which leads to `run` unless there is a mistake.

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace rddlc {
@@ -18,5 +19,8 @@ struct Page {
 extern const std::span<const Page> pages;
 
 std::optional<std::string_view> explain(Code code);
+
+// "E0101: unexpected text" and so on, the titles of the pages.
+std::string list_of_codes();
 
 }  // namespace rddlc

@@ -18,8 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_output = std::size_t{1} << 24;
-
 // Until there is something to read, or the output ends. False when the time is over before.
 bool wait_for_output(int descriptor, std::optional<Clock::time_point> end) {
     while (end) {
@@ -38,7 +36,7 @@ bool read_all(int descriptor, std::optional<Clock::time_point> end, std::string&
     std::array<char, 4096> buffer;
     while (wait_for_output(descriptor, end)) {
         const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-        if (count > 0 && text.size() < most_output)
+        if (count > 0 && text.size() < most_process_output)
             text.append(buffer.data(), static_cast<std::size_t>(count));
         if (count == 0 || (count < 0 && errno != EINTR)) return true;
     }

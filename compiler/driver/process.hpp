@@ -2,15 +2,19 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rddlc {
 
+// What is kept of a process's output, in bytes, but for the end of the last read.
+inline constexpr std::size_t most_process_output = std::size_t{1} << 24;
+
 struct ProcessResult {
     int status;          // its exit status; 128 + the signal that ended it
-    std::string output;  // what it wrote on its standard output and error: the first megabytes
+    std::string output;  // what it wrote on its standard output and error, cut off there
     bool timed_out = false;
 
     bool was_killed() const { return status >= 128; }

@@ -265,7 +265,7 @@ class Describer {
     void conditions(const std::string& name, const std::vector<ir::Computation>& conditions) {
         std::vector<std::vector<std::string>> table;
         for (const ir::Computation& condition : conditions) {
-            const std::string text = on_one_line(unit_.sources.text(condition.span));
+            const std::string text = unit_.sources.text_on_one_line(condition.span);
             table.push_back({on_lines(text), source(condition.span)});
         }
         rows("rddl_condition", name, table);

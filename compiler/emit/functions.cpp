@@ -7,6 +7,7 @@
 #include "emit/tables.hpp"
 #include "emit/templates.hpp"
 #include "support/template_slots.hpp"
+#include "support/utf8.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -154,7 +155,7 @@ std::string comment(std::string text, const std::string& place) {
     const std::size_t room = line_width - level * indentation - 3 - tail.size();
     if (text.size() > room) {
         std::size_t end = room - 3;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+        while (end > 0 && !begins_character(text[end])) --end;
         text = text.substr(0, end) + "...";
     }
     return indented("// " + text + tail, level);
@@ -162,7 +163,7 @@ std::string comment(std::string text, const std::string& place) {
 
 // "rlevel'(?r)" of "rlevel'(?r) = ...;"
 std::string lifted_head(const Unit& unit, const ir::Definition& definition) {
-    const std::string text = on_one_line(unit.sources.text(definition.span));
+    const std::string text = unit.sources.text_on_one_line(definition.span);
     std::string head = text.substr(0, text.find('='));
     while (head.ends_with(' ')) head.pop_back();
     return head;
@@ -176,7 +177,7 @@ std::string cpf_comment(const Unit& unit, const ir::Definition& definition, Owne
     const ir::Buffer& target = unit.program[definition.target];
     const bool is_cpf = target.fluent || owner == Owner::Policy;
     if (!is_cpf && target.storage == ir::Storage::Observation)  // a precondition
-        return comment(on_one_line(unit.sources.text(definition.span)), place);
+        return comment(unit.sources.text_on_one_line(definition.span), place);
     return comment((is_cpf ? "" : "A table for ") + lifted_head(unit, definition), place);
 }
 
@@ -327,7 +328,7 @@ std::string conditions(const Unit& unit, const ConditionKind& kind,
         const std::string condition =
             name + (parameters.empty() ? "<L>(" : "(") + arguments(parameters) + ")";
         calls.push_back({add_condition(kind, k, condition), uses});
-        functions += "\n" + comment(on_one_line(unit.sources.text(computation.span)),
+        functions += "\n" + comment(unit.sources.text_on_one_line(computation.span),
                                     unit.where(computation.span));
         functions += function("typename L::Bool", name, parameters,
                               body_text(unit, body, computation.span, has_scratch));

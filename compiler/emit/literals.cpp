@@ -103,20 +103,4 @@ std::string comment_text(std::string_view text) {
     return result;
 }
 
-std::string on_one_line(std::string_view rddl) {
-    std::string result;
-    for (std::size_t i = 0; i < rddl.size(); ++i) {
-        if (rddl.substr(i, 2) == "//") i = rddl.find('\n', i);
-        if (i >= rddl.size()) break;  // the comment ends with the text
-        const bool blank = std::string_view(" \t\r\n").find(rddl[i]) != std::string_view::npos;
-        if (!blank) {
-            result += rddl[i];
-        } else if (!result.empty() && result.back() != ' ') {
-            result += ' ';
-        }
-    }
-    if (result.ends_with(' ')) result.pop_back();
-    return result;
-}
-
 }  // namespace rddlc::cpp

@@ -23,7 +23,4 @@ std::string literal(std::string_view text);
 // Safe after "//": one line, no control characters, no line continuation.
 std::string comment_text(std::string_view text);
 
-// RDDL text without its comments and line breaks; blanks are single.
-std::string on_one_line(std::string_view rddl);
-
 }  // namespace rddlc::cpp

@@ -1,6 +1,7 @@
 #include "parse/spelling.hpp"
 
 #include "parse/codes.hpp"
+#include "support/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -10,22 +11,6 @@
 namespace rddlc {
 
 namespace {
-
-bool is_valid_utf8(std::string_view text) {
-    while (!text.empty()) {
-        const auto first = static_cast<unsigned char>(text[0]);
-        const std::size_t length = first < 0x80                    ? 1
-                                   : first >= 0xC2 && first < 0xE0 ? 2
-                                   : first >= 0xE0 && first < 0xF0 ? 3
-                                   : first >= 0xF0 && first < 0xF5 ? 4
-                                                                   : 0;
-        if (length == 0 || length > text.size()) return false;
-        for (std::size_t i = 1; i < length; ++i)
-            if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-        text.remove_prefix(length);
-    }
-    return true;
-}
 
 // ------------------------------------------------------------------------ foreign spellings
 
@@ -185,7 +170,7 @@ class Repair {
         if (!illegal_) return;
         const std::string_view found =
             text_.substr(illegal_->begin, illegal_->end - illegal_->begin);
-        if (is_valid_utf8(found))
+        if (is_utf8(found))
             report(illegal_character, *illegal_, illegal_message(found), hint_for_character(found));
         else
             report(not_utf8_text, *illegal_, "these bytes are not UTF-8 text",

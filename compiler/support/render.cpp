@@ -1,5 +1,7 @@
 #include "support/render.hpp"
 
+#include "support/utf8.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,33 +18,24 @@ constexpr std::size_t tab_width = 4;
 constexpr std::size_t window_width = 110;  // longer lines are shown around the caret only
 constexpr std::string_view ellipsis = "...";
 
-// The length of the UTF-8 sequence that begins `text`; 0 if there is none that is valid.
-std::size_t utf8_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return static_cast<unsigned char>(text[i]);
-    };
-    const std::size_t length = byte(0) < 0x80             ? 1
-                               : (byte(0) & 0xE0) == 0xC0 ? 2
-                               : (byte(0) & 0xF0) == 0xE0 ? 3
-                               : (byte(0) & 0xF8) == 0xF0 ? 4
-                                                          : 0;
-    if (length == 0 || length > text.size()) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-    return length;
-}
-
-// What a terminal shows for a piece of source, one element per column: tabs become blanks,
-// control characters and broken UTF-8 become a replacement character.
+// What a terminal shows for a piece of source, one element per column: tabs become blanks, what is
+// not visible a replacement character. Wide characters are followed by an empty element; accents
+// stand in the element of their character.
 void append_columns(std::vector<std::string>& columns, std::string_view text) {
     while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        const bool control = static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F;
-        if (text[0] == '\t')
+        const Character character = first_character(text);
+        text.remove_prefix(character.bytes.size());
+        if (character.bytes == "\t") {
             columns.insert(columns.end(), tab_width - columns.size() % tab_width, " ");
-        else
-            columns.emplace_back(length == 0 || control ? "\xEF\xBF\xBD" : text.substr(0, length));
-        text.remove_prefix(std::max<std::size_t>(length, 1));
+        } else if (!character.is_visible) {
+            columns.emplace_back("\xEF\xBF\xBD");
+        } else if (character.width == 0) {
+            if (columns.empty()) columns.emplace_back(" ");
+            columns.back() += character.bytes;
+        } else {
+            columns.emplace_back(character.bytes);
+            if (character.width > 1) columns.emplace_back();
+        }
     }
 }
 
@@ -54,7 +47,7 @@ struct Excerpt {
 };
 
 // The part of a line around [first, last): enough bytes to fill a window, so that the cost does
-// not depend on how long the line is. Does not begin inside a UTF-8 sequence.
+// not depend on how long the line is. Does not begin inside a character.
 struct Part {
     std::string_view before, marked, after;
     bool cut_left, cut_right;
@@ -63,7 +56,7 @@ struct Part {
 Part part_of(std::string_view line, std::size_t first, std::size_t last) {
     constexpr std::size_t reach = 4 * window_width;  // a code point has at most 4 bytes
     std::size_t begin = first > reach ? first - reach : 0;
-    while (begin > 0 && begin < first && (line[begin] & 0xC0) == 0x80) ++begin;
+    while (begin > 0 && begin < first && !begins_character(line[begin])) ++begin;
     const std::size_t end = std::min(line.size(), first + reach);
     last = std::min(last, end);
     return {line.substr(begin, first - begin), line.substr(first, last - first),
@@ -97,6 +90,7 @@ Excerpt excerpt_of(const Part& part) {
     const bool cut_right = part.cut_right || last < columns.size();
     std::vector<std::string> shown(columns.begin() + static_cast<std::ptrdiff_t>(first),
                                    columns.begin() + static_cast<std::ptrdiff_t>(last));
+    if (shown.front().empty()) shown.front() = " ";  // half of a wide character
     if (cut_left) shown.emplace(shown.begin(), ellipsis);
     if (cut_right) shown.emplace_back(ellipsis);
     // The leading ellipsis is one element, but as wide as its text.

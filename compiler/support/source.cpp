@@ -1,5 +1,7 @@
 #include "support/source.hpp"
 
+#include "support/utf8.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,13 +28,25 @@ std::vector<std::uint32_t> find_line_begins(std::string_view text) {
     return begins;
 }
 
-bool is_utf8_continuation(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
-}
-
 std::string_view without_line_break(std::string_view line) {
     while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
     return line;
+}
+
+std::string on_one_line(std::string_view rddl) {
+    std::string result;
+    for (std::size_t i = 0; i < rddl.size(); ++i) {
+        if (rddl.substr(i, 2) == "//") i = rddl.find('\n', i);
+        if (i >= rddl.size()) break;  // the comment ends with the text
+        const bool blank = std::string_view(" \t\r\n").find(rddl[i]) != std::string_view::npos;
+        if (!blank) {
+            result += rddl[i];
+        } else if (!result.empty() && result.back() != ' ') {
+            result += ' ';
+        }
+    }
+    if (result.ends_with(' ')) result.pop_back();
+    return result;
 }
 
 }  // namespace
@@ -50,8 +64,7 @@ Position Source::position(std::uint32_t offset) const {
     const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
     const std::uint32_t begin = *(after - 1);
     const std::string_view before = std::string_view(text_).substr(begin, offset - begin);
-    const auto column = std::count_if(before.begin(), before.end(),
-                                      [](char byte) { return !is_utf8_continuation(byte); });
+    const auto column = std::count_if(before.begin(), before.end(), begins_character);
     return {static_cast<int>(after - line_begins_.begin()), static_cast<int>(column) + 1};
 }
 
@@ -93,6 +106,10 @@ std::optional<FileId> Sources::load(const std::filesystem::path& path) {
 
 std::string_view Sources::text(Span span) const {
     return std::string_view(files_[span.file].text()).substr(span.begin, span.end - span.begin);
+}
+
+std::string Sources::text_on_one_line(Span span) const {
+    return on_one_line(text(span));
 }
 
 std::string Sources::location(Span span) const {

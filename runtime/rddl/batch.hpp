@@ -628,7 +628,7 @@ class Batch {
     template <class Number>
     void write_observation_values(Number* observations, std::int64_t b) const {
         write_values(L{}, observation_columns_, observed(b),
-                     observations + b * width * observation_columns_.value_count, lanes_of(b));
+                     observations + b * width * observation_columns_.value_count, 0, lanes_of(b));
     }
     void write_finals(const Workspace& workspace, std::int64_t b, Bool lanes,
                       const rddl_transition& out) const {
@@ -649,8 +649,8 @@ class Batch {
     }
     template <class Number>
     void write_final_values(Number* matrix, std::int64_t i) const {
-        write_value_row(L{}, observation_columns_, observed(i / width), lane_of(i),
-                        matrix + i * observation_columns_.value_count);
+        write_values(L{}, observation_columns_, observed(i / width),
+                     matrix + i * observation_columns_.value_count, lane_of(i), lane_of(i) + 1);
     }
 
     static void copy_record(std::byte* target, const std::byte* record, std::size_t size) {

@@ -429,27 +429,18 @@ void read_values(L, const Columns& columns, const Number* rows, int present, std
             }
         });
 }
+// The rows of the lanes [begin, end).
 template <class L, class Number>
-void write_values(L, const Columns& columns, const std::byte* block, Number* rows, int present) {
+void write_values(L, const Columns& columns, const std::byte* block, Number* rows, int begin,
+                  int end) {
     for (const Column& column : columns.list)
         with_type<L>(column.scalar, [&]<class T>() {
             const T* const values = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k) {
                 Number* number = rows + column.first + k;
-                for (int lane = 0; lane < present; ++lane, number += columns.value_count)
+                for (int lane = begin; lane < end; ++lane, number += columns.value_count)
                     *number = static_cast<Number>(get_lane(values[k], lane));
             }
-        });
-}
-
-// The row of one lane.
-template <class L, class Number>
-void write_value_row(L, const Columns& columns, const std::byte* block, int lane, Number* row) {
-    for (const Column& column : columns.list)
-        with_type<L>(column.scalar, [&]<class T>() {
-            const T* const values = detail::values_in<T>(block, column);
-            for (std::int64_t k = 0; k < column.count; ++k)
-                row[column.first + k] = static_cast<Number>(get_lane(values[k], lane));
         });
 }
 

@@ -91,19 +91,10 @@ inline void describe_objects(FixedText& text, std::span<const SiteVariable> scop
 
 }  // namespace detail
 
-// "domain.rddl:52:9: precondition violated: release(?r) <= rlevel(?r)", on one line.
+// "domain.rddl:52:9: precondition violated: release(?r) <= rlevel(?r)"
 inline void describe_violation(FixedText& text, const rddl_condition& condition) {
     text << condition.source.file << ":" << std::int64_t{condition.source.line} << ":"
-         << std::int64_t{condition.source.column} << ": precondition violated:";
-    std::string_view rest = condition.text;
-    constexpr std::string_view blanks = " \t\r\n";
-    while (!rest.empty()) {
-        const std::size_t begin = std::min(rest.find_first_not_of(blanks), rest.size());
-        rest.remove_prefix(begin);
-        const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
-        if (end > 0) text << " " << rest.substr(0, end);
-        rest.remove_prefix(end);
-    }
+         << std::int64_t{condition.source.column} << ": precondition violated: " << condition.text;
 }
 
 // The first objects for which a precondition does not hold.

@@ -85,7 +85,7 @@ typedef struct {
     rddl_source source;
 } rddl_fluent;
 
-/* A constraint, by its text as written. */
+/* A constraint, by its text as written, on one line and without comments. */
 typedef struct {
     const char* text;
     rddl_source source;

@@ -43,7 +43,9 @@ TEST_P(MisusedProgram, SaysWhatIsWrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     Program, MisusedProgram,
-    testing::Values(Misuse{"", "name a command"},
+    testing::Values(Misuse{"", "name a command, such as 'rddl list'"},
+                    Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
+                    Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
                     Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
                     Misuse{"run", "DOMAIN is required"},
                     Misuse{"run domain.rddl instance.rddl --episode=3",
@@ -81,6 +83,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
                     Misuse{"check", "name a problem, or say --all"},
                     Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+
+TEST_F(Program, ExplainsDiagnosticsAsTheCompilerDoes) {
+    const auto page = std::filesystem::path(RDDL_EXAMPLES) / "../docs/diagnostics/E0203.md";
+    const Outcome outcome = run("--explain E0203");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out, read_file(page));
+    EXPECT_TRUE(run("--explain=list").out.starts_with("E0101: "));
+}
 
 TEST_F(Program, TakesSizesWithUnits) {
     const auto told = [&](const std::string& size) {

@@ -3,6 +3,8 @@
 
 #include <sys/stat.h>
 
+#include <cstring>
+
 namespace rddlc::cli {
 namespace {
 
@@ -56,11 +58,26 @@ TEST_F(Fmt, ChecksWithoutChange) {
 TEST_F(Fmt, ShowsDifferencesThatPatchReads) {
     const Outcome outcome = run("fmt --diff untidy.rddl tidy.rddl");
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_TRUE(
-        outcome.out.starts_with("--- untidy.rddl\n+++ untidy.rddl\n@@ -1,1 +1,5 @@\n-domain"))
+    EXPECT_TRUE(outcome.out.starts_with("--- untidy.rddl\n+++ untidy.rddl\n@@ -1 +1,5 @@\n-domain"))
         << outcome.out;
     EXPECT_EQ(text_of("untidy.rddl"), untidy);
     EXPECT_EQ(run("fmt --diff --check untidy.rddl").status, 1);
+}
+
+TEST_F(Fmt, ShowsAMissingLineBreakAsADifference) {
+    write_file(folder_ / "open.rddl", std::string_view(tidy).substr(0, std::strlen(tidy) - 1));
+    const Outcome outcome = run("fmt --diff open.rddl");
+    EXPECT_TRUE(outcome.out.ends_with("-}  // end\n\\ No newline at end of file\n+}  // end\n"))
+        << outcome.out;
+    EXPECT_TRUE(run("fmt --diff - <open.rddl").out.starts_with("--- -\n+++ -\n@@ "));
+}
+
+TEST_F(Fmt, SaysWhatShowsDifferences) {
+    const Outcome outcome = run("fmt --diff untidy.rddl", "PATH=/nowhere");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err,
+              "rddl: error: cannot run 'diff': No such file or directory\n"
+              "  install it (the package diffutils)\n");
 }
 
 TEST_F(Fmt, WritesElsewhere) {

@@ -73,6 +73,16 @@ TEST_F(Strict, NamesTheObjectsAndValuesOfAViolatedPrecondition) {
     expect_part(refused.err, "\nrddl: 3 actions violated a precondition: refused\n");
 }
 
+TEST_F(Strict, LeavesCommentsOutOfConditions) {
+    std::string domain = strict_domain;
+    const std::string_view written = "(sum_{?t : tank} pump(?t)) <= 1;";
+    domain.replace(domain.find(written), written.size(),
+                   "(sum_{?t : tank} pump(?t))  // one\n            <= 1;");
+    write_file(folder_ / "strict.rddl", domain);
+    expect_part(replay("error --input pump.jsonl").out,
+                "precondition violated: (sum_{?t : tank} pump(?t)) <= 1 where pump(t1) = true");
+}
+
 TEST_F(Strict, WarnsOnceInTheFormOfDiagnostics) {
     const Outcome warned = replay("warn --input pump.jsonl");
     EXPECT_EQ(warned.status, 0);

@@ -24,15 +24,23 @@ TEST(Table, AlignsColumns) {
               " b\n");
 }
 
+TEST(Table, AlignsWideCharacters) {
+    Table table({{"name"}, {"note"}});
+    table.add_row({"水位計", "x"});
+    EXPECT_EQ(table.text(), "name    note\n水位計  x\n");
+}
+
 TEST(Table, OmitsEmptyTitles) {
     Table table({{""}, {""}});
     table.add_row({"a", "b"});
     EXPECT_EQ(table.text(), "a  b\n");
 }
 
-TEST(Text, IsShortenedAndWrappedByCodePoints) {
+TEST(Text, IsShortenedAndWrappedByWidth) {
     EXPECT_EQ(shortened("größe", 5), "größe");
     EXPECT_EQ(shortened("größer", 5), "größ…");
+    EXPECT_EQ(shortened("水位計", 5), "水位…");
+    EXPECT_EQ(shortened("水位計", 4), "水…");
     EXPECT_EQ(wrapped("one two three", 7), (std::vector<std::string>{"one two", "three"}));
     EXPECT_EQ(wrapped("unbreakable", 3), (std::vector<std::string>{"unbreakable"}));
 }

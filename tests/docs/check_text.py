@@ -1,6 +1,7 @@
 """What can be seen in the documentation without running it: fails for
 
-* a block without a language, or with one that nobody knows (CONTRIBUTING.md lists them);
+* a block without a language, or with one that nobody knows (CONTRIBUTING.md lists them); pages of
+  diagnostics may hold pieces of RDDL without one, but no commands, which would not be run;
 * a command of rddl, or an option of rddlc or rddl, that does not exist, in blocks and in `code`;
 * a link to a file, or to a heading, that is not there.
 
@@ -14,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from pages import PRINTED, ROOT, RUN, blocks, pages
+from pages import COMMAND, PRINTED, ROOT, RUN, blocks, pages, pages_of_diagnostics
 
 COMMANDS = "sh"
 LANGUAGES = {RUN, PRINTED, COMMANDS, "rddl", "c++", "c", "cmake", "python", "ebnf", "json"}
@@ -26,13 +27,17 @@ PROGRAM = re.compile(r"^(?:\$ )?(?:[A-Z_]+=\S+ )*(?:\S*/)?(rddlc?)( .*)?$")
 
 
 def pages_with_links() -> list[Path]:
-    return [*pages(), *sorted((ROOT / "docs/diagnostics").glob("*.md")), ROOT / "CHANGELOG.md",
-            ROOT / "generated/README.md"]
+    return [*pages(), *pages_of_diagnostics(), ROOT / "CHANGELOG.md", ROOT / "generated/README.md"]
 
 
 def complaints_about_languages(page: Path) -> list[str]:
     return [f"{block.place}: '{block.language}' is no language of ours: {', '.join(sorted(LANGUAGES))}"
             for block in blocks(page) if block.language not in LANGUAGES]
+
+
+def complaints_about_hidden_commands(page: Path) -> list[str]:
+    return [f"{block.place}: commands stand in a '{RUN}' block, so that they are run"
+            for block in blocks(page) if block.language != RUN and any(map(COMMAND.match, block.lines))]
 
 
 class Programs:
@@ -135,6 +140,8 @@ def main() -> int:
     found = []
     for page in pages():
         found += complaints_about_languages(page) + complaints_about_calls(page, programs)
+    for page in pages_of_diagnostics():
+        found += complaints_about_hidden_commands(page) + complaints_about_calls(page, programs)
     for page in pages_with_links():
         found += complaints_about_links(page)
     print("\n".join(found))

@@ -8,14 +8,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+DIAGNOSTICS = ROOT / "docs/diagnostics"
 
 # What a reader runs, what he types into a file, and what programs print. Other languages are quoted.
 RUN, PRINTED = "console", "text"
-MARKS = ("file", "not run", "loosely")
+MARKS = ("file", "files of", "not run", "loosely")
 
 FENCE = re.compile(r"^( *)```(.*)$")
 MARK = re.compile(rf"^ *<!-- ({'|'.join(MARKS)}): (.+) -->$")
 COMMAND = re.compile(r"^\$ ")
+# The first line of a block that is a file, where a page is printed as it stands.
+NAMED = re.compile(r"^// ([\w-]+\.(?:rddl|hpp))$")
 
 
 @dataclass
@@ -48,9 +51,18 @@ class Exchange:
 
 
 def pages() -> list[Path]:
-    """The pages of docs/diagnostics are printed by --explain as they stand, and have tests of their own."""
     others = ["README.md", "CONTRIBUTING.md", "examples/README.md", "editors/README.md"]
     return [*(ROOT / name for name in others), *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def pages_of_diagnostics() -> list[Path]:
+    """--explain prints them as they stand, so they have no marks."""
+    return sorted(DIAGNOSTICS.glob("*.md"))
+
+
+def files(page: Path) -> list[Block]:
+    """The blocks that are files."""
+    return [block for block in blocks(page) if "file" in block.marks]
 
 
 def blocks(page: Path) -> list[Block]:
@@ -63,6 +75,8 @@ def blocks(page: Path) -> list[Block]:
             inside = None
         elif inside:
             inside.lines.append(line.removeprefix(inside.indentation))
+            if len(inside.lines) == 1 and (name := NAMED.match(line)):
+                inside.marks.setdefault("file", name[1])
         elif fence:
             inside = Block(page, number, fence[1], fence[2].strip(), marks=marks)
             found.append(inside)

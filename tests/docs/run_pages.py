@@ -2,8 +2,9 @@
 
     run_pages.py --bin build/bin [--build build] [--cache FOLDER] [--python PYTHON] [PAGE...]
 
-Each page is a session in a folder of its own, in which examples/ lies and what the page writes. With
-RDDLC_UPDATE=1 in the environment, outputs that differ are written into the page: read the difference.
+Each page is a session in a folder of its own, in which examples/ lies and what the page writes; for the
+page of a diagnostic, the files of a problem, too. With RDDLC_UPDATE=1 in the environment, outputs that
+differ are written into the page: read the difference.
 """
 
 import argparse
@@ -16,10 +17,12 @@ import tempfile
 from pathlib import Path
 
 from comparison import agree
-from pages import PRINTED, ROOT, RUN, Block, blocks, exchanges, pages
+from pages import DIAGNOSTICS, PRINTED, ROOT, RUN, Block, blocks, exchanges, files, pages, pages_of_diagnostics
 
 SECONDS = 600  # Far beyond what any command takes on a busy machine: only what hangs fails.
 INSTALLED = "~/rddlc"  # Where docs/getting-started.md lets its reader install rddlc.
+CLONED = "$REPOSITORY"  # What readers clone: this tree with all changes, whether it is under git or not.
+REPOSITORY = "repository.git"
 
 
 def arguments() -> argparse.Namespace:
@@ -32,14 +35,12 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def environment(options: argparse.Namespace, folder: Path) -> dict[str, str]:
-    home = folder.parent / "home"
-    home.mkdir()
+def environment(options: argparse.Namespace, home: Path) -> dict[str, str]:
     values = {
-        **os.environ, "HOME": str(home), "TMPDIR": str(folder.parent),
+        **os.environ, "HOME": str(home), "TMPDIR": str(home),
         "PATH": f"{options.bin.resolve()}:{options.python.absolute().parent}:{os.environ['PATH']}",
         "XDG_CACHE_HOME": str((options.cache or home / "cache").absolute()),
-        "VIRTUAL_ENV": str(options.python.absolute().parents[1]),
+        "VIRTUAL_ENV": str(options.python.absolute().parents[1]), "REPOSITORY": str(home / REPOSITORY),
     }
     for name in "RDDL_REPOSITORY", "RDDLC_INCLUDE", "CXX", "MAKEFLAGS":
         values.pop(name, None)
@@ -55,7 +56,7 @@ def write(block: Block, folder: Path) -> None:
 def run(command: str, folder: Path, variables: dict[str, str]) -> str:
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=variables, timeout=SECONDS,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    return done.stdout.decode()
+    return done.stdout.decode().replace(variables["HOME"], "~")
 
 
 def difference(written: str, printed: str) -> str:
@@ -74,6 +75,9 @@ class Session:
 
     def play(self) -> None:
         for block in blocks(self.page):
+            if "files of" in block.marks:
+                for file in files(self.page.parent / block.marks["files of"]):
+                    write(file, self.folder)
             if "file" in block.marks:
                 write(block, self.folder)
             elif block.language == PRINTED and "not run" not in block.marks:
@@ -99,15 +103,34 @@ class Session:
         self.page.write_text("\n".join(lines) + "\n")
 
 
+def make_repository(folder: Path) -> None:
+    def git(*words: str) -> None:
+        settings = ["-c", "user.name=test", "-c", "user.email=test", "-c", "commit.gpgSign=false"]
+        subprocess.run(["git", *settings, "--git-dir", folder, "--work-tree", ROOT, *words], check=True)
+    subprocess.run(["git", "init", "--quiet", "--bare", "--initial-branch=main", folder], check=True)
+    git("add", "--all")
+    git("commit", "--quiet", "--message=As it is now")
+
+
+def prepare(page: Path, folder: Path, options: argparse.Namespace, variables: dict[str, str]) -> None:
+    """What must be there before the page begins."""
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    if page.parent == DIAGNOSTICS:
+        shutil.copytree(ROOT / "examples/mountain_car", folder, dirs_exist_ok=True)
+    text = page.read_text()
+    if INSTALLED in text:
+        subprocess.run(["cmake", "--install", options.build, "--prefix", f"{variables['HOME']}/rddlc"],
+                       check=True, stdout=subprocess.DEVNULL)
+    if CLONED in text:
+        make_repository(Path(variables["REPOSITORY"]))
+
+
 def session_of(page: Path, options: argparse.Namespace) -> Session:
     with tempfile.TemporaryDirectory(prefix="rddlc-docs-") as name:
-        folder = Path(name) / "clone"
-        shutil.copytree(ROOT / "examples", folder / "examples")
-        variables = environment(options, folder)
-        if INSTALLED in page.read_text():
-            subprocess.run(["cmake", "--install", options.build, "--prefix", f"{variables['HOME']}/rddlc"],
-                           check=True, stdout=subprocess.DEVNULL)
-        session = Session(page, folder, variables)
+        home = Path(name)
+        variables = environment(options, home)
+        prepare(page, home / "clone", options, variables)
+        session = Session(page, home / "clone", variables)
         session.play()
     if os.environ.get("RDDLC_UPDATE"):
         session.correct()
@@ -116,7 +139,7 @@ def session_of(page: Path, options: argparse.Namespace) -> Session:
 
 def main() -> int:
     options = arguments()
-    sessions = [session_of(page.resolve(), options) for page in options.pages or pages()]
+    sessions = [session_of(page.resolve(), options) for page in options.pages or pages() + pages_of_diagnostics()]
     complaints = [complaint for session in sessions for complaint in session.complaints]
     print("\n\n".join(complaints))
     commands = sum(session.commands for session in sessions)

@@ -1,6 +1,7 @@
 """The checks of the documentation find what they are for."""
 
 import os
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -46,7 +47,7 @@ class Pages(unittest.TestCase):
         self.folder = folder.name
 
     def play(self, text: str) -> run_pages.Session:
-        session = run_pages.Session(page_of(text, self.folder), Path(self.folder), dict(os.environ))
+        session = run_pages.Session(page_of(text, self.folder), Path(self.folder), {**os.environ, "HOME": self.folder})
         session.play()
         return session
 
@@ -68,6 +69,28 @@ class Pages(unittest.TestCase):
     def test_files_are_written(self):
         text = "<!-- file: a/b.txt -->\n```text\nhello\n```\n\n```console\n$ cat a/b.txt\nhello\n```\n"
         self.assertFalse(self.play(text).complaints)
+
+    def test_blocks_may_name_their_files(self):
+        self.assertFalse(self.play("```rddl\n// a.rddl\nhello\n```\n\n```console\n$ tail -n 1 a.rddl\nhello\n```\n").complaints)
+
+    def test_files_of_other_pages_are_written(self):
+        (Path(self.folder) / "other.md").write_text("<!-- file: a.txt -->\n```text\nhello\n```\n")
+        self.assertFalse(self.play("<!-- files of: other.md -->\n```console\n$ cat a.txt\nhello\n```\n").complaints)
+
+    def test_the_home_folder_has_no_name(self):
+        self.assertFalse(self.play("```console\n$ echo $HOME/a\n~/a\n```\n").complaints)
+
+    def test_clones_hold_the_tree_as_it_is(self):
+        repository = Path(self.folder) / "tree.git"
+        run_pages.make_repository(repository)
+        listed = subprocess.run(["git", "--git-dir", repository, "ls-tree", "--name-only", "main"],
+                                stdout=subprocess.PIPE, check=True).stdout.decode().split()
+        self.assertIn("README.md", listed)
+        self.assertNotIn("build", listed)
+
+    def test_commands_of_diagnostics_are_not_hidden(self):
+        for text, count in {"```\n$ true\n```\n": 1, "```console\n$ true\n```\n": 0, "```\na = b\n```\n": 0}.items():
+            self.assertEqual(len(check_text.complaints_about_hidden_commands(page_of(text, self.folder))), count)
 
     def test_printed_text_needs_a_reason_or_a_command(self):
         self.assertTrue(self.play("```text\nhello\n```\n").complaints)

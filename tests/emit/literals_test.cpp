@@ -70,12 +70,5 @@ TEST(CommentText, CannotLeaveItsLine) {
         << "a continuation would swallow the next line";
 }
 
-TEST(OnOneLine, DropsCommentsAndLineBreaks) {
-    EXPECT_EQ(on_one_line("a  // why\n   + b"), "a + b");
-    EXPECT_EQ(on_one_line("a // to the end"), "a");
-    EXPECT_EQ(on_one_line("\n a\n"), "a");
-    EXPECT_EQ(on_one_line("a / b"), "a / b");
-}
-
 }  // namespace
 }  // namespace rddlc::cpp

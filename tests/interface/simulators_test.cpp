@@ -62,6 +62,14 @@ std::vector<double> reals(const rddl_simulator& simulator, const std::vector<std
     return values;
 }
 
+// Written on two lines.
+TEST(Conditions, AreToldOnOneLine) {
+    for (const Engine engine : {Engine::Compiled, Engine::Interpreter})
+        EXPECT_STREQ(load("delivery", engine)->problem->preconditions[0].text,
+                     "forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ "
+                     "position(?v) == ORIGIN(?p)) ]");
+}
+
 TEST(TreeSearch, GrowsTheSameTreeOnEverySimulator) {
     // In the middle of an episode, half of the network is down.
     const rddl_problem& problem = *networks().at("linked")->problem;

@@ -15,7 +15,7 @@ WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 def block(name: str) -> str:
     """The code behind the comment with its name."""
     page = pathlib.Path(options.page).read_text()
-    found = re.search(rf"<!-- {re.escape(name)} -->\n```\w+\n(.*?)```", page, re.DOTALL)
+    found = re.search(rf"<!-- file: {re.escape(name)} -->\n```\w+\n(.*?)```", page, re.DOTALL)
     assert found, f"the page has no {name}"
     return found[1]
 

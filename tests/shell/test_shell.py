@@ -75,6 +75,7 @@ class Shell(unittest.TestCase):
     def test_bash_completes_options(self):
         self.assertEqual(self.complete("rddl", "run", "P", "--ep"), ["--episodes"])
         self.assertEqual(self.complete("rddlc", "domain.rddl", "--exp"), ["--explain"])
+        self.assertEqual(self.complete("rddl", "--exp"), ["--explain"])
         self.assertEqual(self.complete("rddl", "fmt", "--ep"), [])
 
     def test_bash_completes_values(self):
@@ -98,6 +99,12 @@ class Shell(unittest.TestCase):
             manual = output(BIN / words[0], "--man-page").replace("\\-", "-")
             for name in expected:
                 self.assertIn(f"\\fB{name}\\fR", manual, words)
+
+    def test_every_option_of_the_program_is_everywhere(self):
+        for name in options("rddl") - {"--completions", "--man-page"}:
+            self.assertIn(name, self.complete("rddl", "-"))
+            self.assertRegex(self.completions("rddl", "zsh").read_text(), f"'{name}=?\\[")
+            self.assertIn(f"\\fB{name}\\fR", output(BIN / "rddl", "--man-page").replace("\\-", "-"))
 
     def test_shells_take_their_completions(self):
         for shell in ("bash", "zsh", "fish"):

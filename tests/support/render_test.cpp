@@ -74,6 +74,36 @@ TEST(Render, CountsUtf8AsOneColumnAndReplacesWhatIsNone) {
               "      |    ^\n");
 }
 
+TEST(Render, PutsTheCaretUnderWideCharactersAndBehindAccents) {
+    const std::string water = "\xE6\xB0\xB4";  // takes two columns
+    EXPECT_EQ(at(water + "e\xCC\x81" + water + "x", 6, 10),
+              "f.rddl:1:4: error: wrong [E0203]\n"
+              "    1 | " +
+                  water + "e\xCC\x81" + water +
+                  "x\n"
+                  "      |    ^~~\n");
+    EXPECT_EQ(at("\xCC\x81x", 2, 3),
+              "f.rddl:1:2: error: wrong [E0203]\n"
+              "    1 |  \xCC\x81x\n"
+              "      |  ^\n")
+        << "an accent on nothing";
+}
+
+TEST(Render, CutsNoWideCharacterInHalves) {
+    std::string text = "a";
+    for (int i = 0; i < 200; ++i) text += "\xE6\xB0\xB4";
+    const std::string cut = at(text, 301, 304);
+    EXPECT_NE(cut.find("| ... \xE6\xB0\xB4"), std::string::npos) << cut;
+    EXPECT_NE(cut.find("\n      | " + std::string(58, ' ') + "^~\n"), std::string::npos) << cut;
+}
+
+TEST(Render, ReplacesWhatWouldSteerATerminal) {
+    EXPECT_EQ(at("\xC2\x9B\xE2\x80\xAEx", 5, 6),
+              "f.rddl:1:3: error: wrong [E0203]\n"
+              "    1 | \xEF\xBF\xBD\xEF\xBF\xBDx\n"
+              "      |   ^\n");
+}
+
 TEST(Render, MarksSpansOverSeveralLinesToTheEndOfTheFirst) {
     EXPECT_EQ(at("ab cd\r\nef\r\n", 3, 9),
               "f.rddl:1:4: error: wrong [E0203]\n"

@@ -1,7 +1,6 @@
 #include "support/source.hpp"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <filesystem>
@@ -77,6 +76,18 @@ TEST(Sources, LoadsAnEmptyFile) {
     Sources sources;
     EXPECT_TRUE(sources.load(path));
     std::filesystem::remove(path);
+}
+
+TEST(Sources, PutsTextOnOneLineWithoutItsComments) {
+    const auto on_one_line = [](const std::string& text) {
+        Sources sources;
+        const FileId file = sources.add("f", text);
+        return sources.text_on_one_line({file, 0, static_cast<std::uint32_t>(text.size())});
+    };
+    EXPECT_EQ(on_one_line("a  // why\n   + b"), "a + b");
+    EXPECT_EQ(on_one_line("a // to the end"), "a");
+    EXPECT_EQ(on_one_line("\n a\n"), "a");
+    EXPECT_EQ(on_one_line("a / b"), "a / b");
 }
 
 TEST(Span, CoversBoth) {

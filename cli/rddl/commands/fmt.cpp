@@ -71,7 +71,7 @@ struct Formatted {
 // What the options ask for, with one file.
 void deliver(const FormatOptions& options, const Formatted& file) {
     if (options.diff)
-        fmt::print("{}", unified_diff(file.path, file.before, file.path, file.after));
+        fmt::print("{}", unified_diff(file.path, file.before, file.after));
     else if (options.check)
         fmt::print("{}", file.changes() ? file.path + "\n" : "");
     else if (!options.output.empty())

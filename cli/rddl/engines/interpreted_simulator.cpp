@@ -175,7 +175,7 @@ class Description {
 
     void add_conditions(const std::vector<ir::Computation>& all, Conditions& out) {
         for (const ir::Computation& condition : all)
-            out.texts.emplace_back(sources_.text(condition.span));
+            out.texts.push_back(sources_.text_on_one_line(condition.span));
         for (std::size_t i = 0; i < all.size(); ++i)
             out.conditions.push_back({out.texts[i].c_str(), source_of(all[i].span)});
     }

@@ -3,6 +3,8 @@
 #include "formats/json_text.hpp"
 #include "support/diagnostic.hpp"
 
+#include <rddl/describe.hpp>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 namespace rddlc::cli {
 
@@ -179,14 +182,14 @@ void write_value(std::string& out, const RecordEntry& entry, const std::byte* re
 
 std::string grounded_name(const rddl_problem& problem, const rddl_fluent& fluent,
                           std::int64_t grounding) {
-    std::string arguments;
-    for (std::int32_t k = fluent.rank; k-- > 0;) {
-        const rddl_type& type = problem.types[fluent.parameter_types[k]];
-        arguments = fmt::format("{}{}{}", k == 0 ? "___" : "__",
-                                type.objects[grounding % type.object_count], arguments);
-        grounding /= type.object_count;
-    }
-    return fluent.name + arguments;
+    const auto write = [&](std::span<char> buffer) {
+        rddl::FixedText text(buffer);
+        rddl::write_grounding_name(text, problem, fluent, grounding);
+        return text.wanted();
+    };
+    std::string name(write({}), '\0');
+    write({name.data(), name.size() + 1});  // the text ends with a zero, as the string does
+    return name;
 }
 
 RecordLayout::RecordLayout(const rddl_problem& problem, rddl_role role)

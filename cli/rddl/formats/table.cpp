@@ -1,5 +1,7 @@
 #include "formats/table.hpp"
 
+#include "support/utf8.hpp"
+
 #include <algorithm>
 #include <sstream>
 
@@ -7,19 +9,11 @@ namespace rddlc::cli {
 
 namespace {
 
-bool begins_code_point(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
-}
-
 void trim_trailing_blanks(std::string& text) {
     text.erase(text.find_last_not_of(' ') + 1);
 }
 
 }  // namespace
-
-std::size_t display_width(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_code_point));
-}
 
 void Table::add_row(std::vector<std::string> cells) {
     cells.resize(columns_.size());
@@ -58,12 +52,14 @@ std::string Table::text(std::size_t indent) const {
 std::string shortened(std::string_view text, std::size_t width) {
     if (display_width(text) <= width) return std::string(text);
     std::string out;
-    std::size_t columns = 0;
-    for (const char byte : text) {
-        if (begins_code_point(byte) && ++columns == width) break;
-        out += byte;
+    std::size_t left = width - 1;
+    while (true) {
+        const Character character = first_character(text);
+        if (character.width > left) return out + "…";
+        left -= character.width;
+        out += character.bytes;
+        text.remove_prefix(character.bytes.size());
     }
-    return out + "…";
 }
 
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {

@@ -30,9 +30,6 @@ class Table {
     std::vector<std::vector<std::string>> rows_;
 };
 
-// Columns that `text` takes on a terminal: its code points.
-std::size_t display_width(std::string_view text);
-
 // `text` cut to `width` columns, the last of them "…" if anything was cut.
 std::string shortened(std::string_view text, std::size_t width);
 

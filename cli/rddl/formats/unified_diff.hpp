@@ -1,13 +1,12 @@
-// The difference of two texts, as `diff -u` writes it and `patch` reads it.
+// The difference of two texts, by the program `diff`, in the form that `patch` reads.
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace rddlc::cli {
 
-// Empty if the texts are equal.
-std::string unified_diff(std::string_view old_name, std::string_view old_text,
-                         std::string_view new_name, std::string_view new_text);
+// What turns the file `name` from the text `before` into `after`. Empty if they are equal.
+std::string unified_diff(const std::string& name, const std::string& before,
+                         const std::string& after);
 
 }  // namespace rddlc::cli

@@ -13,23 +13,6 @@
 
 namespace rddlc::cli {
 
-namespace {
-
-// The text with every run of blanks and line breaks as one blank.
-std::string on_one_line(std::string_view text) {
-    std::string line;
-    for (const char c : text) {
-        const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
-        if (!blank)
-            line += c;
-        else if (!line.empty() && line.back() != ' ')
-            line += ' ';
-    }
-    return line;
-}
-
-}  // namespace
-
 const char* fate_of_illegal_actions(Preconditions preconditions) {
     switch (preconditions) {
         case Preconditions::Ignore:
@@ -87,7 +70,7 @@ ViolationText ViolationExplainer::Problem::explain(const std::vector<ir::Computa
             if (const auto explanation =
                     explain_condition(program, evaluator, condition, records, violation.context))
                 return {sources.location(condition.span), what,
-                        on_one_line(sources.text(condition.span)), explanation->text(),
+                        sources.text_on_one_line(condition.span), explanation->text(),
                         source_excerpt(sources, condition.span)};
     throw Failure("the files of the problem have changed since it was loaded");
 }

@@ -1,6 +1,7 @@
 #include "verify/difference_place.hpp"
 
 #include "ir/analysis.hpp"
+#include "support/utf8.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -59,7 +60,7 @@ std::optional<Span> place_in_message(std::string_view message, const Sources& so
         std::size_t offset = 0;
         for (int left = *column - 1; left > 0 && offset < text.size(); --left) {
             ++offset;  // to the next code point
-            while (offset < text.size() && (text[offset] & 0xC0) == 0x80) ++offset;
+            while (offset < text.size() && !begins_character(text[offset])) ++offset;
         }
         const auto begin = sources[file].line_begin(*line) + static_cast<std::uint32_t>(offset);
         return Span{file, begin, begin + 1};
