@@ -1,4 +1,4 @@
-"""The whole suite, into docs/benchmarks.md and its pictures: two hours on a machine that does nothing else.
+"""The whole suite, into docs/benchmarks.md and its pictures: three hours on a machine that does nothing else.
 
     .venv/bin/python benchmarks/all.py             go on where a run was interrupted
     .venv/bin/python benchmarks/all.py --fresh     measure everything anew
@@ -15,6 +15,7 @@ from document import ROOT
 
 # The programs, and whether they know --fresh and --require.
 PARTS = (
+    ("cliffs.py", True, True),
     ("compare.py", True, True),
     ("compare_jax.py", True, True),
     ("handwritten.py", False, True),

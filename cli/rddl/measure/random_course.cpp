@@ -12,8 +12,16 @@ namespace rddlc::cli {
 namespace {
 
 constexpr std::int64_t least_steps = 2;
-constexpr std::int64_t most_steps = 2048;
-constexpr std::int64_t most_bytes = 32 << 20;
+constexpr std::int64_t most_bytes = 64 << 20;
+
+// A processor learns the branches of a short course by heart when it is stepped again and again. Of
+// this many steps of an environment it does not: twice as many take as long (docs/benchmarks.md).
+constexpr std::int64_t steps_of_all_environments = 1 << 18;
+constexpr std::int64_t least_steps_of_batches = 2048;
+
+std::int64_t most_steps(std::int64_t environments) {
+    return std::max(least_steps_of_batches, steps_of_all_environments / environments);
+}
 
 }  // namespace
 
@@ -30,8 +38,8 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     const std::int64_t step_bytes = environments * simulator.problem->action_size;
-    const std::int64_t limit =
-        std::clamp(most_bytes / std::max<std::int64_t>(step_bytes, 1), least_steps, most_steps);
+    const std::int64_t limit = std::clamp(most_bytes / std::max<std::int64_t>(step_bytes, 1),
+                                          least_steps, most_steps(environments));
 
     rddl_batch_options options = course_options(environments);
     options.thread_count = 0;

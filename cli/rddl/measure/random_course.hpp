@@ -26,7 +26,8 @@ struct RandomCourse {
     }
 };
 
-// As many steps as fit in a few megabytes and may be drawn in `seconds`, at least two.
+// Enough steps that no processor learns them by heart, if they fit in 64 MB and may be drawn in
+// `seconds`; at least two.
 RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environments,
                          double seconds);
 
