@@ -58,7 +58,7 @@ class Collector {
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
-        facts_.finite |= node.type != Scalar::Real;
+        facts_.finite |= node.type != Scalar::Real || (program_.assumes_finite && !is_fixed(node));
         return std::move(facts_);
     }
 
@@ -75,6 +75,12 @@ class Collector {
                        operand.free_variables.begin(), operand.free_variables.end(),
                        std::back_inserter(merged));
         facts_.free_variables = std::move(merged);
+    }
+
+    // Its values are known, inf and nan among them.
+    bool is_fixed(const Node& node) const {
+        const auto* load = std::get_if<Load>(&node.form);
+        return std::holds_alternative<Constant>(node.form) || (load && is_constant(load->buffer));
     }
 
     void describe(Scalar, const Constant& constant) {
@@ -130,7 +136,7 @@ class Collector {
 
     void describe(Scalar type, const Apply& apply) {
         facts_.cost += cost_of(apply.op);
-        facts_.elementary |= cost_of(apply.op) == elementary_cost;
+        facts_.elementary |= apply.op == Operator::Sqrt || cost_of(apply.op) == elementary_cost;
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
         if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);

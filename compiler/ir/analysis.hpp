@@ -21,7 +21,7 @@ struct Facts {
     bool uniform = true;
     // Never inf or nan, as long as no sum or product overflows and actions are finite.
     bool finite = true;
-    bool elementary = false;  // computes an elementary function, such as exp or a power
+    bool elementary = false;  // computes an elementary function: a root, exp, a power, ...
     // Roughly the number of simple operations of one evaluation, loops multiplied out.
     double cost = 0;
     std::optional<Range> range;  // within which its value lies for certain; none: anything, or nan

@@ -299,6 +299,8 @@ struct Program {
     std::string instance_name;
     // Of emitted code. Constants are those of doubles here, and rounded where they are written.
     RealType real = RealType::Double;
+    // --fast-math: reals that are computed are taken to be never inf or nan.
+    bool assumes_finite = false;
     std::vector<ObjectType> types;
     std::vector<Fluent> fluents;  // in declaration order
 

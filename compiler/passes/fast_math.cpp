@@ -191,6 +191,7 @@ class Relaxing {
 }  // namespace
 
 ir::Program fast_math(ir::Program program, Report& report) {
+    program.assumes_finite = true;
     return ir::rewrite(
         std::move(program),
         [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {

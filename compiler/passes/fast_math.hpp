@@ -7,6 +7,8 @@
 //     power(x, 3.0), power(x, 0.5)           x * x * x (for cheap x), sqrt(x)
 //     0.0 * x                                0.0, unless x draws or may fault
 //     select(a == 0.0, a, a * b)             a * b, unless b draws or may fault
+//
+// The passes behind it may take all reals that are computed to be finite.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -1,5 +1,6 @@
 #include "passes/make_aggregations_sparse.hpp"
 
+#include "passes/fast_math.hpp"
 #include "problem.hpp"
 
 #include <gtest/gtest.h>
@@ -97,6 +98,14 @@ TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
     EXPECT_EQ(sparse(sum), value_of_x(grounded(with_links(sum))));
     EXPECT_EQ(sparse("sum_{?o : obj} COST(?o) * v(?o) * v(?o) * v(?o)"),
               "2.5 * state.v[2] * state.v[2] * state.v[2]");
+}
+
+TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {
+    passes::Report report;
+    const Problem problem = with_links("sum_{?o : obj} COST(?o) * exp[v(?o)]");
+    EXPECT_EQ(value_of_x(made_sparse(grounded(problem))), value_of_x(grounded(problem)));
+    EXPECT_EQ(value_of_x(made_sparse(passes::fast_math(grounded(problem), report))),
+              "2.5 * exp(state.v[2])");
 }
 
 TEST(MakeAggregationsSparse, LeavesTermsThatMayFault) {
