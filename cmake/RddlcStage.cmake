@@ -1,14 +1,14 @@
 # A stage of the compiler: one folder, one static library.
 #
-#   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...]
-#               [PRECOMPILED <model/model.hpp> ...])
+#   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...])
 #
 # Headers are included as "check/check.hpp". Each stage has an include folder of its own that
 # holds nothing but a link to it, so including a stage that is not in USES does not compile.
 include(RddlcPrecompile)
+include(RddlcUnity)
 
 function(rddlc_stage stage)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   set(include ${PROJECT_BINARY_DIR}/stages/${stage})
   file(MAKE_DIRECTORY ${include})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include}/${stage} SYMBOLIC)
@@ -16,5 +16,6 @@ function(rddlc_stage stage)
   add_library(rddlc_${stage} STATIC ${ARG_SOURCES})
   target_include_directories(rddlc_${stage} PUBLIC ${include})
   target_link_libraries(rddlc_${stage} PUBLIC ${ARG_USES} PRIVATE ${ARG_LIBRARIES} rddlc_options)
-  rddlc_precompile(rddlc_${stage} ${ARG_PRECOMPILED})
+  rddlc_precompile(rddlc_${stage})
+  rddlc_unity(rddlc_${stage})
 endfunction()

@@ -58,7 +58,7 @@ std::vector<std::string> names_of(const std::vector<Option>& options) {
     return names;
 }
 
-std::vector<std::string> command_names(const Command& program) {
+std::vector<std::string> first_words(const Command& program) {
     std::vector<std::string> names;
     for (const Command& command : program.commands) names.push_back(command.name);
     names.emplace_back("help");
@@ -108,7 +108,7 @@ std::string bash_body(const Command& program) {
         "{2}"
         "        esac\n"
         "    fi\n",
-        fmt::join(command_names(program), " "), fmt::join(names_of(options_of(program, true)), " "),
+        fmt::join(first_words(program), " "), fmt::join(names_of(options_of(program, true)), " "),
         branches(program, bash_case));
 }
 

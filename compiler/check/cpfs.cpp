@@ -32,7 +32,7 @@ Definition policy_definition_of(Role role) {
     return role == Role::Derived ? Definition::PolicyDerived : Definition::PolicyState;
 }
 
-std::string written_name(const ast::Cpf& cpf) {
+std::string name_of_cpf(const ast::Cpf& cpf) {
     return cpf.name.text + (cpf.primed ? "'" : "");
 }
 
@@ -51,7 +51,7 @@ class CpfChecker {
         bool sound = check_written(cpf, *id);
         if (sound && !first) {
             context_.report(diagnose(repeated_cpf, cpf.name.span,
-                                     fmt::format("'{}' has a CPF already", written_name(cpf)))
+                                     fmt::format("'{}' has a CPF already", name_of_cpf(cpf)))
                                 .note(defined_[*id], "defined here"));
             sound = false;
         }
@@ -64,7 +64,7 @@ class CpfChecker {
             const bool broken = context_.names.broken_fluents.contains(id);
             if (broken || !needs_cpf(id)) continue;
             if (defined_.contains(id) || meant_.contains(id)) continue;
-            const std::string name = checking::written_name(fluent, fluent.role == Role::State);
+            const std::string name = written_name(fluent, fluent.role == Role::State);
             const bool is_for_others = of_policy_ && !context_.model.is_of_policy(id);
             context_.report(
                 diagnose(missing_cpf, is_for_others ? context_.model.policy->span : fluent.span,
@@ -142,7 +142,7 @@ class CpfChecker {
         const std::string list = types.empty() ? "" : fmt::format(" ({})", fmt::join(types, ", "));
         context_.report(
             diagnose(wrong_cpf_arity, cpf.name.span,
-                     fmt::format("'{}' has {}{}, found {}", written_name(cpf),
+                     fmt::format("'{}' has {}{}, found {}", name_of_cpf(cpf),
                                  counted(expected, "parameter"), list, cpf.parameters.size()))
                 .note(fluent.span, "declared here"));
         return false;
@@ -160,7 +160,7 @@ class CpfChecker {
         if (!counts) return;
         const Role role = context_.fluent(id).role;
         check_dependencies(of_policy_ ? policy_definition_of(role) : definition_of(role),
-                           fmt::format("'{}'", written_name(cpf)), scope.fluent_uses, context_);
+                           fmt::format("'{}'", name_of_cpf(cpf)), scope.fluent_uses, context_);
         if (!body || parameters.size() < cpf.parameters.size())
             body = model::Expr{context_.fluent(id).range, cpf.span, model::Constant{false}};
         uses_.push_back({cpfs_.size(), std::move(scope.fluent_uses)});
@@ -173,7 +173,7 @@ class CpfChecker {
                             : check_expression(cpf.body, scope);
         const model::Fluent& fluent = context_.fluent(id);
         return require(std::move(body),
-                       {fluent.range, fmt::format("the value of '{}'", written_name(cpf)),
+                       {fluent.range, fmt::format("the value of '{}'", name_of_cpf(cpf)),
                         wrong_cpf_type, Note{fluent.span, "declared here"}},
                        scope);
     }

@@ -11,10 +11,10 @@ namespace {
 using ir::Storage;
 
 // Of a program.
-constexpr Mark count{"", "_count"};
-constexpr Mark table{"", "_"};
-constexpr Mark initial{"initial_", ""};
-constexpr Mark function{"set_", ""};
+constexpr Mark count_mark{"", "_count"};
+constexpr Mark table_mark{"", "_"};
+constexpr Mark initial_mark{"initial_", ""};
+constexpr Mark function_mark{"set_", ""};
 
 // Each record has a region of its own, except that Next is State again, and NextMemory Memory.
 struct RecordScopes {
@@ -101,13 +101,13 @@ Names names_of(const ir::Program& program) {
     names.entry = "rddl_simulator_" + plain_identifier(problem);
 
     for (const ir::ObjectType& type : program.types) {
-        names.counts.push_back(names.file.claim(type.name, count));
+        names.counts.push_back(names.file.claim(type.name, count_mark));
     }
     names.buffers.resize(program.buffers.size());
     for (std::size_t index = 0; index < program.buffers.size(); ++index) {
         const ir::Buffer& buffer = program.buffers[index];
         if (buffer.storage == Storage::Constant)
-            names.buffers[index] = names.file.claim(buffer.name, table);
+            names.buffers[index] = names.file.claim(buffer.name, table_mark);
     }
     name_members(program, names.file, names.buffers);
 
@@ -117,18 +117,18 @@ Names names_of(const ir::Program& program) {
         const ir::Buffer& buffer = program.buffers[index];
         const bool starts = buffer.storage == Storage::State || buffer.storage == Storage::Action;
         if (!starts || buffer.values.empty() || buffer.values.is_uniform()) continue;
-        names.initial[index] = names.file.claim(buffer.name, initial);
+        names.initial[index] = names.file.claim(buffer.name, initial_mark);
     }
 
     Scope simulator(&names.file);
     for (const ir::Definition& definition : program.step) {
-        names.functions.push_back(simulator.claim(program[definition.target].name, function));
+        names.functions.push_back(simulator.claim(program[definition.target].name, function_mark));
     }
     if (program.policy) {
         Scope policy(&names.file);
         for (const ir::Definition& definition : program.policy->act) {
             names.policy_functions.push_back(
-                policy.claim(program[definition.target].name, function));
+                policy.claim(program[definition.target].name, function_mark));
         }
     }
     return names;

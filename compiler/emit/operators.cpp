@@ -8,17 +8,17 @@
 namespace rddlc::cpp {
 namespace {
 
-OperatorSpelling function(std::string word) {
+OperatorSpelling call_of(std::string word) {
     return {std::move(word), false, Level::Primary, Level::Or, Level::Or, false};
 }
 
-OperatorSpelling infix(const char* word, Level level, Level left, Level right) {
-    return {word, true, level, left, right, false};
+OperatorSpelling infix(const char* word, Level own, Level left, Level right) {
+    return {word, true, own, left, right, false};
 }
 
 // Of the other connective among the operands, readers and -Wparentheses want to see parentheses.
-OperatorSpelling connective(const char* word, Level level) {
-    return {word, true, level, Level::Comparison, Level::Comparison, true};
+OperatorSpelling connective(const char* word, Level own) {
+    return {word, true, own, Level::Comparison, Level::Comparison, true};
 }
 
 // Comparisons inside comparisons always get parentheses.
@@ -56,18 +56,18 @@ std::string_view function_name(MatrixOperator op) {
 OperatorSpelling spelling_of(Operator op, bool on_ints) {
     switch (op) {
         case Operator::Add:
-            if (on_ints) return function("wrap_add");
+            if (on_ints) return call_of("wrap_add");
             return infix("+", Level::Additive, Level::Additive, Level::Multiplicative);
         case Operator::Subtract:
-            if (on_ints) return function("wrap_sub");
+            if (on_ints) return call_of("wrap_sub");
             return infix("-", Level::Additive, Level::Additive, Level::Multiplicative);
         case Operator::Multiply:
-            if (on_ints) return function("wrap_mul");
+            if (on_ints) return call_of("wrap_mul");
             return infix("*", Level::Multiplicative, Level::Multiplicative, Level::Unary);
         case Operator::Divide:
             return infix("/", Level::Multiplicative, Level::Multiplicative, Level::Unary);
         case Operator::Negate:
-            if (on_ints) return function("wrap_neg");
+            if (on_ints) return call_of("wrap_neg");
             return infix("-", Level::Unary, Level::Primary, Level::Primary);
         case Operator::Equal:
         case Operator::Equivalent:
@@ -91,9 +91,9 @@ OperatorSpelling spelling_of(Operator op, bool on_ints) {
         case Operator::Implies:
             return infix("||", Level::Or, Level::Primary, Level::Comparison);
         case Operator::FloorModuloReal:
-            return function("floor_mod");
+            return call_of("floor_mod");
         default:
-            return function(std::string(name_of(op)));
+            return call_of(std::string(name_of(op)));
     }
 }
 

@@ -8,7 +8,8 @@
 
 namespace rddlc::format {
 
-namespace {
+// With a name, since Document is known to other files.
+namespace document_nodes {
 
 struct Text {
     std::string text;
@@ -45,7 +46,9 @@ struct OwnLineComment {
     std::string text;
 };
 
-}  // namespace
+}  // namespace document_nodes
+
+using namespace document_nodes;
 
 struct Document {
     std::variant<Text, Line, IfBroken, Concat, Nest, Align, Group, Flat, Alternatives,

@@ -10,12 +10,8 @@
 namespace rddlc::grounding {
 namespace {
 
-double as_real(const model::Value& value) {
-    return match(value, [](auto v) { return static_cast<double>(v); });
-}
-
 bool has_finite_values(const model::Fluent& fluent) {
-    return fluent.values.all_of([](const model::Value& v) { return std::isfinite(as_real(v)); });
+    return fluent.values.all_of(rddlc::is_finite);
 }
 
 // Of finite values that the instance fixes.

@@ -45,10 +45,6 @@ double cost_of(Operator op) {
     }
 }
 
-double as_real(const Value& value) {
-    return match(value, [](auto v) { return static_cast<double>(v); });
-}
-
 // Joins what is known of operands into what is known of their user.
 class Collector {
   public:

@@ -1,17 +1,11 @@
 #include "ir/table_facts.hpp"
 
-#include "support/match.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 namespace rddlc::ir {
 namespace {
-
-double as_real(const Value& value) {
-    return match(value, [](auto v) { return static_cast<double>(v); });
-}
 
 bool is_too_large(const Value& value) {
     return std::holds_alternative<std::int64_t>(value) && std::abs(as_real(value)) >= exact_ints;

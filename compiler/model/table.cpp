@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace rddlc {
 namespace {
@@ -39,6 +40,14 @@ std::uint64_t sum_of_cubes(std::uint64_t n) {
 }
 
 }  // namespace
+
+double as_real(const Value& value) {
+    return match(value, [](auto v) { return static_cast<double>(v); });
+}
+
+bool is_finite(const Value& value) {
+    return std::isfinite(as_real(value));
+}
 
 bool identical(const Value& a, const Value& b) {
     const auto* x = std::get_if<double>(&a);

@@ -17,6 +17,11 @@ using Value = std::variant<bool, std::int64_t, double>;
 bool identical(const Value& a, const Value& b);
 bool are_identical(std::span<const Value> a, std::span<const Value> b);
 
+// 0 and 1 for bools.
+double as_real(const Value& value);
+// Neither nan nor infinite.
+bool is_finite(const Value& value);
+
 class Table {
   public:
     Table() = default;  // without elements

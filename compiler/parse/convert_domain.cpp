@@ -108,7 +108,7 @@ ast::ConstraintKind constraint_kind(std::string_view keyword) {
 
 // ----------------------------------------------------------------------------------- sections
 
-using SectionNode = decltype(ast::DomainSection::node);
+using DomainNode = decltype(ast::DomainSection::node);
 
 template <class Item, class Context, class Convert>
 std::vector<Item> each(const Conversion& conversion, const std::vector<Context*>& contexts,
@@ -119,7 +119,7 @@ std::vector<Item> each(const Conversion& conversion, const std::vector<Context*>
     return items;
 }
 
-SectionNode to_node(const Conversion& conversion, Parser::DomainSectionContext& context) {
+DomainNode to_node(const Conversion& conversion, Parser::DomainSectionContext& context) {
     if (auto* requirements = as<Parser::RequirementsContext>(context))
         return ast::Requirements{to_names(conversion, requirements->ID())};
     if (auto* types = as<Parser::TypesContext>(context))

@@ -4,7 +4,7 @@ namespace rddlc {
 
 namespace {
 
-using SectionNode = decltype(ast::InstanceSection::node);
+using InstanceNode = decltype(ast::InstanceSection::node);
 
 // ------------------------------------------------------------------------------------- values
 
@@ -79,7 +79,7 @@ ast::Discount to_discount(const Conversion& conversion, Parser::DiscountContext&
 
 // ----------------------------------------------------------------------------------- sections
 
-SectionNode to_node(const Conversion& conversion, Parser::NonFluentsSectionContext& context) {
+InstanceNode to_node(const Conversion& conversion, Parser::NonFluentsSectionContext& context) {
     if (auto* domain = as<Parser::DomainNameContext>(context))
         return ast::DomainName{to_name(conversion, domain->ID())};
     if (auto* values = as<Parser::NonFluentValuesContext>(context))
@@ -90,7 +90,7 @@ SectionNode to_node(const Conversion& conversion, Parser::NonFluentsSectionConte
     return objects;
 }
 
-SectionNode to_node(const Conversion& conversion, Parser::InstanceSectionContext& context) {
+InstanceNode to_node(const Conversion& conversion, Parser::InstanceSectionContext& context) {
     if (auto* shared = as<Parser::SharedSectionContext>(context))
         return to_node(conversion, *shared->nonFluentsSection());
     if (auto* name = as<Parser::NonFluentsNameContext>(context))

@@ -11,14 +11,14 @@ namespace rddlc::passes {
 namespace {
 
 // Aggregations right inside each other, outermost first, over a bool.
-struct Nest {
+struct ComparedNest {
     std::vector<ir::VariableId> variables;
     ir::NodeId body;
-    auto operator<=>(const Nest&) const = default;
+    auto operator<=>(const ComparedNest&) const = default;
 };
 
-std::optional<Nest> nest_of(const ir::Program& program, ir::NodeId id, Reduction op) {
-    Nest nest{{}, id};
+std::optional<ComparedNest> nest_of(const ir::Program& program, ir::NodeId id, Reduction op) {
+    ComparedNest nest{{}, id};
     while (const auto* reduce = std::get_if<ir::Reduce>(&program[nest.body].form)) {
         if (reduce->op != op || reduce->bounds) return std::nullopt;
         nest.variables.push_back(reduce->variable);
@@ -29,8 +29,8 @@ std::optional<Nest> nest_of(const ir::Program& program, ir::NodeId id, Reduction
 }
 
 // Of the sum of a bool as 0 and 1.
-std::optional<Nest> counted(const ir::Program& program, ir::NodeId id) {
-    std::optional<Nest> nest = nest_of(program, id, Reduction::Sum);
+std::optional<ComparedNest> counted(const ir::Program& program, ir::NodeId id) {
+    std::optional<ComparedNest> nest = nest_of(program, id, Reduction::Sum);
     if (!nest || program[id].type != ir::Scalar::Int) return std::nullopt;
     const auto* convert = std::get_if<ir::Convert>(&program[nest->body].form);
     if (!convert) return std::nullopt;
@@ -57,7 +57,7 @@ class Comparing {
     std::map<ir::NodeId, ir::NodeId> comparisons_below(ir::NodeId root) {
         std::set<ir::NodeId> below;
         collect(root, below);
-        std::map<Nest, ir::NodeId> counts;
+        std::map<ComparedNest, ir::NodeId> counts;
         for (ir::NodeId id : below) {
             if (const auto nest = counted(program_, id)) counts[*nest] = id;
         }
@@ -74,7 +74,7 @@ class Comparing {
     }
 
     std::optional<ir::NodeId> comparison_for(ir::NodeId id,
-                                             const std::map<Nest, ir::NodeId>& counts) {
+                                             const std::map<ComparedNest, ir::NodeId>& counts) {
         const ir::NodeId zero = builder_.constant(std::int64_t{0});
         if (const auto nest = nest_of(program_, id, Reduction::Exists)) {
             const auto count = counts.find(*nest);

@@ -16,23 +16,23 @@ namespace {
 
 constexpr std::int64_t bits_in_an_int = 64;
 // More words than this cost more than rows of the few entries that they have.
-constexpr std::int64_t most_elements = 8 * bits_in_an_int;
+constexpr std::int64_t most_words = 8 * bits_in_an_int;
 // Of which every one is looked at by the compiler.
-constexpr double most_entries = 1e6;
+constexpr double most_counted_entries = 1e6;
 
 // Where one execution of the aggregation looks.
 using Row = std::vector<std::int64_t>;
 
 // Aggregations right inside each other by the same operator, and the bool that they are about.
-struct Nest {
+struct CountedNest {
     Reduction op;
     std::vector<ir::Reduce> levels;  // outermost first
     ir::NodeId condition;
 };
 
-class Counting {
+class BitCounting {
   public:
-    Counting(ir::Program program, Report& report)
+    BitCounting(ir::Program program, Report& report)
         : program_(std::move(program)),
           report_(report),
           builder_(program_),
@@ -50,7 +50,7 @@ class Counting {
 
   private:
     std::optional<ir::NodeId> counted(ir::NodeId id) {
-        const std::optional<Nest> nest = nest_of(id);
+        const std::optional<CountedNest> nest = nest_of(id);
         if (!nest) return std::nullopt;
         places_.reset();
         variables_ = builder_.facts(id).free_variables;
@@ -61,10 +61,10 @@ class Counting {
 
     // ------------------------------------------------------------------------------ finding
 
-    std::optional<Nest> nest_of(ir::NodeId id) const {
+    std::optional<CountedNest> nest_of(ir::NodeId id) const {
         const auto* outermost = std::get_if<ir::Reduce>(&program_[id].form);
         if (!outermost) return std::nullopt;
-        Nest nest{outermost->op, {}, id};
+        CountedNest nest{outermost->op, {}, id};
         while (const auto* level = std::get_if<ir::Reduce>(&program_[nest.condition].form)) {
             if (level->op != nest.op) break;
             nest.levels.push_back(*level);
@@ -82,11 +82,11 @@ class Counting {
     }
 
     // Sets places_; false if the condition is not about elements at known places.
-    bool find_places(const Nest& nest) {
+    bool find_places(const CountedNest& nest) {
         double entries = 1;
         for (const ir::VariableId variable : variables_) entries *= size_of(variable);
         for (const ir::Reduce& level : nest.levels) entries *= size_of(level.variable);
-        if (entries > most_entries || !is_about_bools(nest.condition)) return false;
+        if (entries > most_counted_entries || !is_about_bools(nest.condition)) return false;
         std::vector<ir::NodeId> loads;
         collect_loads(nest.condition, loads);
         if (loads.empty() || !have_one_size(loads)) return false;
@@ -101,7 +101,7 @@ class Counting {
 
     // Entries of a row that share a place share its bit, so each known part of the condition must
     // have one value for all of them.
-    bool known_parts_agree(const Nest& nest) {
+    bool known_parts_agree(const CountedNest& nest) {
         std::vector<ir::NodeId> known;
         collect_known(nest.condition, known);
         return std::ranges::all_of(known, [&](ir::NodeId part) {
@@ -119,7 +119,7 @@ class Counting {
     }
 
     // By row: the places, sorted, of the entries for which a known condition has the value.
-    std::vector<Row> places_of(const Nest& nest, ir::NodeId condition, bool value) {
+    std::vector<Row> places_of(const CountedNest& nest, ir::NodeId condition, bool value) {
         std::vector<Row> places(row_count());
         for_each_place(nest, [&](ir::Evaluator::Frame& frame, std::size_t row, std::int64_t place) {
             if (evaluator_.value<bool>(condition, frame) == value) places[row].push_back(place);
@@ -165,14 +165,14 @@ class Counting {
             return program_[std::get<ir::Load>(program_[load].form).buffer].count();
         };
         const std::int64_t size = size_of_table(loads.front());
-        return size <= most_elements && std::ranges::all_of(loads, [&](ir::NodeId load) {
+        return size <= most_words && std::ranges::all_of(loads, [&](ir::NodeId load) {
                    return size_of_table(load) == size;
                });
     }
 
     // Calls visit(frame, row) for every entry of every row.
     template <class Visit>
-    void for_each_entry(const Nest& nest, const Visit& visit) {
+    void for_each_entry(const CountedNest& nest, const Visit& visit) {
         ir::Context context;
         ir::Evaluator::Frame frame(evaluator_, {}, context);
         std::int64_t row = 0;
@@ -204,7 +204,7 @@ class Counting {
 
     // Calls visit(frame, row, place) for every entry of every row, once places_ are known.
     template <class Visit>
-    void for_each_place(const Nest& nest, const Visit& visit) {
+    void for_each_place(const CountedNest& nest, const Visit& visit) {
         std::vector<std::size_t> entries(row_count());
         for_each_entry(nest, [&](ir::Evaluator::Frame& frame, std::int64_t index) {
             const auto row = static_cast<std::size_t>(index);
@@ -223,7 +223,7 @@ class Counting {
         return count;
     }
 
-    std::vector<Row> rows_of(const Nest& nest, const ir::Load& load) {
+    std::vector<Row> rows_of(const CountedNest& nest, const ir::Load& load) {
         const ir::Buffer& buffer = program_[load.buffer];
         size_ = buffer.count();
         std::vector<Row> rows(row_count());
@@ -244,7 +244,7 @@ class Counting {
     }
 
     // Bits are made once, then every row looks at some words in place of entries.
-    bool is_worthwhile(const Nest& nest) const {
+    bool is_worthwhile(const CountedNest& nest) const {
         constexpr double cost_of_word = 3, cost_of_entry = 2;
         double entries = 0;
         for (const Row& row : *places_) entries += static_cast<double>(row.size());
@@ -258,7 +258,7 @@ class Counting {
 
     std::int64_t word_count() const { return (size_ + bits_in_an_int - 1) / bits_in_an_int; }
 
-    ir::NodeId sum(const Nest& nest) {
+    ir::NodeId sum(const CountedNest& nest) {
         ir::NodeId total = builder_.constant(std::int64_t{0});
         for (std::int64_t word = 0; word < word_count(); ++word) {
             const ir::NodeId bits = counted_word(nest, true, word);
@@ -269,7 +269,7 @@ class Counting {
     }
 
     // Whether there is an entry where the condition holds, or none where it does not.
-    ir::NodeId tested(const Nest& nest) {
+    ir::NodeId tested(const CountedNest& nest) {
         const bool looked_for = nest.op == Reduction::Exists;
         ir::NodeId found = builder_.constant(std::int64_t{0});
         for (std::int64_t word = 0; word < word_count(); ++word)
@@ -279,7 +279,7 @@ class Counting {
     }
 
     // Ones for the elements of a word that count and where the condition is `value`.
-    ir::NodeId counted_word(const Nest& nest, bool value, std::int64_t word) {
+    ir::NodeId counted_word(const CountedNest& nest, bool value, std::int64_t word) {
         const ir::NodeId bits = word_of(nest, nest.condition, value, word);
         const ir::NodeId counting = known_word(nest, builder_.constant(true), true, word);
         const auto* all = std::get_if<ir::Constant>(&program_[counting].form);
@@ -289,7 +289,7 @@ class Counting {
     }
 
     // Ones for the elements of a word where the condition is `value`, whether or not they count.
-    ir::NodeId word_of(const Nest& nest, ir::NodeId id, bool value, std::int64_t word) {
+    ir::NodeId word_of(const CountedNest& nest, ir::NodeId id, bool value, std::int64_t word) {
         if (builder_.facts(id).uniform) return known_word(nest, id, value, word);
         if (const auto* load = std::get_if<ir::Load>(&program_[id].form)) {
             const ir::NodeId bits = builder_.bits(load->buffer, word * bits_in_an_int);
@@ -356,7 +356,8 @@ class Counting {
     }
 
     // Of a condition that the compiler knows: by row; 0 for elements that do not count.
-    ir::NodeId known_word(const Nest& nest, ir::NodeId condition, bool value, std::int64_t word) {
+    ir::NodeId known_word(const CountedNest& nest, ir::NodeId condition, bool value,
+                          std::int64_t word) {
         std::vector<std::uint64_t> words(row_count());
         for_each_place(nest, [&](ir::Evaluator::Frame& frame, std::size_t row, std::int64_t place) {
             const std::int64_t bit = place - word * bits_in_an_int;
@@ -368,7 +369,7 @@ class Counting {
     }
 
     // Of a table by row, if rows differ.
-    ir::NodeId element(const Nest& nest, const std::vector<std::uint64_t>& words) {
+    ir::NodeId element(const CountedNest& nest, const std::vector<std::uint64_t>& words) {
         std::vector<ir::Value> values;
         for (const std::uint64_t bits : words) values.emplace_back(static_cast<std::int64_t>(bits));
         const bool are_equal = std::ranges::all_of(
@@ -388,7 +389,7 @@ class Counting {
     }
 
     // The sparse table whose rows these are, or else the first one that is read.
-    ir::BufferId origin_of(const Nest& nest) const {
+    ir::BufferId origin_of(const CountedNest& nest) const {
         for (const ir::Reduce& level : nest.levels) {
             const ir::Load* row = level.bounds ? ir::row_of(program_, *level.bounds) : nullptr;
             if (row) return row->buffer;
@@ -416,7 +417,7 @@ class Counting {
 }  // namespace
 
 ir::Program count_bits(ir::Program program, Report& report) {
-    return Counting(std::move(program), report).run();
+    return BitCounting(std::move(program), report).run();
 }
 
 }  // namespace rddlc::passes

@@ -20,7 +20,7 @@ using Terms = std::vector<Term>;
 
 // What a simulator computes of sums and products is exact if all of it are multiples of this unit
 // that 53 bits hold.
-constexpr double unit = 0x1p-20, largest = 0x1p53 * unit;
+constexpr double unit = 0x1p-20, largest_exact = 0x1p53 * unit;
 
 // Finds the terms whose sum an expression is, if no operation of it is ever rounded.
 class Splitting {
@@ -29,7 +29,7 @@ class Splitting {
 
     std::optional<Terms> terms_of(ir::NodeId id) const {
         auto terms = parts_of(id);
-        if (!terms || !(most(*terms) < largest)) return std::nullopt;
+        if (!terms || !(most(*terms) < largest_exact)) return std::nullopt;
         return terms;
     }
 
@@ -101,9 +101,9 @@ class Splitting {
     const ir::Builder& builder_;
 };
 
-class Counting {
+class BoolCounting {
   public:
-    Counting(ir::Builder& builder, const ir::Reduce& sum) : builder_(builder), sum_(sum) {}
+    BoolCounting(ir::Builder& builder, const ir::Reduce& sum) : builder_(builder), sum_(sum) {}
 
     std::optional<ir::NodeId> counted() {
         const bool is_random = builder_.facts(sum_.body).random;
@@ -112,7 +112,7 @@ class Counting {
         const auto terms = splitting.terms_of(sum_.body);
         if (!terms || terms->empty()) return std::nullopt;
         const auto count = static_cast<double>(builder_.program()[sum_.variable].size);
-        if (!(splitting.most(*terms) * count < largest)) return std::nullopt;
+        if (!(splitting.most(*terms) * count < largest_exact)) return std::nullopt;
 
         std::optional<ir::NodeId> total;
         for (const Term& term : *terms)
@@ -152,7 +152,7 @@ ir::Program count_bools(ir::Program program, Report& report) {
             const auto* reduce = std::get_if<ir::Reduce>(&node.form);
             const bool is_sum = reduce && reduce->op == Reduction::Sum;
             if (!is_sum || node.type != ir::Scalar::Real) return std::nullopt;
-            const auto counted = Counting(builder, *reduce).counted();
+            const auto counted = BoolCounting(builder, *reduce).counted();
             if (counted) ++report["sums that count in ints"];
             return counted;
         });

@@ -1,18 +1,8 @@
 #include "passes/entry_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rddlc::passes {
-namespace {
-
-bool is_finite(const ir::Value& value) {
-    const auto* real = std::get_if<double>(&value);
-    return !real || std::isfinite(*real);
-}
-
-}  // namespace
-
 ir::BufferId EntryTables::table(const std::string& name, ir::Scalar scalar,
                                 const std::vector<ir::Value>& values, Span span) {
     return tables_.constant({.name = name,

@@ -10,16 +10,12 @@ namespace {
 
 // In operations (Facts::cost), of evaluating one expression for many assignments, and of all that
 // is evaluated: a second or two.
-constexpr double affordable_cost = 4e6;
-constexpr double affordable_in_all = 1e8;
+constexpr double affordable_for_relation = 4e6;
+constexpr double affordable_for_relations = 1e8;
 // Tables in which most elements are exceptions are looked through up to this size.
-constexpr std::int64_t most_elements = std::int64_t{1} << 22;
+constexpr std::int64_t most_examined_elements = std::int64_t{1} << 22;
 // Relations with more of all possible tuples than this do not help.
-constexpr double sparse = 0.5;
-
-double as_real(const ir::Value& value) {
-    return match(value, [](auto v) { return static_cast<double>(v); });
-}
+constexpr double sparse_enough = 0.5;
 
 bool is_zero(const ir::Value& value) {
     return as_real(value) == 0;
@@ -39,13 +35,14 @@ std::optional<ir::Value> before_conversion(const ir::Value& value, ir::Scalar fr
 
 bool is_sparse(const Relation& relation) {
     const auto all = volume(relation.axes);
-    return !all || static_cast<double>(relation.count()) <= sparse * static_cast<double>(*all);
+    return !all ||
+           static_cast<double>(relation.count()) <= sparse_enough * static_cast<double>(*all);
 }
 
 }  // namespace
 
 Exceptions::Exceptions(const ir::Builder& builder, const ir::Evaluator& evaluator)
-    : builder_(builder), evaluator_(evaluator), left_(affordable_in_all) {}
+    : builder_(builder), evaluator_(evaluator), left_(affordable_for_relations) {}
 
 std::optional<Relation> Exceptions::of(ir::NodeId id, const ir::Value& value) {
     const ir::Node& node = program()[id];
@@ -107,7 +104,7 @@ Relation Exceptions::narrowed(Relation relation, ir::NodeId id, const ir::Value&
 
 bool Exceptions::affords(ir::NodeId id, double times) {
     const double cost = std::max(facts(id).cost, 1.0) * times;
-    if (cost > affordable_cost || cost > left_) return false;
+    if (cost > affordable_for_relation || cost > left_) return false;
     left_ -= cost;
     return true;
 }
@@ -140,7 +137,7 @@ std::optional<Relation> Exceptions::of(const ir::Load& load, const ir::Value& va
             if (exception != value) result.tuples.push_back(index);
         }
     } else {
-        if (table.values.size() > most_elements) return std::nullopt;
+        if (table.values.size() > most_examined_elements) return std::nullopt;
         for (std::int64_t i = 0; i < table.values.size(); ++i) {
             if (table.values[i] != value) result.tuples.push_back(i);
         }

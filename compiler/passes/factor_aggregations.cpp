@@ -13,7 +13,7 @@ using Factors = std::vector<ir::NodeId>;
 
 // Aggregations right inside each other by the same operator, over the product of some factors;
 // for bools that is their conjunction, in a forall their disjunction.
-struct Nest {
+struct FactoredNest {
     Reduction op;
     std::vector<ir::VariableId> variables;
     Factors factors;
@@ -27,7 +27,7 @@ class Factoring {
     std::optional<ir::NodeId> factored(const ir::Reduce& outermost, ir::Scalar type) {
         const auto nest = nest_of(outermost, type);
         if (!nest) return std::nullopt;
-        Nest rest = *nest;
+        FactoredNest rest = *nest;
         while (take_out_one(rest, *nest)) {
         }
         if (rest.variables.size() == nest->variables.size()) return std::nullopt;
@@ -40,13 +40,13 @@ class Factoring {
     }
 
   private:
-    std::optional<Nest> nest_of(const ir::Reduce& outermost, ir::Scalar type) const {
+    std::optional<FactoredNest> nest_of(const ir::Reduce& outermost, ir::Scalar type) const {
         const bool exact =
             type == ir::Scalar::Bool || (type == ir::Scalar::Int && outermost.op == Reduction::Sum);
         if (!exact || outermost.bounds || builder_.facts(outermost.body).may_fault) {
             return std::nullopt;
         }
-        Nest nest{outermost.op, {outermost.variable}, {}};
+        FactoredNest nest{outermost.op, {outermost.variable}, {}};
         ir::NodeId body = outermost.body;
         while (const auto* inner = std::get_if<ir::Reduce>(&program()[body].form)) {
             if (inner->op != nest.op || inner->bounds) break;
@@ -82,7 +82,7 @@ class Factoring {
 
     // For one variable: the factors that depend on it become an aggregation of their own, which is
     // a factor of the others. True if some part of the nest then depends on less.
-    bool take_out_one(Nest& rest, const Nest& whole) {
+    bool take_out_one(FactoredNest& rest, const FactoredNest& whole) {
         for (auto variable = rest.variables.begin(); variable != rest.variables.end(); ++variable) {
             Factors inside, outside;
             for (ir::NodeId factor : rest.factors) {
@@ -98,7 +98,7 @@ class Factoring {
     }
 
     // There is a variable around the nest that these factors do not depend on.
-    bool depend_on_less(const Factors& inside, const Nest& whole) const {
+    bool depend_on_less(const Factors& inside, const FactoredNest& whole) const {
         const auto is_needed = [&](ir::VariableId variable) {
             return std::ranges::find(whole.variables, variable) != whole.variables.end() ||
                    std::ranges::any_of(inside,

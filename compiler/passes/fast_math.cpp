@@ -9,7 +9,7 @@ namespace rddlc::passes {
 namespace {
 
 // In operations (Facts::cost): what costs more is not written down twice.
-constexpr double cheap = 6;
+constexpr double cheap_to_write_twice = 6;
 
 class Relaxing {
   public:
@@ -173,7 +173,8 @@ class Relaxing {
     std::optional<ir::NodeId> power(ir::NodeId base, ir::NodeId exponent) {
         const auto value = constant(exponent);
         if (value && *value == 0.5) return builder_.apply(Operator::Sqrt, {base});
-        if (!value || *value != 3 || builder_.facts(base).cost > cheap) return std::nullopt;
+        if (!value || *value != 3 || builder_.facts(base).cost > cheap_to_write_twice)
+            return std::nullopt;
         return multiply(multiply(base, base), base);
     }
 

@@ -17,13 +17,8 @@ namespace {
 using Buffers = std::set<ir::BufferId>;
 
 // In operations (Facts::cost), for all values of a divisor.
-constexpr double affordable_cost = 4e6;
-constexpr double affordable_in_all = 1e8;
-
-bool is_finite(const ir::Value& value) {
-    const auto* real = std::get_if<double>(&value);
-    return !real || std::isfinite(*real);
-}
+constexpr double affordable_for_divisor = 4e6;
+constexpr double affordable_for_divisors = 1e8;
 
 Buffers filled_by_calls(const ir::Program& program) {
     Buffers filled;
@@ -62,7 +57,7 @@ bool is_safe_divisor(const ir::Program& program, const ir::Evaluator& evaluator,
                      const std::vector<ir::Facts>& all, double& left) {
     const ir::Facts& facts = all[id.index];
     const double cost = facts.cost * evaluations(program, facts);
-    if (!facts.uniform || cost > affordable_cost || cost > left) return false;
+    if (!facts.uniform || cost > affordable_for_divisor || cost > left) return false;
     left -= cost;
     const auto values = constant_values(evaluator, program, id, facts.free_variables);
     return values && std::ranges::all_of(*values, [](const ir::Value& value) {
@@ -78,7 +73,7 @@ std::set<ir::NodeId> safe_quotients(const ir::Program& program) {
     const std::vector<ir::Facts> facts = ir::all_facts(program);
     const ir::Evaluator evaluator(program);
     std::map<ir::NodeId, bool> divisors;
-    double left = affordable_in_all;
+    double left = affordable_for_divisors;
     std::set<ir::NodeId> safe;
     for (std::uint32_t index = 0; index < program.nodes.size(); ++index) {
         const auto* apply = std::get_if<ir::Apply>(&program.nodes[index].form);

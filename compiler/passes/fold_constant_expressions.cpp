@@ -9,10 +9,10 @@ namespace rddlc::passes {
 namespace {
 
 // More operations than this are left to the simulator.
-constexpr double affordable_cost = 1e7;
+constexpr double affordable_to_fold = 1e7;
 
 bool is_known(const ir::Node& node, const ir::Facts& facts) {
-    return facts.cost <= affordable_cost && facts.uniform && facts.free_variables.empty() &&
+    return facts.cost <= affordable_to_fold && facts.uniform && facts.free_variables.empty() &&
            !std::holds_alternative<ir::Constant>(node.form);
 }
 

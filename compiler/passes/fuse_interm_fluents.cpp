@@ -14,9 +14,9 @@ namespace rddlc::passes {
 namespace {
 
 // What takes more operations (Facts::cost) is not repeated where it is read in several places.
-constexpr double cheap = 2;
+constexpr double cheap_to_repeat = 2;
 // A single value that takes more is worth a name. As is what share_subexpressions would name.
-constexpr double worth_a_name = 6;
+constexpr double worth_a_definition = 6;
 
 class Fusion {
   public:
@@ -59,8 +59,8 @@ class Fusion {
 
     static bool is_worth_it(const ir::Facts& facts, const Readers& readers,
                             const ir::Buffer& buffer) {
-        if (readers.places > 1 && facts.cost > cheap) return false;
-        if (buffer.count() == 1 && facts.cost > worth_a_name) return false;
+        if (readers.places > 1 && facts.cost > cheap_to_repeat) return false;
+        if (buffer.count() == 1 && facts.cost > worth_a_definition) return false;
         const double before =
             static_cast<double>(buffer.count()) * (facts.cost + 1) + readers.reads;
         return readers.reads * facts.cost <= before;
@@ -93,7 +93,7 @@ class Fusion {
         std::map<ir::NodeId, int, std::greater<>> uses = {{value, 1}};
         for (; !uses.empty(); uses.erase(uses.begin())) {
             const auto [id, count] = *uses.begin();
-            if (count > 1 && builder_.facts(id).cost >= worth_a_name) return true;
+            if (count > 1 && builder_.facts(id).cost >= worth_a_definition) return true;
             for (ir::NodeId operand : ir::operands_of(program_[id])) ++uses[operand];
         }
         return false;

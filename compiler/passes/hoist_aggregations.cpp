@@ -15,11 +15,11 @@ namespace rddlc::passes {
 namespace {
 
 // In operations (Facts::cost): what is worth a table, and what writing or reading an element costs.
-constexpr double worth_a_table = 8;
+constexpr double worth_hoisting = 8;
 constexpr double cost_of_element = 2;
 // The work must shrink to less than this part, since branches may skip some of it.
 constexpr double worthwhile = 0.5;
-constexpr double most_elements = 1e6;
+constexpr double most_hoisted_elements = 1e6;
 
 using Variables = std::vector<ir::VariableId>;
 
@@ -109,14 +109,14 @@ class Hoisting {
 
     bool is_worthwhile(ir::NodeId id, const Variables& around, std::size_t loops) const {
         const ir::Facts& facts = builder_.facts(id);
-        if (facts.may_fault || facts.uniform || facts.cost < worth_a_table) return false;
+        if (facts.may_fault || facts.uniform || facts.cost < worth_hoisting) return false;
         if (facts.free_variables.empty() || is_fixed_by_loops(id, around, loops)) return false;
         const double entries = product_of_sizes(facts.free_variables);
         const double evaluations = product_of_sizes(around);
         const double hoisted =
             entries * (facts.cost + cost_of_element) + evaluations * cost_of_element;
-        return entries <= most_elements && hoisted < worthwhile * evaluations * facts.cost &&
-               is_known_before(id);
+        return entries <= most_hoisted_elements &&
+               hoisted < worthwhile * evaluations * facts.cost && is_known_before(id);
     }
 
     // It depends on outer loops alone.

@@ -20,9 +20,9 @@ constexpr double cheap_loop = 12;
 // Rows beyond this number must have entries.
 constexpr double most_empty_rows = 1e6;
 // In operations, of computing one table of entries.
-constexpr double affordable_cost = 1e8;
+constexpr double affordable_for_entries = 1e8;
 // Of all aggregations: each takes a few numbers in the emitted text.
-constexpr std::int64_t most_entries = std::int64_t{1} << 20;
+constexpr std::int64_t most_entries_in_all = std::int64_t{1} << 20;
 
 // The aggregation that is being rewritten: its objects are those of an entry now.
 struct Scope {
@@ -130,7 +130,7 @@ class Rewriting {
             return scope.relation.has(variable);
         };
         return facts.uniform && std::ranges::all_of(facts.free_variables, is_known) &&
-               facts.cost * static_cast<double>(scope.relation.count()) <= affordable_cost &&
+               facts.cost * static_cast<double>(scope.relation.count()) <= affordable_for_entries &&
                (program_[id].type != ir::Scalar::Int || reads_table(id));
     }
 
@@ -349,7 +349,7 @@ class Rewriting {
     Exceptions exceptions_;
     EntryTables tables_;
     Scope everything_;
-    std::int64_t entries_left_ = most_entries;
+    std::int64_t entries_left_ = most_entries_in_all;
     std::string name_;  // of what is being rewritten
     Span span_;
 };

@@ -11,7 +11,7 @@ namespace {
 // A table from values to objects has at most this many entries for each object.
 constexpr std::int64_t most_entries_an_object = 4;
 // Tables in which the entries that count are not the exceptions are looked through up to this size.
-constexpr std::int64_t most_elements = 1'000'000;
+constexpr std::int64_t most_searched_elements = 1'000'000;
 
 // The elements of a table in groups that differ in the index of one axis only.
 struct Lines {
@@ -40,7 +40,7 @@ std::optional<std::map<std::int64_t, std::int64_t>> only_places(const Table& tab
         }
         return places;
     }
-    if (table.size() > most_elements) return std::nullopt;
+    if (table.size() > most_searched_elements) return std::nullopt;
     for (std::int64_t element = 0; element < table.size(); ++element) {
         if (table[element] == ir::Value(entry) && !is_only(element)) return std::nullopt;
     }
@@ -158,7 +158,7 @@ ir::NodeId OnlyObjects::load(const ir::Buffer& like, const std::string& suffix, 
                              Table values, const Column& column) {
     if (values.is_uniform()) return builder_.constant(values[0]);
     // By the value that most have; a large table stays as sparse as it was written.
-    if (values.size() <= most_elements) values = Table(values.dense());
+    if (values.size() <= most_searched_elements) values = Table(values.dense());
     ir::Buffer table = like;
     table.name += suffix;
     table.scalar = scalar;

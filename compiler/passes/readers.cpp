@@ -11,9 +11,9 @@
 namespace rddlc::passes {
 namespace {
 
-class Counting {
+class ReaderCounting {
   public:
-    explicit Counting(const ir::Program& program)
+    explicit ReaderCounting(const ir::Program& program)
         : program_(program), readers_(program.buffers.size()), listed_(program.nodes.size()) {}
 
     void count(const ir::Block& body) {
@@ -105,7 +105,7 @@ class Counting {
 }  // namespace
 
 std::vector<Readers> readers_of_step(const ir::Program& program) {
-    Counting counting(program);
+    ReaderCounting counting(program);
     for (const ir::Definition& definition : program.step) counting.count(definition.body);
     counting.count(program.reward);
     return std::move(counting).result();

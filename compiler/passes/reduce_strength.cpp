@@ -10,7 +10,7 @@ namespace rddlc::passes {
 namespace {
 
 // In operations (Facts::cost): what costs more is not written down twice.
-constexpr double cheap = 6;
+constexpr double cheap_operand = 6;
 constexpr std::int64_t largest_int_exponent = 4;
 
 bool is_power_of_two(double value) {
@@ -39,7 +39,7 @@ ir::NodeId product(ir::Builder& builder, ir::NodeId base, std::int64_t count) {
 
 std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
                                         ir::NodeId exponent) {
-    if (builder.facts(base).cost > cheap) return std::nullopt;
+    if (builder.facts(base).cost > cheap_operand) return std::nullopt;
     const auto real = ir::constant<double>(builder.program(), exponent);
     if (real && *real == 2) return product(builder, base, 2);
     const auto whole = ir::constant<std::int64_t>(builder.program(), exponent);

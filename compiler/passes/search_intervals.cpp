@@ -6,7 +6,6 @@
 #include "passes/take_only_objects.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -15,9 +14,9 @@ namespace rddlc::passes {
 namespace {
 
 // In operations (Facts::cost), of evaluating an expression for all pieces.
-constexpr double affordable_cost = 1e7;
+constexpr double affordable_for_pieces = 1e7;
 // The same for all expressions.
-constexpr double affordable_in_all = 1e8;
+constexpr double affordable_for_all_pieces = 1e8;
 // What costs less than this many times a search stays as it is.
 constexpr double worth_a_search = 2;
 
@@ -31,7 +30,7 @@ class Trying {
     // `left` is what may be spent; it gets less.
     bool is_affordable(ir::NodeId id, const Pieces& pieces, double& left) const {
         const double cost = builder_.facts(id).cost * static_cast<double>(pieces.breaks.size() + 2);
-        if (cost > affordable_cost || cost > left) return false;
+        if (cost > affordable_for_pieces || cost > left) return false;
         left -= cost;
         return true;
     }
@@ -74,10 +73,6 @@ std::string name_of_number(const ir::Program& program, ir::NodeId number) {
 // A table over the pieces or their breaks.
 ir::BufferId new_table(ir::Builder& builder, const Pieces& pieces, const std::string& suffix,
                        std::vector<ir::Value> values) {
-    const auto is_finite = [](const ir::Value& value) {
-        const auto* real = std::get_if<double>(&value);
-        return !real || std::isfinite(*real);
-    };
     const ir::Program& program = builder.program();
     ir::Buffer table{.name = name_of_number(program, pieces.number) + suffix,
                      .storage = ir::Storage::Constant,
@@ -110,9 +105,9 @@ ir::NodeId search(ir::Builder& builder, const Pieces& pieces) {
 // ------------------------------------------------------------------------- constant pieces
 
 // Replaces the outermost expressions that are constant in each piece.
-class Tabulation {
+class PieceTabulation {
   public:
-    Tabulation(ir::Program program, Report& report)
+    PieceTabulation(ir::Program program, Report& report)
         : program_(std::move(program)),
           report_(report),
           local_{program_.local_count++},
@@ -157,7 +152,7 @@ class Tabulation {
     ir::LocalId local_;  // stands for a number that is tried
     ir::Builder builder_;
     ir::Evaluator evaluator_;
-    double left_ = affordable_in_all;
+    double left_ = affordable_for_all_pieces;
 };
 
 // -------------------------------------------------------------- one object in each piece
@@ -208,13 +203,13 @@ class ObjectsOfPieces {
     Report& report_;
     std::optional<ir::Evaluator> evaluator_;
     ir::LocalId local_{};  // stands for a number that is tried
-    double left_ = affordable_in_all;
+    double left_ = affordable_for_all_pieces;
 };
 
 }  // namespace
 
 ir::Program search_intervals(ir::Program program, Report& report) {
-    program = Tabulation(std::move(program), report).run();
+    program = PieceTabulation(std::move(program), report).run();
     ObjectsOfPieces objects(report);
     return take_only_objects(std::move(program),
                              [&](ir::Program& changed, ir::Builder& builder,

@@ -14,7 +14,7 @@ namespace rddlc::passes {
 namespace {
 
 // In operations (Facts::cost): what is worth writing a value to a table and reading it again.
-constexpr double worth_a_table = 10;
+constexpr double worth_separating = 10;
 
 using Variables = std::vector<ir::VariableId>;
 
@@ -62,7 +62,7 @@ class Separation {
         const SeveralObjects several = several_of(nest, is_one);
         double rest = builder_.facts(store->value).cost;
         for (const ir::NodeId id : aggregations) rest -= builder_.facts(id).cost;
-        if (rest < worth_a_table || !several.are_enough() || !several.can_store(*store)) return;
+        if (rest < worth_separating || !several.are_enough() || !several.can_store(*store)) return;
 
         std::map<ir::NodeId, ir::NodeId> elements;
         for (const ir::NodeId id : aggregations)
@@ -149,7 +149,7 @@ class Separation {
 
     bool is_worth_a_table(const Variables& variables, ir::NodeId term) const {
         const ir::Facts& facts = builder_.facts(term);
-        if (variables.empty() || facts.may_fault || facts.random || facts.cost < worth_a_table ||
+        if (variables.empty() || facts.may_fault || facts.random || facts.cost < worth_separating ||
             !is_over(facts, variables))
             return false;
         const SeveralObjects several = several_of({variables, nullptr}, nullptr);

@@ -17,21 +17,21 @@ namespace {
 // In operations (Facts::cost): what is worth an element, what an element costs, and what may be
 // computed although no branch needs it.
 constexpr double worth_an_element = 15;
-constexpr double cost_of_element = 2;
+constexpr double cost_of_shared_element = 2;
 constexpr double cheap_enough_to_try = 64;
-constexpr double most_elements = 1e6;
+constexpr double most_shared_elements = 1e6;
 
 // How one CPF, or the reward, uses a node.
-struct Use {
+struct UseByDefinition {
     double times = 0;     // evaluations in a step
     bool always = false;  // and not in a branch
 };
 // By users, which are the CPFs in their order, and then the reward.
-using Uses = std::map<std::size_t, Use>;
+using UsesByDefinition = std::map<std::size_t, UseByDefinition>;
 
-class Sharing {
+class DefinitionSharing {
   public:
-    Sharing(ir::Program program, Report& report)
+    DefinitionSharing(ir::Program program, Report& report)
         : program_(std::move(program)), report_(report), builder_(program_) {}
 
     ir::Program run() && {
@@ -81,9 +81,9 @@ class Sharing {
         }
     }
 
-    void use(ir::NodeId id, std::size_t user, const Use& more) {
+    void use(ir::NodeId id, std::size_t user, const UseByDefinition& more) {
         if (more.times == 0) return;
-        Use& use = uses_[id][user];
+        UseByDefinition& use = uses_[id][user];
         use.times = std::max(use.times, more.times);
         use.always |= more.always;
     }
@@ -122,7 +122,7 @@ class Sharing {
         }
     }
 
-    void spread(ir::NodeId id, std::size_t user, const Use& of_node) {
+    void spread(ir::NodeId id, std::size_t user, const UseByDefinition& of_node) {
         const ir::Node& node = program_[id];
         const auto bound = ir::bound_variable(node);
         const std::vector<ir::NodeId> operands = ir::operands_of(node);
@@ -134,7 +134,7 @@ class Sharing {
         }
     }
 
-    bool is_worthwhile(ir::NodeId id, const Uses& uses) const {
+    bool is_worthwhile(ir::NodeId id, const UsesByDefinition& uses) const {
         const ir::Facts& facts = builder_.facts(id);
         if (uses.size() < 2 || facts.may_fault || facts.uniform || facts.cost < worth_an_element)
             return false;
@@ -146,13 +146,13 @@ class Sharing {
             evaluations += use.times;
             always |= use.always;
         }
-        const double shared = elements * (facts.cost + cost_of_element);
-        return (always || facts.cost <= cheap_enough_to_try) && elements <= most_elements &&
-               shared + evaluations * cost_of_element < evaluations * facts.cost;
+        const double shared = elements * (facts.cost + cost_of_shared_element);
+        return (always || facts.cost <= cheap_enough_to_try) && elements <= most_shared_elements &&
+               shared + evaluations * cost_of_shared_element < evaluations * facts.cost;
     }
 
     // The first user fills a table for it, and all read that.
-    void share(ir::NodeId id, const Uses& uses) {
+    void share(ir::NodeId id, const UsesByDefinition& uses) {
         const std::size_t first_user = uses.begin()->first;
         double elements = 1;
         for (const ir::VariableId variable : builder_.facts(id).free_variables)
@@ -231,15 +231,15 @@ class Sharing {
     ir::Program program_;
     Report& report_;
     ir::Builder builder_;
-    std::map<ir::NodeId, Uses, std::greater<>> uses_;  // users before their operands
-    std::vector<std::size_t> available_;               // by NodeId::index: the first user
+    std::map<ir::NodeId, UsesByDefinition, std::greater<>> uses_;  // users before their operands
+    std::vector<std::size_t> available_;  // by NodeId::index: the first user
     std::vector<Shared> shared_;
 };
 
 }  // namespace
 
 ir::Program share_across_definitions(ir::Program program, Report& report) {
-    return Sharing(std::move(program), report).run();
+    return DefinitionSharing(std::move(program), report).run();
 }
 
 }  // namespace rddlc::passes

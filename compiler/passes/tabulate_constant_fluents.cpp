@@ -12,15 +12,15 @@ namespace rddlc::passes {
 namespace {
 
 // Larger tables are left to the simulator: they make the emitted text long.
-constexpr std::int64_t most_entries = 100'000;
+constexpr std::int64_t most_entries_of_fluent = 100'000;
 // In operations (Facts::cost).
-constexpr double affordable_cost = 1e7;
-constexpr double affordable_in_all = 1e8;
+constexpr double affordable_for_fluent = 1e7;
+constexpr double affordable_for_fluents = 1e8;
 
 // One after the other: what reads a constant fluent may be constant, too.
-class Tabulation {
+class FluentTabulation {
   public:
-    Tabulation(ir::Program& program, Report& report)
+    FluentTabulation(ir::Program& program, Report& report)
         : program_(program), report_(report), builder_(program), evaluator_(program) {}
 
     // The tables, by the interm-fluents that they replace.
@@ -36,14 +36,14 @@ class Tabulation {
     // Of a definition that fills an interm-fluent with what the instance fixes.
     std::optional<std::vector<ir::Value>> known_values(const ir::Definition& definition) {
         const ir::Buffer& buffer = program_[definition.target];
-        if (buffer.storage != ir::Storage::Scratch || buffer.count() > most_entries)
+        if (buffer.storage != ir::Storage::Scratch || buffer.count() > most_entries_of_fluent)
             return std::nullopt;
         const auto plain = plain_definition(program_, definition);
         if (!plain) return std::nullopt;
         const ir::NodeId value = with_tables(plain->value);
         const ir::Facts& facts = builder_.facts(value);
         const double cost = facts.cost * static_cast<double>(buffer.count());
-        if (!facts.uniform || cost > affordable_cost || cost > left_) return std::nullopt;
+        if (!facts.uniform || cost > affordable_for_fluent || cost > left_) return std::nullopt;
         left_ -= cost;
 
         std::vector<ir::VariableId> variables;
@@ -83,13 +83,13 @@ class Tabulation {
     ir::Evaluator evaluator_;
     std::map<ir::BufferId, ir::BufferId> tables_;
     std::map<ir::NodeId, ir::NodeId> known_;  // expressions with tables in place of fluents
-    double left_ = affordable_in_all;
+    double left_ = affordable_for_fluents;
 };
 
 }  // namespace
 
 ir::Program tabulate_constant_fluents(ir::Program program, Report& report) {
-    const auto tables = Tabulation(program, report).run();
+    const auto tables = FluentTabulation(program, report).run();
     if (tables.empty()) return program;
     return ir::rewrite(
         std::move(program),

@@ -5,7 +5,6 @@
 #include "passes/constant_values.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,19 +15,12 @@ namespace {
 // An entry of a larger table must save as many operations as it has fellows, divided by this.
 constexpr double entries_for_an_operation = 32;
 // In operations (Facts::cost), for the whole table.
-constexpr double affordable_cost = 4e6;
-
-bool are_finite(const rddlc::Table& values) {
-    return values.all_of([](const ir::Value& value) {
-        const auto* real = std::get_if<double>(&value);
-        return !real || std::isfinite(*real);
-    });
-}
+constexpr double affordable_for_table = 4e6;
 
 // Finds the outermost expressions that are worth a table.
-class Tabulation {
+class ConstantTabulation {
   public:
-    explicit Tabulation(ir::Program& program)
+    explicit ConstantTabulation(ir::Program& program)
         : program_(program),
           facts_(ir::all_facts(program)),
           seen_(program.nodes.size()),
@@ -72,7 +64,7 @@ class Tabulation {
         if (!facts.uniform || facts.free_variables.empty() || facts.cost < 2) return false;
         if (is_element(id)) return false;
         const double entries = entries_over(facts.free_variables);
-        if (entries * facts.cost > affordable_cost) return false;
+        if (entries * facts.cost > affordable_for_table) return false;
         const std::int64_t largest = largest_table_in(id);
         return largest > 0 && entries <= std::max(static_cast<double>(largest),
                                                   (facts.cost - 2) * entries_for_an_operation);
@@ -114,7 +106,7 @@ class Tabulation {
                           .values = *std::move(values),
                           .span = span};
         set_dimensions(program_, buffer, variables);
-        buffer.finite = are_finite(buffer.values);
+        buffer.finite = buffer.values.all_of(is_finite);
         tables_.emplace(id, Table{std::move(variables), std::move(buffer)});
         return true;
     }
@@ -139,7 +131,8 @@ class Tabulation {
 }  // namespace
 
 ir::Program tabulate_constants(ir::Program program, Report& report) {
-    const std::map<ir::NodeId, Tabulation::Table> tables = Tabulation(program).run();
+    const std::map<ir::NodeId, ConstantTabulation::Table> tables =
+        ConstantTabulation(program).run();
     std::map<ir::NodeId, ir::BufferId> buffers;
     ir::NewTables new_tables(program);
     for (const auto& [id, table] : tables) {

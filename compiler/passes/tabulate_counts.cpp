@@ -18,7 +18,7 @@ namespace {
 constexpr double largest_range = 256;
 // In operations (Facts::cost): what is worth loading an element of a table instead, and how many
 // elements each of them is worth.
-constexpr double worth_a_table = 8;
+constexpr double worth_a_count_table = 8;
 constexpr double elements_for_an_operation = 64;
 // A table of several kinds of objects has this many times fewer rows, at least.
 constexpr std::size_t objects_of_a_kind = 4;
@@ -32,9 +32,9 @@ struct Dependence {
 };
 
 // Replaces the outermost expressions that depend on one count.
-class Tabulation {
+class CountTabulation {
   public:
-    Tabulation(ir::Program program, Report& report)
+    CountTabulation(ir::Program program, Report& report)
         : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {
         for (std::uint32_t index = 0; index < program_.nodes.size(); ++index)
             dependences_.push_back(dependence_of({index}));
@@ -101,8 +101,8 @@ class Tabulation {
 
     std::optional<ir::NodeId> looked_up(ir::NodeId id) {
         const auto [only_count, count, cost] = dependences_[id.index];
-        const bool is_candidate =
-            only_count && count && cost >= worth_a_table && program_[id].type == ir::Scalar::Real;
+        const bool is_candidate = only_count && count && cost >= worth_a_count_table &&
+                                  program_[id].type == ir::Scalar::Real;
         if (!is_candidate || is_bound_inside(*count, id)) return std::nullopt;
         const std::vector<ir::NodeId> cases = cases_of(id, *count);
         const std::vector<ir::VariableId> variables = variables_of(cases);
@@ -326,7 +326,7 @@ class Tabulation {
 }  // namespace
 
 ir::Program tabulate_counts(ir::Program program, Report& report) {
-    return Tabulation(std::move(program), report).run();
+    return CountTabulation(std::move(program), report).run();
 }
 
 }  // namespace rddlc::passes

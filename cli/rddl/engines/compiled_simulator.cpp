@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // A simulator from a shared object; null if the file is not one of this ABI version.
-std::shared_ptr<const rddl_simulator> load(const fs::path& object) {
+std::shared_ptr<const rddl_simulator> load_simulator_of(const fs::path& object) {
     const auto close = [](void* handle) {
         if (handle) dlclose(handle);
     };
@@ -33,12 +33,12 @@ std::shared_ptr<const rddl_simulator> load(const fs::path& object) {
 
 CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options) {
     CachedObject object = cached_object(text, options);
-    if (auto simulator = load(object.path)) return {simulator, object};
+    if (auto simulator = load_simulator_of(object.path)) return {simulator, object};
     // Compiled by something that has changed since.
     CacheOptions anew = options;
     anew.ignore_cache = true;
     object = cached_object(text, anew);
-    if (auto simulator = load(object.path)) return {simulator, object};
+    if (auto simulator = load_simulator_of(object.path)) return {simulator, object};
     const char* const why = dlerror();
     throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}",
                               object.path.string(),

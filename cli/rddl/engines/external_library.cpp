@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::shared_ptr<void> load(const fs::path& object) {
+std::shared_ptr<void> load_library(const fs::path& object) {
     const auto close = [](void* handle) {
         if (handle) dlclose(handle);
     };
@@ -34,7 +34,7 @@ std::shared_ptr<void> load_headers(const ir::Program& program, const std::vector
     const CachedObject object = cached_object(
         emit_external_library(program, included),
         {"the external functions of " + files.name, options.ignore_cache, options.quiet, headers});
-    return load(object.path);
+    return load_library(object.path);
 }
 
 std::vector<ir::Call> external_calls(const ir::Program& program) {
@@ -75,7 +75,7 @@ ExternalLibrary external_library(const ir::Program& program, const ProblemFiles&
     const std::vector<ir::Call> calls = external_calls(program);
     if (calls.empty()) return library;
     const auto [headers, shared_objects] = extern_files(options.externs);
-    for (const fs::path& object : shared_objects) library.loaded.push_back(load(object));
+    for (const fs::path& object : shared_objects) library.loaded.push_back(load_library(object));
     if (!headers.empty()) library.loaded.push_back(load_headers(program, headers, files, options));
     library.functions.resize(program.externals.size());
     for (const ir::Call& call : calls) {

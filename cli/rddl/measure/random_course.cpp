@@ -11,6 +11,8 @@ namespace rddlc::cli {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::int64_t least_steps = 2;
 constexpr std::int64_t most_bytes = 64 << 20;
 
@@ -35,7 +37,6 @@ rddl_batch_options course_options(std::int64_t environments) {
 
 RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environments,
                          double seconds) {
-    using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     const std::int64_t step_bytes = environments * simulator.problem->action_size;
     const std::int64_t limit = std::clamp(most_bytes / std::max<std::int64_t>(step_bytes, 1),

@@ -24,7 +24,7 @@ using nlohmann::json;
 constexpr std::int64_t first_sample = std::int64_t{1} << 40;
 // Environments that draw samples together: bounds the memory for large states.
 constexpr std::int64_t samples_at_once = 256;
-constexpr std::int64_t most_samples = 10'000'000;
+constexpr std::int64_t most_repeats = 10'000'000;
 
 constexpr std::array<std::string_view, 5> understood{"state", "action", "reset", "repeat",
                                                      "episode"};
@@ -168,7 +168,7 @@ ReplaySession::Request ReplaySession::read_request(const json& line) const {
     request.environment = read_count(line, "episode", 0, first_sample - 1);
     if (request.environment == environment_) request.environment.reset();
     request.reset = read_flag(line, "reset");
-    request.samples = read_count(line, "repeat", 1, most_samples);
+    request.samples = read_count(line, "repeat", 1, most_repeats);
     request.steps = !request.reset || line.contains("action") || request.samples;
     if (const auto values = line.find("state"); values != line.end())
         request.state = read_state(*values, request.environment || request.reset);

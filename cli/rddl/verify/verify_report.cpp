@@ -198,22 +198,22 @@ ordered_json counts_json(const ValueCounts& counts) {
 ordered_json difference_json(const VerifyReport& report) {
     const auto [difference, start, expected_by, found_by] = told(report);
     const auto place = place_of(difference, start, report.problem, report.seed);
-    ordered_json json{{"what", difference.name},
-                      {"expected", {{"engine", expected_by}, {"value", difference.expected}}},
-                      {"found", {{"engine", found_by}, {"value", difference.found}}}};
+    ordered_json object{{"what", difference.name},
+                        {"expected", {{"engine", expected_by}, {"value", difference.expected}}},
+                        {"found", {{"engine", found_by}, {"value", difference.found}}}};
     if (place) {
-        json["place"] = report.problem.sources.location(*place);
-        json["text"] = report.problem.sources.text(*place);
+        object["place"] = report.problem.sources.location(*place);
+        object["text"] = report.problem.sources.text(*place);
     }
-    json["environment"] = start.environment;
-    json["episode"] = start.episode;
-    json["step"] = start.step;
-    json["from"] = ordered_json::parse(replay_line(report, start));
+    object["environment"] = start.environment;
+    object["episode"] = start.episode;
+    object["step"] = start.step;
+    object["from"] = ordered_json::parse(replay_line(report, start));
     const Verdict verdict = report.verdict.value_or(Verdict{});
-    json["pass"] = verdict.pass ? ordered_json(*verdict.pass) : ordered_json();
-    json["emitted_code"] = verdict.emitted_code;
-    json["avoided_by"] = verdict.avoided_by ? ordered_json(*verdict.avoided_by) : ordered_json();
-    return json;
+    object["pass"] = verdict.pass ? ordered_json(*verdict.pass) : ordered_json();
+    object["emitted_code"] = verdict.emitted_code;
+    object["avoided_by"] = verdict.avoided_by ? ordered_json(*verdict.avoided_by) : ordered_json();
+    return object;
 }
 
 ordered_json pyrddlgym_json(const PyRddlGymComparison& compared) {
