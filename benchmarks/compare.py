@@ -37,7 +37,7 @@ import numpy as np
 from bench import Results, bench, geometric_mean
 from document import ROOT, machine_text, markdown_table, write_section
 
-sys.path.insert(0, str(ROOT / "tests/conformance"))
+sys.path.append(str(ROOT / "tests/conformance"))
 sys.path.insert(0, str(ROOT / "benchmarks/peers"))
 
 from problems import Case, all_problems, repository_cases, smallest_median_largest  # noqa: E402

@@ -26,7 +26,7 @@ from pathlib import Path
 
 from document import ROOT, machine_text, markdown_table, write_section
 
-sys.path.insert(0, str(ROOT / "tests/conformance"))
+sys.path.append(str(ROOT / "tests/conformance"))
 
 from problems import Case, cases_of  # noqa: E402
 

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from document import ROOT, machine_text, markdown_table, write_section
 
-sys.path.insert(0, str(ROOT / "tests/conformance"))
+sys.path.append(str(ROOT / "tests/conformance"))
 
 from problems import repository_cases  # noqa: E402
 
@@ -82,7 +82,8 @@ def build_references(options: argparse.Namespace) -> Path:
                  "formats/records_json", "formats/json_text")
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler"]
-    libraries = [options.build / "compiler/support/librddlc_support.a", "-lfmt", "-ldl", "-pthread"]
+    libraries = [options.build / "compiler/support/librddlc_support.a", "-lfmt", "-lutf8proc", "-ldl",
+                 "-pthread"]
     run([options.cxx, *FLAGS, *INLINING, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])
     return program
 

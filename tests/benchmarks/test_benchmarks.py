@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
 import bench  # noqa: E402
+import cliffs  # noqa: E402
 import compare  # noqa: E402
 import compare_jax  # noqa: E402
 import document  # noqa: E402
@@ -146,6 +147,24 @@ class CompareJax(unittest.TestCase):
     def test_gives_up_after_the_limit(self):
         with self.assertRaisesRegex(RuntimeError, "no figures within 0.01 s"):
             bench.bench(Path(RDDL), PROBLEM, "--seconds", 5, limit=0.01)
+
+
+class Cliffs(unittest.TestCase):
+    def test_measures_and_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            options = [PROBLEM, "--seconds", 0.02, "--results", Path(folder) / "cliffs.jsonl", "--require"]
+            status, text = run_program(cliffs.main, "--rddl", RDDL, *options)
+            self.assertEqual(status, 0, text)
+            self.assertIn(f"{PROBLEM} 0", text)
+            # What the file has is not measured again: no program is needed.
+            self.assertEqual(run_program(cliffs.main, "--rddl", "/nowhere/rddl", *options), (status, text))
+
+    def test_tells_what_is_slower_in_a_batch(self):
+        slow = cliffs.Entry("p", "1", 16, 100.0, 40.0)
+        fast = cliffs.Entry("p", "2", 16, 100.0, 900.0)
+        self.assertEqual(slow.ratio, 0.4)
+        self.assertIn("* p 1: 0.40, 16 lanes", cliffs.text_of([slow, fast]))
+        self.assertNotIn("* p", cliffs.text_of([fast]))
 
 
 class LegalActions(unittest.TestCase):

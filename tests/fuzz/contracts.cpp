@@ -120,7 +120,8 @@ Contracts check_contracts(const ir::Program& program, const PassOptions& options
     for (std::size_t i = 1; i < history.size(); ++i) {
         Story after = story(history[i].program, tried, seed);
         const ir::Program& previous = history[i - 1].program;
-        const Tolerance tolerance = tolerance_between(history[i].pass, previous);
+        Tolerance tolerance = tolerance_between(history[i].pass, previous);
+        tolerance.not_finite |= history[i].program.assumes_finite;
         if (const auto text = difference(program, before, after, tolerance)) {
             result.breaches.push_back({history[i].pass, *text});
         }
