@@ -1,24 +1,17 @@
 // The pages of docs/diagnostics keep their word: the first example gets the page's diagnostic and
 // no other, the corrected one gets none.
 #include "checking.hpp"
+#include "support/files.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace rddlc::testing {
 namespace {
 
 const std::filesystem::path pages = PAGES_FOLDER;
-
-std::string read(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return std::move(text).str();
-}
 
 // Those of this stage: the hundreds 02 to 05.
 std::vector<std::string> codes_with_pages() {
@@ -34,7 +27,7 @@ std::vector<std::string> codes_with_pages() {
 
 // Every constant in check/codes.hpp: "...{'E', 203};".
 std::vector<std::string> codes_in_header() {
-    std::istringstream header(read(CODES_HEADER));
+    std::istringstream header(read_file(CODES_HEADER));
     std::vector<std::string> codes;
     for (std::string line; std::getline(header, line);) {
         const std::size_t letter = line.find("{'");
@@ -63,7 +56,7 @@ class PageTest : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PageTest, ShowsWhatTriggersTheCodeAndWhatDoesNot) {
     const std::string& code = GetParam();
-    const std::string page = read(pages / (code + ".md"));
+    const std::string page = read_file(pages / (code + ".md"));
     EXPECT_TRUE(page.starts_with("# " + code + ": ")) << page;
     if (code.starts_with('W')) {
         EXPECT_NE(page.find("-Wno-" + code), std::string::npos);

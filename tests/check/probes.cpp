@@ -1,6 +1,7 @@
 #include "probes.hpp"
 
-#include <fstream>
+#include "support/files.hpp"
+
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -8,12 +9,8 @@
 namespace rddlc::testing {
 namespace {
 
-std::string read(const std::string& file) {
-    std::ifstream stream(std::string(PROBES_FOLDER) + "/" + file);
-    if (!stream) throw std::runtime_error("cannot read probes/" + file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
+std::string read_probe(const std::string& file) {
+    return read_file(std::string(PROBES_FOLDER) + "/" + file);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -54,7 +51,7 @@ bool defines(const std::string& line, const std::string& name) {
 std::vector<Probe> read_probes(const std::string& file) {
     std::vector<Probe> probes;
     int number = 0;
-    for (const std::string& line : lines_of(read(file))) {
+    for (const std::string& line : lines_of(read_probe(file))) {
         ++number;
         const std::size_t comment = line.rfind("// ");
         if (line.starts_with("#") || comment == std::string::npos) continue;
@@ -74,7 +71,7 @@ std::string with_line_breaks(std::string text) {
 }
 
 std::string problem_with_change(const std::string& old_text, const std::string& new_text) {
-    std::string text = read("problem.rddl");
+    std::string text = read_probe("problem.rddl");
     const std::size_t at = text.find(old_text);
     if (at == std::string::npos) throw std::runtime_error("problem.rddl has no " + old_text);
     return text.replace(at, old_text.size(), new_text);
@@ -85,7 +82,7 @@ std::string problem_with_definition(const std::string& definition) {
     const bool section = definition.ends_with("};") && definition[name.size() + 1] == '{';
     std::string text;
     bool in_cpfs = false;
-    for (const std::string& line : lines_of(read("problem.rddl"))) {
+    for (const std::string& line : lines_of(read_probe("problem.rddl"))) {
         const bool replaced = in_cpfs && defines(line, name);
         const bool reward = line == "    reward = 0;";
         if (!replaced && !(reward && name == "reward")) text += line + "\n";

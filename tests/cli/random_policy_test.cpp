@@ -57,11 +57,11 @@ struct ActionProblem {
     }
 };
 
-using Record = std::vector<std::int64_t>;
+using ActionValues = std::vector<std::int64_t>;
 
-Record act(RandomPolicy& policy, const ActionProblem& problem, std::int64_t environment,
-           std::int64_t step) {
-    Record record(problem.defaults.size(), -1);
+ActionValues act(RandomPolicy& policy, const ActionProblem& problem, std::int64_t environment,
+                 std::int64_t step) {
+    ActionValues record(problem.defaults.size(), -1);
     policy.act(environment, step, reinterpret_cast<std::byte*>(record.data()));
     return record;
 }
@@ -76,10 +76,10 @@ TEST(RandomPolicy, DependsOnSeedEnvironmentAndStepOnly) {
     const ActionProblem problem({{RDDL_REAL, 0, 1}, {RDDL_REAL, 0, 1}, {RDDL_BOOL}}, 2);
     RandomPolicy first(problem.problem, 5), second(problem.problem, 5), other(problem.problem, 6);
     for (std::int64_t step = 0; step < 10; ++step) act(second, problem, 99, step);  // elsewhere
-    std::map<Record, int> distinct;
+    std::map<ActionValues, int> distinct;
     for (std::int64_t environment = 0; environment < 5; ++environment)
         for (std::int64_t step = 0; step < 5; ++step) {
-            const Record record = act(first, problem, environment, step);
+            const ActionValues record = act(first, problem, environment, step);
             EXPECT_EQ(record, act(second, problem, environment, step));
             EXPECT_NE(record, act(other, problem, environment, step));
             distinct[record] += 1;
@@ -99,7 +99,7 @@ TEST(RandomPolicy, StaysWithinTheBounds) {
     RandomPolicy policy(problem.problem, 1);
     std::map<std::int64_t, int> ints, colours;
     for (std::int64_t step = 0; step < 2000; ++step) {
-        const Record a = act(policy, problem, 0, step);
+        const ActionValues a = act(policy, problem, 0, step);
         EXPECT_GE(as_real(a[0]), -2);
         EXPECT_LE(as_real(a[0]), 3);
         EXPECT_GE(as_real(a[1]), 1);
@@ -125,7 +125,7 @@ TEST(RandomPolicy, HasTheMomentsItPromises) {
     constexpr int draws = 20000;
     double sum[3] = {}, squares[3] = {};
     for (std::int64_t environment = 0; environment < draws; ++environment) {
-        const Record a = act(policy, problem, environment, 3);
+        const ActionValues a = act(policy, problem, environment, 3);
         for (int i = 0; i < 3; ++i) {
             sum[i] += as_real(a[static_cast<std::size_t>(i)]);
             squares[i] += std::pow(as_real(a[static_cast<std::size_t>(i)]), 2);
@@ -151,7 +151,7 @@ TEST(RandomPolicy, KeepsTheLimitOfNonDefaultValues) {
     RandomPolicy policy(problem.problem, 1);
     std::vector<int> chosen(10);
     for (std::int64_t step = 0; step < 3000; ++step) {
-        const Record a = act(policy, problem, 0, step);
+        const ActionValues a = act(policy, problem, 0, step);
         int changed = 0;
         for (std::size_t i = 0; i < a.size(); ++i) {
             changed += a[i] != 0;
@@ -167,24 +167,24 @@ TEST(RandomPolicy, DoesNothingWhenNothingMayDiffer) {
     const ActionProblem problem({{RDDL_BOOL}, {RDDL_BOOL}}, 0);
     RandomPolicy policy(problem.problem, 1);
     for (std::int64_t step = 0; step < 20; ++step)
-        EXPECT_EQ(act(policy, problem, 0, step), (Record{0, 0}));
+        EXPECT_EQ(act(policy, problem, 0, step), (ActionValues{0, 0}));
 }
 
 // ------------------------------------------------------------------------- legal actions
 
 // All that the policy proposes at one timestep to someone who never finds an action legal.
-std::vector<Record> proposals(RandomPolicy& policy, const ActionProblem& problem,
-                              std::int64_t environment) {
-    std::vector<Record> all{act(policy, problem, environment, 3)};
+std::vector<ActionValues> proposals(RandomPolicy& policy, const ActionProblem& problem,
+                                    std::int64_t environment) {
+    std::vector<ActionValues> all{act(policy, problem, environment, 3)};
     RandomPolicy::Search search;
-    Record record = all.back();
+    ActionValues record = all.back();
     while (policy.try_another(environment, 3, search, reinterpret_cast<std::byte*>(record.data())))
         all.push_back(record);
     EXPECT_EQ(record, problem.defaults);
     return all;
 }
 
-int changes(const Record& from, const Record& to) {
+int changes(const ActionValues& from, const ActionValues& to) {
     int count = 0;
     for (std::size_t i = 0; i < from.size(); ++i) count += from[i] != to[i];
     return count;
@@ -193,7 +193,7 @@ int changes(const Record& from, const Record& to) {
 TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(6, {RDDL_REAL, 1, 2}));
     RandomPolicy policy(problem.problem, 1);
-    const std::vector<Record> all = proposals(policy, problem, 0);
+    const std::vector<ActionValues> all = proposals(policy, problem, 0);
     ASSERT_EQ(all.size(), 128u * 7 + 6 * 2) << "128 actions, each with 6 resets; 6 single changes";
     for (std::size_t k = 0; k < 128 * 7; ++k) {
         EXPECT_EQ(changes(all[k], problem.defaults), 6 - static_cast<int>(k % 7));
@@ -209,8 +209,8 @@ TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
 TEST(RandomPolicy, TriesEverySingleChange) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(40, {RDDL_BOOL}));
     RandomPolicy policy(problem.problem, 1);
-    const std::vector<Record> all = proposals(policy, problem, 0);
-    std::map<Record, int> last;
+    const std::vector<ActionValues> all = proposals(policy, problem, 0);
+    std::map<ActionValues, int> last;
     for (std::size_t k = all.size() - 80; k < all.size(); ++k) ++last[all[k]];
     EXPECT_EQ(last.size(), 41u) << "each of 40, and the default after it";
 }
@@ -218,7 +218,7 @@ TEST(RandomPolicy, TriesEverySingleChange) {
 TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(800, {RDDL_REAL, 1, 2}));
     RandomPolicy policy(problem.problem, 1);
-    const std::vector<Record> all = proposals(policy, problem, 0);
+    const std::vector<ActionValues> all = proposals(policy, problem, 0);
     EXPECT_EQ(changes(all[1], all[0]), 100);
     EXPECT_EQ(changes(all[1], problem.defaults), 700);
     EXPECT_LT(all.size(), 128u * 50 + 256 * 2);
@@ -228,9 +228,10 @@ TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
 TEST(RandomPolicy, TriesAllAndNoBoolsOfAFluent) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(2, {RDDL_BOOL}));
     RandomPolicy policy(problem.problem, 1);
-    std::map<Record, int> found;
-    for (const Record& record : proposals(policy, problem, 0)) ++found[record];
-    for (const Record& record : {Record{0, 0}, {0, 1}, {1, 0}, {1, 1}}) EXPECT_GT(found[record], 4);
+    std::map<ActionValues, int> found;
+    for (const ActionValues& record : proposals(policy, problem, 0)) ++found[record];
+    for (const ActionValues& record : {ActionValues{0, 0}, {0, 1}, {1, 0}, {1, 1}})
+        EXPECT_GT(found[record], 4);
 }
 
 TEST(RandomPolicy, ResetsEachValueAlike) {
@@ -238,7 +239,7 @@ TEST(RandomPolicy, ResetsEachValueAlike) {
     RandomPolicy policy(problem.problem, 1);
     std::vector<int> first(4);
     for (std::int64_t environment = 0; environment < 2000; ++environment) {
-        Record record = act(policy, problem, environment, 0);
+        ActionValues record = act(policy, problem, environment, 0);
         RandomPolicy::Search search;
         policy.try_another(environment, 0, search, reinterpret_cast<std::byte*>(record.data()));
         for (std::size_t i = 0; i < 4; ++i) first[i] += record[i] == 0;
@@ -250,8 +251,8 @@ TEST(RandomPolicy, ResetsEachValueAlike) {
 TEST(RandomPolicy, SearchesWithinTheLimitAndReproducibly) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(10, {RDDL_REAL, 1, 2}), 3);
     RandomPolicy policy(problem.problem, 1), other(problem.problem, 1);
-    const std::vector<Record> all = proposals(policy, problem, 7);
-    for (const Record& record : all) EXPECT_LE(changes(record, problem.defaults), 3);
+    const std::vector<ActionValues> all = proposals(policy, problem, 7);
+    for (const ActionValues& record : all) EXPECT_LE(changes(record, problem.defaults), 3);
     proposals(other, problem, 8);
     EXPECT_EQ(proposals(other, problem, 7), all);
 

@@ -174,10 +174,10 @@ TEST_P(WrongPass, IsFoundAndBlamed) {
     expect_part(text, "problem.rddl:");
     expect_part(text, "the pass 'wrong' is to blame");
     expect_part(text, "--without=wrong");
-    const auto json = report_json(report);
-    EXPECT_EQ(json["agree"], false);
-    EXPECT_EQ(json["difference"]["pass"], "wrong");
-    EXPECT_TRUE(json["difference"]["from"]["state"].contains("water___t1"));
+    const auto told = report_json(report);
+    EXPECT_EQ(told["agree"], false);
+    EXPECT_EQ(told["difference"]["pass"], "wrong");
+    EXPECT_TRUE(told["difference"]["from"]["state"].contains("water___t1"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -385,12 +385,12 @@ TEST_F(Verify, DrawsStatesWithinBoundsAndToThem) {
         states.shake(state);
         std::string text;
         comparison.state().write(text, state.data());
-        const auto json = nlohmann::json::parse(text);
-        least = std::min(least, json["x"].get<double>());
-        most = std::max(most, json["x"].get<double>());
-        ints.insert(json["i"].dump());
-        objects.insert(json["at"].dump());
-        bools.insert(json["p"].dump());
+        const auto values = nlohmann::json::parse(text);
+        least = std::min(least, values["x"].get<double>());
+        most = std::max(most, values["x"].get<double>());
+        ints.insert(values["i"].dump());
+        objects.insert(values["at"].dump());
+        bools.insert(values["p"].dump());
     }
     EXPECT_EQ(least, -2.0);
     EXPECT_EQ(most, 3.0);

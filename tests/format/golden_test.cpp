@@ -2,20 +2,14 @@
 #include "golden.hpp"
 
 #include "formatted.hpp"
+#include "support/files.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace rddlc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class FormatGolden : public ::testing::TestWithParam<const char*> {};
 
@@ -23,7 +17,7 @@ TEST_P(FormatGolden, IsAsExpected) {
     const fs::path folder = RDDLC_GOLDEN_DIR;
     const std::string name = GetParam();
     testing::expect_golden(folder / (name + ".out.rddl"),
-                           expect_sound(read(folder / (name + ".in.rddl"))), "FormatGolden");
+                           expect_sound(read_file(folder / (name + ".in.rddl"))), "FormatGolden");
 }
 
 INSTANTIATE_TEST_SUITE_P(Format, FormatGolden,
@@ -38,7 +32,7 @@ TEST(FormatExamples, AreLaidOutWell) {
          fs::recursive_directory_iterator(fs::path(RDDLC_SOURCE_DIR) / "examples")) {
         if (entry.path().extension() != ".rddl") continue;
         ++files;
-        const std::string text = read(entry.path());
+        const std::string text = read_file(entry.path());
         EXPECT_EQ(testing::unified_diff(text, formatted(text)), "")
             << "rddl fmt " << entry.path().string();
     }

@@ -1,9 +1,8 @@
 // Comments and line breaks in all places.
 #include "formatted.hpp"
+#include "support/files.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 
 namespace rddlc {
@@ -11,14 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // A file with all that the grammar has.
 std::string everything() {
-    return read(fs::path(RDDLC_GOLDEN_DIR) / "everything.in.rddl");
+    return read_file(fs::path(RDDLC_GOLDEN_DIR) / "everything.in.rddl");
 }
 
 // The words of a text with something between each two.
@@ -73,7 +67,7 @@ TEST(Meaning, OfExamplesAndCasesIsKept) {
         for (const auto& entry :
              fs::recursive_directory_iterator(fs::path(RDDLC_SOURCE_DIR) / folder)) {
             if (entry.path().extension() != ".rddl") continue;
-            const std::string text = read(entry.path());
+            const std::string text = read_file(entry.path());
             Sources sources;
             Diagnostics diagnostics;
             const FileId file = sources.add(entry.path().string(), text);

@@ -8,7 +8,7 @@
 namespace rddlc {
 namespace {
 
-const Problem problem{
+const Problem with_action{
     .pvariables =
         "R(obj) : { non-fluent, real, default = 1.0 };\n"
         "v(obj) : { state-fluent, real, default = 1.0 };\n"
@@ -27,7 +27,7 @@ const std::string policy =
     " m'(?o) = m(?o) + a(?o) + (sum_{?u : obj} v(?u)); }; }\n";
 
 ir::Program with_policy() {
-    Grounded result = ground_text(problem.text() + policy);
+    Grounded result = ground_text(with_action.text() + policy);
     if (!result.program) throw std::runtime_error(result.messages);
     for (const std::string& complaint : ir::verify(*result.program)) ADD_FAILURE() << complaint;
     return std::move(*result.program);
@@ -48,8 +48,8 @@ TEST(Policy, ComesBehindTheSimulatorAndDrawsAtSitesOfItsOwn) {
 }
 
 TEST(Policy, LeavesTheStepAsItIs) {
-    EXPECT_EQ(step_text(with_policy()), step_text(grounded(problem)));
-    EXPECT_EQ(step_text(optimise(with_policy())), step_text(optimise(grounded(problem))));
+    EXPECT_EQ(step_text(with_policy()), step_text(grounded(with_action)));
+    EXPECT_EQ(step_text(optimise(with_policy())), step_text(optimise(grounded(with_action))));
 }
 
 TEST(Policy, IsOptimisedLikeTheStep) {
@@ -69,8 +69,8 @@ TEST(Policy, IsStochasticByItself) {
     ASSERT_TRUE(coin.program) << coin.messages;
     EXPECT_FALSE(ir::is_stochastic(*coin.program));
     EXPECT_TRUE(ir::is_policy_stochastic(*coin.program));
-    EXPECT_FALSE(ir::is_policy_stochastic(grounded(problem)));
-    EXPECT_TRUE(ir::is_stochastic(grounded(problem)));
+    EXPECT_FALSE(ir::is_policy_stochastic(grounded(with_action)));
+    EXPECT_TRUE(ir::is_stochastic(grounded(with_action)));
 }
 
 TEST(Policy, MustFillItsRecords) {

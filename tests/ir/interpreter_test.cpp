@@ -17,12 +17,6 @@ namespace {
 
 static_assert(rddl::Engine<Interpreter>);
 
-struct State {
-    bool running[3];
-    double level;
-    std::int64_t count;
-};
-
 template <class Record>
 std::byte* bytes(Record& record) {
     return reinterpret_cast<std::byte*>(&record);
@@ -31,17 +25,17 @@ std::byte* bytes(Record& record) {
 class InterpreterTest : public testing::Test {
   protected:
     // The next state where `value` is stored to level, count or running.
-    State step_with(Definition definition) {
+    WorkbenchState step_with(Definition definition) {
         add_step(w);
         for (Definition& each : w.program.step) {
             if (each.target == definition.target) each = definition;
         }
         return step();
     }
-    State step() {
+    WorkbenchState step() {
         const Interpreter interpreter(w.program);
-        EXPECT_EQ(interpreter.state_size(), sizeof(State));
-        State state, next;
+        EXPECT_EQ(interpreter.state_size(), sizeof(WorkbenchState));
+        WorkbenchState state, next;
         interpreter.reset(bytes(state), context);
         std::array<bool, 3> action{};
         std::array<std::byte, 64> scratch;
@@ -59,7 +53,7 @@ class InterpreterTest : public testing::Test {
 
 TEST_F(InterpreterTest, StartsWithTheInitialState) {
     const Interpreter interpreter(w.program);
-    State state;
+    WorkbenchState state;
     interpreter.reset(bytes(state), context);
     EXPECT_TRUE(state.running[0] && state.running[1] && !state.running[2]);
     EXPECT_EQ(state.level, 2.0);
@@ -73,7 +67,7 @@ TEST_F(InterpreterTest, DrawsInitialValues) {
     w.program.reset = {w.assign(w.level, normal)};
     EXPECT_EQ(verify(w.program), std::vector<std::string>{});
     const Interpreter interpreter(w.program);
-    State state, again, other;
+    WorkbenchState state, again, other;
     interpreter.reset(bytes(state), context);
     interpreter.reset(bytes(again), context);
     EXPECT_EQ(state.level, again.level);
@@ -85,7 +79,7 @@ TEST_F(InterpreterTest, DrawsInitialValues) {
 
 TEST_F(InterpreterTest, ComputesAStep) {
     add_step(w);
-    const State next = step();
+    const WorkbenchState next = step();
     EXPECT_EQ(next.level, 3.0);
     EXPECT_EQ(next.count, 8);
     EXPECT_FALSE(next.running[2]);
@@ -95,7 +89,7 @@ TEST_F(InterpreterTest, ComputesAStep) {
 
 TEST_F(InterpreterTest, DrawsAsTheRuntimeDoes) {
     add_step(w);
-    const State next = step();
+    const WorkbenchState next = step();
     for (std::uint32_t c = 0; c < 2; ++c) {
         Context same{.key = context.key, .step = 1, .fault = {}};
         EXPECT_EQ(next.running[c], rddl::sample::bernoulli(same, {0, c}, 0.5));
@@ -105,7 +99,7 @@ TEST_F(InterpreterTest, DrawsAsTheRuntimeDoes) {
 TEST_F(InterpreterTest, ChecksConditions) {
     add_step(w);
     const Interpreter interpreter(w.program);
-    State state{{true, true, true}, 2.0, 8};
+    WorkbenchState state{{true, true, true}, 2.0, 8};
     std::array<bool, 3> action{};
     EXPECT_FALSE(interpreter.terminal(bytes(state), context));
     EXPECT_FALSE(interpreter.violates_invariant(bytes(state), context));
@@ -237,7 +231,7 @@ TEST_F(InterpreterTest, CallsExternalFunctions) {
     EXPECT_FALSE(accepts(third_of, w.program, other));
 
     const Interpreter interpreter(w.program, {third_of});
-    State state, next;
+    WorkbenchState state, next;
     interpreter.reset(bytes(state), context);
     std::array<bool, 3> action{};
     std::array<std::byte, 64> scratch;

@@ -9,27 +9,20 @@
 namespace rddlc::ir {
 namespace {
 
-// What the buffers of the workbench look like as a C struct.
-struct State {
-    bool running[3];
-    double level;
-    std::int64_t count;
-};
-
 TEST(Layout, FollowsTheRulesOfC) {
     const Workbench w;
     const RecordLayout layout = record_layout(w.program, Storage::State);
     ASSERT_EQ(layout.fields.size(), 3u);
-    EXPECT_EQ(layout.fields[0].offset, offsetof(State, running));
-    EXPECT_EQ(layout.fields[1].offset, offsetof(State, level));
-    EXPECT_EQ(layout.fields[2].offset, offsetof(State, count));
-    EXPECT_EQ(layout.size, sizeof(State));
+    EXPECT_EQ(layout.fields[0].offset, offsetof(WorkbenchState, running));
+    EXPECT_EQ(layout.fields[1].offset, offsetof(WorkbenchState, level));
+    EXPECT_EQ(layout.fields[2].offset, offsetof(WorkbenchState, count));
+    EXPECT_EQ(layout.size, sizeof(WorkbenchState));
 }
 
 TEST(Layout, EndsWithPadding) {
     Workbench w;
     w.add("last", Storage::State, Scalar::Bool, false, {true});
-    EXPECT_EQ(record_layout(w.program, Storage::State).size, sizeof(State) + 8);
+    EXPECT_EQ(record_layout(w.program, Storage::State).size, sizeof(WorkbenchState) + 8);
 }
 
 TEST(Layout, OfBoolsAloneNeedsNoAlignment) {

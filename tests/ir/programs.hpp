@@ -11,6 +11,13 @@
 
 namespace rddlc::ir {
 
+// What the state of the workbench looks like as a C struct.
+struct WorkbenchState {
+    bool running[3];
+    double level;
+    std::int64_t count;
+};
+
 // A program with one type of three objects, a variable over them, and a buffer of each kind.
 struct Workbench {
     Workbench() {

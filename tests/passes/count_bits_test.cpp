@@ -30,50 +30,51 @@ Problem with_bools(const std::string& cpf_of_x) {
             .init_state = "t = b1;"};
 }
 
-std::string counted(const std::string& cpf_of_x) {
+std::string counted_in_bits(const std::string& cpf_of_x) {
     return value_of_x(in_bits(grounded(with_bools(cpf_of_x))));
 }
 
-std::string table(const std::string& cpf_of_x, const std::string& name) {
-    const std::string text = ir::print(in_bits(grounded(with_bools(cpf_of_x))));
-    const std::size_t begin = text.find("    " + name);
-    return begin == text.npos ? "" : text.substr(begin + 4, text.find('\n', begin) - begin - 4);
+std::string table_in_bits(const std::string& cpf_of_x, const std::string& name) {
+    return table_text(in_bits(grounded(with_bools(cpf_of_x))), name);
 }
 
 TEST(CountBits, CountsAllElements) {
-    EXPECT_EQ(counted("sum_{?o : obj, ?u : obj} [s(?o, ?u)]"), "count_ones(bits(state.s, 0))");
-    EXPECT_EQ(counted("sum_{?o : obj, ?u : obj} [~s(?o, ?u)]"),
+    EXPECT_EQ(counted_in_bits("sum_{?o : obj, ?u : obj} [s(?o, ?u)]"),
+              "count_ones(bits(state.s, 0))");
+    EXPECT_EQ(counted_in_bits("sum_{?o : obj, ?u : obj} [~s(?o, ?u)]"),
               "count_ones(bit_and(bit_xor(bits(state.s, 0), -1), 511))");
 }
 
 TEST(CountBits, CountsThoseOfARow) {
     const std::string cpf = "max_{?v : obj} [sum_{?o : obj} [LINK(?v, ?o) ^ p(?o) ^ q(?o)]]";
-    EXPECT_EQ(counted(cpf),
+    EXPECT_EQ(counted_in_bits(cpf),
               "max[v in obj](count_ones(bit_and(bit_and(bits(state.p, 0), bits(state.q, 0)), "
               "LINK-bits[v])))");
-    EXPECT_EQ(table(cpf, "LINK-bits"), "LINK-bits[obj]: int = {2 4 3}");
+    EXPECT_EQ(table_in_bits(cpf, "LINK-bits"), "LINK-bits[obj]: int = {2 4 3}");
 }
 
 TEST(CountBits, TestsElements) {
-    EXPECT_EQ(counted("exists_{?o : obj} [p(?o) ^ ~q(?o) | HEAVY(?o)]"),
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj} [p(?o) ^ ~q(?o) | HEAVY(?o)]"),
               "int(bit_or(bit_and(bits(state.p, 0), bit_xor(bits(state.q, 0), -1)), 2) != 0)");
-    EXPECT_EQ(counted("forall_{?o : obj} [p(?o) => q(?o)]"),
+    EXPECT_EQ(counted_in_bits("forall_{?o : obj} [p(?o) => q(?o)]"),
               "int(bit_and(bits(state.p, 0), bit_xor(bits(state.q, 0), -1)) == 0)");
-    EXPECT_EQ(counted("exists_{?o : obj} [~(p(?o) | q(?o))]"),
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj} [~(p(?o) | q(?o))]"),
               "int(bit_and(bit_and(bit_xor(bits(state.p, 0), -1), bit_xor(bits(state.q, 0), -1)), "
               "7) != 0)");
-    EXPECT_EQ(counted("exists_{?o : obj} [p(?o) <=> q(?o)]"),
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj} [p(?o) <=> q(?o)]"),
               "int(bit_and(bit_xor(bits(state.p, 0), bit_xor(bits(state.q, 0), -1)), 7) != 0)");
-    EXPECT_EQ(counted("forall_{?o : obj} [p(?o) <=> q(?o)]"),
+    EXPECT_EQ(counted_in_bits("forall_{?o : obj} [p(?o) <=> q(?o)]"),
               "int(bit_xor(bits(state.p, 0), bits(state.q, 0)) == 0)");
 }
 
 TEST(CountBits, TakesSeveralWords) {
-    EXPECT_EQ(counted("sum_{?o : obj, ?u : obj, ?v : obj, ?w : obj} [many(?o, ?u, ?v, ?w)]"),
-              "count_ones(bits(state.many, 0)) + count_ones(bits(state.many, 64))");
-    EXPECT_EQ(counted("exists_{?o : obj, ?u : obj, ?v : obj, ?w : obj} [~many(?o, ?u, ?v, ?w)]"),
-              "int(bit_or(bit_xor(bits(state.many, 0), -1), "
-              "bit_and(bit_xor(bits(state.many, 64), -1), 131071)) != 0)");
+    EXPECT_EQ(
+        counted_in_bits("sum_{?o : obj, ?u : obj, ?v : obj, ?w : obj} [many(?o, ?u, ?v, ?w)]"),
+        "count_ones(bits(state.many, 0)) + count_ones(bits(state.many, 64))");
+    EXPECT_EQ(
+        counted_in_bits("exists_{?o : obj, ?u : obj, ?v : obj, ?w : obj} [~many(?o, ?u, ?v, ?w)]"),
+        "int(bit_or(bit_xor(bits(state.many, 0), -1), "
+        "bit_and(bit_xor(bits(state.many, 64), -1), 131071)) != 0)");
 }
 
 // What is not the same element of all tables, not known before or not of bools, or counted twice.
@@ -83,22 +84,23 @@ TEST(CountBits, LeavesOtherAggregations) {
           "sum_{?o : obj, ?u : obj} [s(?u, ?o) ^ s(?o, ?u)]", "sum_{?o : obj} [s(t, ?o)]",
           "sum_{?o : obj} [x * p(?o)]", "sum_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ p(?u)]",
           "max_{?o : obj} [p(?o)]"}) {
-        const std::string text = counted(cpf);
+        const std::string text = counted_in_bits(cpf);
         EXPECT_EQ(text.find("bits("), text.npos) << text;
     }
 }
 
 // A bit stands for all entries that look at its place. Else each row is tested by itself.
 TEST(CountBits, NeedsOneKnownValueForEachPlace) {
-    EXPECT_EQ(counted("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ (HEAVY(?u) ~= p(?u))]"),
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ (HEAVY(?u) ~= p(?u))]"),
               "int(bit_xor(2, bits(state.p, 0)) != 0)");
-    EXPECT_EQ(counted("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ~= p(?u)]"),
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ~= p(?u)]"),
               "int(exists[o in obj](bit_xor(p-bits[o], bits(state.p, 0)) != 0))");
-    EXPECT_EQ(counted("forall_{?o : obj, ?u : obj} [LINK(?o, ?u) | (p(?u) ^ ~LINK(?u, ?o))]"),
-              "int(forall[o in obj](bit_and(p-bits[o], "
-              "bit_or(bit_xor(bits(state.p, 0), -1), p-bits-2[o])) == 0))");
-    EXPECT_EQ(counted("exists_{?o : obj, ?u : obj} [(LINK(?o, ?u) | HEAVY(?o)) ^ p(?u) ^ "
-                      "(LINK(?u, ?o) | HEAVY(?u))]"),
+    EXPECT_EQ(
+        counted_in_bits("forall_{?o : obj, ?u : obj} [LINK(?o, ?u) | (p(?u) ^ ~LINK(?u, ?o))]"),
+        "int(forall[o in obj](bit_and(p-bits[o], "
+        "bit_or(bit_xor(bits(state.p, 0), -1), p-bits-2[o])) == 0))");
+    EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [(LINK(?o, ?u) | HEAVY(?o)) ^ p(?u) ^ "
+                              "(LINK(?u, ?o) | HEAVY(?u))]"),
               "int(exists[o in obj](bit_and(bit_and(p-bits[o], bits(state.p, 0)), p-bits-2[o]) "
               "!= 0))");
 }

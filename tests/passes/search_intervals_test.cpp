@@ -37,13 +37,6 @@ Searched searched(const std::string& cpf_of_x, RealType real = RealType::Double)
     return result;
 }
 
-std::string table(const ir::Program& program, const std::string& name) {
-    const std::string text = ir::print(program);
-    const std::size_t begin = text.find("    " + name + "[");
-    if (begin == std::string::npos) return "";
-    return text.substr(begin + 4, text.find('\n', begin) - begin - 4);
-}
-
 constexpr const char* slope = "sum_{?s : obj} [SLOPE(?s) * (x >= LEFT(?s) ^ x < RIGHT(?s))]";
 
 TEST(SearchIntervals, LooksUpWhatIsConstantInEach) {
@@ -51,8 +44,8 @@ TEST(SearchIntervals, LooksUpWhatIsConstantInEach) {
     EXPECT_EQ(value_of_x(x.before),
               "sum[s in obj](SLOPE[s] * real(state.x >= LEFT[s] && state.x < RIGHT[s]))");
     EXPECT_EQ(value_of_x(x.after), "x-values[search(x-breaks, state.x)]");
-    EXPECT_EQ(table(x.after, "x-breaks"), "x-breaks[5]: real = {-1.0 0.0 1.0 2.0 3.0}");
-    EXPECT_EQ(table(x.after, "x-values"), "x-values[6]: real = {0.0 0.5 -1.5 0.0 4.0 0.0}");
+    EXPECT_EQ(table_text(x.after, "x-breaks"), "x-breaks[5]: real = {-1.0 0.0 1.0 2.0 3.0}");
+    EXPECT_EQ(table_text(x.after, "x-values"), "x-values[6]: real = {0.0 0.5 -1.5 0.0 4.0 0.0}");
     EXPECT_EQ(x.report.at("aggregations made a search"), 1);
 }
 
@@ -93,7 +86,7 @@ TEST(SearchIntervals, FindsTheIntervalsOfFloats) {
         searched("sum_{?s : obj} [SLOPE(?s) * (x >= LEFT(?s) + 1.1 ^ x <= RIGHT(?s) + 1.0)]",
                  RealType::Float);
     EXPECT_EQ(value_of_x(x.after), "x-values[search(x-breaks, state.x)]");
-    EXPECT_EQ(table(x.after, "x-breaks"),
+    EXPECT_EQ(table_text(x.after, "x-breaks"),
               "x-breaks[6]: real = {0.10000000149011612 1.0000001192092896 1.100000023841858 "
               "2.000000238418579 3.0999999046325684 4.000000476837158}");
 }
@@ -111,13 +104,13 @@ TEST(SearchIntervals, TakesTheObjectOfTheInterval) {
     EXPECT_EQ(value_of_x(x.after),
               "select(x-is-there[search(x-breaks, state.x)], "
               "state.v[x-object[search(x-breaks, state.x)]] + state.x, 0.0)");
-    EXPECT_EQ(table(x.after, "x-object"), "x-object[6]: int = {0 0 1 0 2 0}");
+    EXPECT_EQ(table_text(x.after, "x-object"), "x-object[6]: int = {0 0 1 0 2 0}");
 }
 
 TEST(SearchIntervals, WorksForInts) {
     const Searched x = searched("sum_{?s : obj} [SLOPE(?s) * (n > LEVEL(?s) ^ n ~= 6)]");
     EXPECT_EQ(value_of_x(x.after), "n-values[search(n-breaks, state.n)]");
-    EXPECT_EQ(table(x.after, "n-breaks"), "n-breaks[4]: int = {2 6 7 8}");
+    EXPECT_EQ(table_text(x.after, "n-breaks"), "n-breaks[4]: int = {2 6 7 8}");
 }
 
 TEST(SearchIntervals, LeavesOverlappingIntervalsOfWhatIsNotConstant) {

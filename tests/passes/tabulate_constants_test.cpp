@@ -6,20 +6,13 @@
 namespace rddlc {
 namespace {
 
-std::string table(const ir::Program& program, const std::string& name) {
-    const std::string text = ir::print(program);
-    const std::size_t begin = text.find("    " + name + "[");
-    if (begin == std::string::npos) return "";
-    return text.substr(begin + 4, text.find('\n', begin) - begin - 4);
-}
-
 TEST(TabulateConstants, ComputesWhatTablesAndVariablesDecide) {
     ir::Program program = grounded(with_tables("sum_{?o : obj} [(W(?o) - SAME(?o)) / 2 * v(?o)]"));
     EXPECT_EQ(value_of_x(program), "sum[o in obj]((W[o] - SAME[o]) / 2.0 * state.v[o])");
     passes::Report report;
     program = valid(passes::tabulate_constants(std::move(program), report));
     EXPECT_EQ(value_of_x(program), "sum[o in obj](x-table[o] * state.v[o])");
-    EXPECT_EQ(table(program, "x-table"), "x-table[obj]: real = {-0.25 1.25 -0.25}");
+    EXPECT_EQ(table_text(program, "x-table"), "x-table[obj]: real = {-0.25 1.25 -0.25}");
     EXPECT_EQ(report["tables computed"], 1);
 }
 
@@ -29,7 +22,7 @@ TEST(TabulateConstants, ComputesAggregationsOverTables) {
     passes::Report report;
     program = valid(passes::tabulate_constants(std::move(program), report));
     EXPECT_EQ(value_of_x(program), "sum[o in obj](state.v[o] * x-table[o])");
-    EXPECT_EQ(table(program, "x-table"), "x-table[obj]: real = {1.0 0.0 1.0}");
+    EXPECT_EQ(table_text(program, "x-table"), "x-table[obj]: real = {1.0 0.0 1.0}");
 }
 
 TEST(TabulateConstants, HasADimensionForEachVariable) {
@@ -72,8 +65,8 @@ TEST(TabulateConstantFluents, MakesTablesOfThem) {
     program = valid(passes::tabulate_constant_fluents(std::move(program), report));
     EXPECT_EQ(value_of_x(program),
               "sum[o in obj](state.v[o] * real(heavy[o] && near[o, o]) + 2.0)");
-    EXPECT_EQ(table(program, "heavy"), "heavy[obj]: bool = {false true false}");
-    EXPECT_EQ(table(program, "near"),
+    EXPECT_EQ(table_text(program, "heavy"), "heavy[obj]: bool = {false true false}");
+    EXPECT_EQ(table_text(program, "near"),
               "near[obj, obj]: bool = {false false false false true false false false false}");
     EXPECT_EQ(report["interm-fluents made constant"], 3);
 }

@@ -20,6 +20,13 @@ inline std::string names(const ir::Program& program, ir::Storage storage) {
     return text;
 }
 
+// The line of a table whose name, as it is printed, begins with this; empty if there is none.
+inline std::string table_text(const ir::Program& program, const std::string& name) {
+    const std::string text = ir::print(program);
+    const std::size_t begin = text.find("    " + name);
+    return begin == text.npos ? "" : text.substr(begin + 4, text.find('\n', begin) - begin - 4);
+}
+
 inline ir::Program valid(ir::Program program) {
     for (const std::string& complaint : ir::verify(program)) ADD_FAILURE() << complaint;
     return program;

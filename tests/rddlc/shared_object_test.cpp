@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 const fs::path network = fs::path(RDDLC_SOURCE_FOLDER) / "generated" / "network.cpp";
 
-class SharedObject : public testing::Test {
+class SharedObject : public ::testing::Test {
   protected:
     void SetUp() override {
         std::string pattern = (fs::temp_directory_path() / "rddlc-object-XXXXXX").string();

@@ -1,6 +1,7 @@
 // The promise: an environment's trajectory is bit for bit the same whatever the batch around it,
-// its place in it, the number of threads, and how many environments are stepped together.
-#include "tiny_batch.hpp"
+// its place in it and the number of threads. lanes_test.cpp goes on with how many are stepped
+// together.
+#include "trajectories.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,53 +13,6 @@
 
 namespace tiny {
 namespace {
-
-constexpr std::int64_t all_environments = 1000;
-constexpr int step_count = 120;  // more than two horizons
-
-// Everything that a step tells of one environment.
-struct Told {
-    unsigned char observation[sizeof(StateRecord)];
-    unsigned char final_observation[sizeof(StateRecord)];
-    unsigned char reward[sizeof(double)];
-    std::uint8_t terminated, truncated, causes;
-
-    bool operator==(const Told&) const = default;
-};
-using Trajectory = std::vector<Told>;
-
-Told told_of(const TinyBatch& batch, std::size_t i) {
-    Told told{};
-    std::memcpy(told.observation, &batch.observations[i], sizeof(StateRecord));
-    if (batch.causes[i] != RDDL_RUNNING)
-        std::memcpy(told.final_observation, &batch.finals[i], sizeof(StateRecord));
-    std::memcpy(told.reward, &batch.rewards[i], sizeof(double));
-    told.terminated = batch.terminated[i];
-    told.truncated = batch.truncated[i];
-    told.causes = batch.causes[i];
-    return told;
-}
-
-// One trajectory for each environment from `first` on.
-std::vector<Trajectory> trajectories(std::int64_t first, std::int64_t count, int threads,
-                                     const rddl_simulator* functions = simulator(), int lanes = 0) {
-    TinyBatch batch(batch_options(count, first, 42, threads, RDDL_AUTORESET_SAME_STEP, 0, lanes),
-                    functions);
-    std::vector<Trajectory> result(batch.size());
-    for (int time = 0; time < step_count; ++time) {
-        for (std::size_t i = 0; i < batch.size(); ++i)
-            batch.actions[i] = action_of(first + static_cast<std::int64_t>(i), time);
-        batch.step();
-        for (std::size_t i = 0; i < batch.size(); ++i) result[i].push_back(told_of(batch, i));
-    }
-    return result;
-}
-
-const std::vector<Trajectory>& reference() {
-    static const std::vector<Trajectory> alone =
-        trajectories(0, all_environments, 1, simulator(), 1);
-    return alone;
-}
 
 TEST(Trajectories, CoverEveryCauseOfAnEnd) {
     int causes = 0;
@@ -85,53 +39,6 @@ TEST(Trajectories, DoNotDependOnTheThreads) {
         EXPECT_EQ(trajectories(0, all_environments, threads), reference()) << threads;
     EXPECT_EQ(trajectories(0, 5, 4),
               std::vector<Trajectory>(reference().begin(), reference().begin() + 5));
-}
-
-template <int lanes, class Real = double>
-const rddl_simulator* simulator_with_lanes() {
-    using Engine = rddl::Compiled<Simulator, problem, rddl::ScalarOf<Real>>;
-    static const rddl::SimulatorTable<Engine, rddl::Packed<Simulator, problem, lanes, Real>> table(
-        {problem, sites, {}}, {});
-    return table.get();
-}
-
-TEST(Trajectories, DoNotDependOnTheLanes) {
-    for (const rddl_simulator* const functions :
-         {simulator_with_lanes<8>(), simulator_with_lanes<16>(), simulator_with_lanes<32>(),
-          simulator_with_lanes<64>()}) {
-        EXPECT_EQ(trajectories(0, all_environments, 1, functions, functions->lane_count),
-                  reference())
-            << functions->lane_count << " lanes, " << functions->instruction_set;
-        const auto few = trajectories(3, 5, 1, functions, functions->lane_count);
-        EXPECT_EQ(few, std::vector<Trajectory>(reference().begin() + 3, reference().begin() + 8));
-    }
-}
-
-TEST(Trajectories, OfFloatsDoNotDependOnTheLanes) {
-    const rddl_simulator* const sixteen = simulator_with_lanes<16, float>();
-    const auto alone = trajectories(0, all_environments, 1, sixteen, 1);
-    for (const rddl_simulator* const functions :
-         {sixteen, simulator_with_lanes<32, float>(), simulator_with_lanes<64, float>()})
-        for (const int threads : {1, 3})
-            EXPECT_EQ(trajectories(0, all_environments, threads, functions, functions->lane_count),
-                      alone)
-                << functions->lane_count << " lanes, " << functions->instruction_set;
-}
-
-TEST(Trajectories, OfFloatsAreNearThoseOfDoubles) {
-    const rddl_simulator* const floats = simulator_with_lanes<16, float>();
-    TinyBatch near(batch_options(all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED), floats);
-    TinyBatch exact(batch_options(all_environments, 0, 42, 1, RDDL_AUTORESET_DISABLED));
-    for (int time = 0; time < 5; ++time) {
-        for (std::size_t i = 0; i < exact.size(); ++i)
-            near.actions[i] = exact.actions[i] = action_of(static_cast<std::int64_t>(i), time);
-        near.step();
-        exact.step();
-        for (std::size_t i = 0; i < exact.size(); ++i)
-            for (std::size_t m = 0; m < machines; ++m)
-                ASSERT_NEAR(near.observations[i].wear[m], exact.observations[i].wear[m], 2e-3)
-                    << "environment " << i << ", time " << time;
-    }
 }
 
 // The values of a record as a row of a matrix.

@@ -2,6 +2,8 @@
 #include "tiny_batch.hpp"
 #include "tiny_policy.hpp"
 
+#include <rddl/policy.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cstring>

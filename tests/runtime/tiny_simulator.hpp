@@ -267,11 +267,7 @@ inline constexpr rddl_problem problem{.struct_size = sizeof(rddl_problem),
                                       .terminations = terminations,
                                       .termination_count = 1};
 
-inline const rddl_simulator* simulator() {
-    static const rddl::SimulatorTable<rddl::Compiled<Simulator, problem>,
-                                      rddl::Packed<Simulator, problem, 16>>
-        table({problem, sites, {}}, {});
-    return table.get();
-}
+// Made once, in tiny_simulator.cpp: single environments, and packs of 16.
+const rddl_simulator* simulator();
 
 }  // namespace tiny
