@@ -51,7 +51,7 @@ bool Finiteness::find_non_finite(const std::vector<model::Cpf>& cpfs) {
 bool Finiteness::is_finite(const model::Expr& expr) const {
     if (expr.type != model::real_type) return true;
     return match(
-        expr.node, [](const model::Constant& form) { return std::isfinite(as_real(form.value)); },
+        expr.node, [](const model::Constant& form) { return rddlc::is_finite(form.value); },
         [&](const model::Reference& form) -> bool { return fluent_is_finite_[form.fluent]; },
         [&](const model::Apply& form) { return is_finite(form); },
         [&](const model::Aggregate& form) { return is_finite(form); },
@@ -60,12 +60,11 @@ bool Finiteness::is_finite(const model::Expr& expr) const {
             return all_finite(expr) &&
                    ir::draws_finite(form.distribution, ranges_of(form.parameters));
         },
-        [&](const model::RandomVector& form) {
-            // Student's tails are as heavy as its degrees of freedom are few.
-            if (form.distribution == VectorDistribution::MultivariateStudent) return false;
-            return std::ranges::all_of(form.arguments, [&](const model::VectorReference& argument) {
-                return fluent_is_finite_[argument.fluent];
-            });
+        // Quotients by anything: by what is left of elements by rounding.
+        [](const model::MatrixFunction&) { return false; },
+        // Parts of 1. The others need a Cholesky factor, with such quotients.
+        [](const model::RandomVector& form) {
+            return form.distribution == VectorDistribution::Dirichlet;
         },
         [&](const auto&) { return all_finite(expr); });
 }

@@ -81,7 +81,7 @@ class Collector {
 
     void describe(Scalar, const Constant& constant) {
         facts_.range = range_of(Table{constant.value});
-        facts_.finite = std::isfinite(as_real(constant.value));
+        facts_.finite = is_finite(constant.value);
     }
 
     void describe(Scalar, const Index& index) {

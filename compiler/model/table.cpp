@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace rddlc {
 namespace {
@@ -46,7 +47,7 @@ double as_real(const Value& value) {
 }
 
 bool is_finite(const Value& value) {
-    return std::isfinite(as_real(value));
+    return std::abs(as_real(value)) <= std::numeric_limits<float>::max();
 }
 
 bool identical(const Value& a, const Value& b) {

@@ -30,6 +30,9 @@ TEST(Product, KnowsDrawsAndQuotientsBeyondAllReals) {
     EXPECT_EQ(lowered("x * (x / 0." + std::string(40, '0') + "1)"),
               "select(state.x == 0.0, state.x, state.x * (state.x / 1e-41))");
     EXPECT_EQ(lowered("x * sqrt[2.0]"), "state.x * 1.4142135623730951");
+    // A float is infinite there.
+    EXPECT_EQ(lowered("x * (f + 1" + std::string(39, '0') + ".0)"),
+              "select(state.x == 0.0, state.x, state.x * (action.f + 1e+39))");
 }
 
 TEST(Product, DoesNotEvaluateAFallibleFactorAtZero) {
@@ -47,6 +50,27 @@ TEST(Product, TakesAFluentThatMayBecomeInfiniteSeriously) {
     EXPECT_NE(step_text(program).find(
                   "next.y = select(state.y == 0.0, state.y, scratch.ratio * state.y)"),
               std::string::npos);
+}
+
+TEST(Product, KnowsInversesAndRandomVectorsBeyondAllReals) {
+    const auto product_with = [](const std::string& cpf_of_v) {
+        const ir::Program program =
+            grounded({.pvariables = "M(obj, obj) : { non-fluent, real, default = 1.0 };\n"
+                                    "m(obj) : { non-fluent, real, default = 1.0 };\n"
+                                    "x : { state-fluent, real, default = 2.0 };\n"
+                                    "v(obj, obj) : { interm-fluent, real };\n"
+                                    "w(obj) : { interm-fluent, real };",
+                      .cpfs = "v(?o, ?u) = inverse[row = ?o, col = ?u] [M(?o, ?u)];\n"
+                              "w(?o) = " +
+                              cpf_of_v +
+                              ";\n"
+                              "x' = x * (w(@b1) + 0.5);"});
+        return value_of_x(program);
+    };
+    const std::string tested = "select(state.x == 0.0, state.x, state.x * (scratch.w[0] + 0.5))";
+    EXPECT_EQ(product_with("v(?o, ?o)"), tested);
+    EXPECT_EQ(product_with("MultivariateNormal[?o](m(_), M(_, _))"), tested);
+    EXPECT_EQ(product_with("Dirichlet[?o](m(_))"), "state.x * (scratch.w[0] + 0.5)");
 }
 
 TEST(Product, OfManyFactorsStaysSmall) {

@@ -75,14 +75,22 @@ TEST(Beta, FitsItsLaw) {
         });
 }
 
+// Of 1e-316, the logarithms of both gamma draws are infinite.
 TEST(Beta, OfTinyShapesIsACoin) {
-    int ones = 0;
-    for (const double x : draws_of(
-             [](auto&context, Place place) { return sample::beta(context, place, 1e-5, 3e-5); })) {
-        EXPECT_TRUE(x >= 0 && x <= 1) << x;
-        ones += x > 0.5;
+    for (const double shape : {1e-5, 1e-300, 1e-316}) {
+        int ones = 0;
+        for (const double x : draws_of([&](auto&context, Place place) {
+                 return sample::beta(context, place, shape, 3 * shape);
+             })) {
+            ASSERT_TRUE(x >= 0 && x <= 1) << x;
+            ones += x > 0.5;
+        }
+        EXPECT_NEAR(ones, 0.25 * fit::draw_count, 5 * std::sqrt(fit::draw_count * 0.25 * 0.75))
+            << shape;
     }
-    EXPECT_NEAR(ones, 0.25 * fit::draw_count, 5 * std::sqrt(fit::draw_count * 0.25 * 0.75));
+    Context<Scalar> context;
+    EXPECT_EQ(sample::beta(context, {}, 1e-316, 1.0), 0.0);
+    EXPECT_EQ(sample::beta(context, {}, 1.0, 1e-316), 1.0);
 }
 
 TEST(Student, FitsItsLaw) {

@@ -127,6 +127,25 @@ TEST(Dirichlet, OfTinyWeightsIsNearlyOneElement) {
     EXPECT_FALSE(context.fault);
 }
 
+// The logarithms of all gamma draws are infinite.
+TEST(Dirichlet, OfWeightsNearTheLeastDoubleIsOneElement) {
+    const Vector weights{1e-316, 2e-316, 5e-316};
+    Vector wins{};
+    for (const Vector& draw : fit::draws_of([&](auto&context, Place at) {
+             Vector drawn;
+             sample::dirichlet(context, at, 3, weights, drawn);
+             return drawn;
+         })) {
+        ASSERT_EQ(draw[0] + draw[1] + draw[2], 1);
+        for (std::size_t i = 0; i < 3; ++i) wins[i] += draw[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double share = weights[i] / 8e-316;
+        EXPECT_NEAR(wins[i], share * fit::draw_count,
+                    5 * std::sqrt(fit::draw_count * share * (1 - share)));
+    }
+}
+
 TEST(Multinomial, FitsItsLaw) {
     const std::array<double, 4> probabilities{0.1, 0.5, 0.15, 0.25};
     for (const std::int64_t trials : {std::int64_t{1}, std::int64_t{20}, std::int64_t{1000}}) {
@@ -160,6 +179,25 @@ TEST(Multinomial, NeverCountsWhatIsImpossible) {
         ASSERT_EQ(draw[1], 0);
         ASSERT_EQ(draw[3], 0);
         ASSERT_EQ(draw[0] + draw[2], 50);
+    }
+}
+
+// What is left of the sum of probabilities is 0 before the last one that is not.
+TEST(Multinomial, GivesToTheCertainWhereTheSumRounds) {
+    Context<Scalar> context;
+    Counts counts;
+    sample::multinomial(context, place, 4, 5, std::array<double, 4>{1, 0, 0, 1e-17}, counts);
+    EXPECT_EQ(counts, (Counts{5, 0, 0, 0}));
+    sample::multinomial(context, place, 4, 5, std::array<double, 4>{1e-17, 0, 1, 1e-17}, counts);
+    EXPECT_EQ(counts, (Counts{0, 0, 5, 0}));
+    for (const Counts& draw : fit::draws_of([](auto&other, Place at) {
+             Counts drawn;
+             const std::array<double, 4> probabilities{0.5, 0.5, 0, 1e-17};
+             sample::multinomial(other, at, 4, 50, probabilities, drawn);
+             return drawn;
+         })) {
+        ASSERT_EQ(draw[0] + draw[1], 50);
+        ASSERT_TRUE(draw[0] >= 0 && draw[1] >= 0 && draw[2] == 0 && draw[3] == 0);
     }
 }
 

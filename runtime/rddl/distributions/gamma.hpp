@@ -49,6 +49,14 @@ inline double standard_gamma(Draws& draws, double shape) {
     return boost * detail::standard_gamma_from_one(draws, shape + 1.0);
 }
 
+// Both gamma draws of a quotient underflow so far below every double that their logarithms are
+// infinite, too, where both shapes are below 1e-306. But of shapes below 1e-200, one draw is
+// greater than the others by a factor beyond all doubles, and which one depends on the ratios of
+// the shapes alone: all are multiplied by this.
+inline double raised_shapes(double greatest) {
+    return greatest < 1e-300 ? 0x1p+200 : 1.0;
+}
+
 // Standard t: a normal over the root of a chi-square divided by its degrees of freedom.
 inline double standard_student(Draws& draws, double degrees) {
     const double normal = normal_quantile(draws.open_uniform());
@@ -86,8 +94,9 @@ typename L::Real beta(Context<L>& context, Place place, typename L::Real a, type
     const auto a_is_valid = context.require(a > 0.0, FaultKind::Shape, place, a);
     const auto b_is_valid = context.require(b > 0.0, FaultKind::Shape, place, b);
     const auto kernel = [](Draws& draws, double shape_x, double shape_y) {
-        const double ln_x = ln_standard_gamma(draws, shape_x);
-        const double ln_y = ln_standard_gamma(draws, shape_y);
+        const double factor = raised_shapes(maximum(shape_x, shape_y));
+        const double ln_x = ln_standard_gamma(draws, factor * shape_x);
+        const double ln_y = ln_standard_gamma(draws, factor * shape_y);
         return 1.0 / (1.0 + exp(ln_y - ln_x));
     };
     return draw_in_each_lane(context, place, a_is_valid && b_is_valid, kernel, a, b);

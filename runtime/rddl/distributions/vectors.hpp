@@ -69,14 +69,18 @@ void multivariate_student(Context<L>& context, Place place, Index n, typename L:
 template <class L, class Weights, class Draw>
 void dirichlet(Context<L>& context, Place place, Index n, const Weights& weights, Draw& draw) {
     bool valid = true;
-    for (Index i = 0; i < n; ++i)
+    double greatest_weight = 0.0;
+    for (Index i = 0; i < n; ++i) {
         valid = context.require(weights[i] > 0.0, FaultKind::PositiveWeight, place, weights[i]) &&
                 valid;
+        greatest_weight = maximum(greatest_weight, double(weights[i]));
+    }
     if (!valid) return detail::fill_vector(n, draw);
     Draws draws(context, place);
+    const double factor = raised_shapes(greatest_weight);
     double greatest = -std::numeric_limits<double>::infinity();
     for (Index i = 0; i < n; ++i) {
-        draw[i] = ln_standard_gamma(draws, weights[i]);
+        draw[i] = ln_standard_gamma(draws, factor * weights[i]);
         greatest = maximum(greatest, draw[i]);
     }
     double total = 0.0;
@@ -88,7 +92,8 @@ void dirichlet(Context<L>& context, Place place, Index n, const Weights& weights
 }
 
 // Each count is binomial given those before it. The last category of positive probability gets what
-// is left, so that no other one does by rounding.
+// is left, so that no other one does by rounding. Before it, what is left of the sum of
+// probabilities may round to less than a probability is.
 template <class L, class Probabilities, class Draw>
 void multinomial(Context<L>& context, Place place, Index n, typename L::Int trials,
                  const Probabilities& probabilities, Draw& draw) {
@@ -109,10 +114,11 @@ void multinomial(Context<L>& context, Place place, Index n, typename L::Int tria
     Draws draws(context, place);
     std::int64_t left = trials;
     for (Index i = 0; i < last; ++i) {
-        const double p = minimum(1.0, maximum(0.0, probabilities[i] / total));
-        draw[i] = standard_binomial(draws, left, p);
+        const double p = probabilities[i];
+        if (p == 0.0) continue;
+        draw[i] = standard_binomial(draws, left, p < total ? p / total : 1.0);
         left = left - draw[i];
-        total = total - probabilities[i];
+        total = total - p;
     }
     draw[last] = left;
 }
