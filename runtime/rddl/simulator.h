@@ -11,7 +11,9 @@
  * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
  * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
  * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
- * does not exist are refused with RDDL_BAD_ARGUMENT.
+ * does not exist are refused with RDDL_BAD_ARGUMENT. Reals of actions are to be finite, and so are those
+ * of state-fluents that no step from an initial state makes inf or nan: what a step gives else is not
+ * defined, and not checked.
  *
  * Sizes. Structs grow at their ends only, and each tells its size. The caller sets
  * struct_size of every struct that it passes, also of those that a call fills, to the sizeof; 0

@@ -406,7 +406,8 @@ TEST_F(Verify, ReadsRecordedStates) {
     const auto path = file("states.jsonl",
                            "{\"rddl_trace\":1}\n\n{\"state\":{\"turns\":5},\"reward\":1.0}\n"
                            "{\"state\":{\"wet\":true},\"action\":{\"pump___t2\":true}}\n");
-    const auto states = read_states(path, problem.description(), initial);
+    FiniteValues finite(problem.files, problem.load);
+    const auto states = read_states(path, problem.description(), initial, finite);
     ASSERT_EQ(states.size(), 2u);
     EXPECT_FALSE(states[0].action);
     ASSERT_TRUE(states[1].action);
@@ -420,7 +421,36 @@ TEST_F(Verify, ReadsRecordedStates) {
           {"{\"state\":{\"turn\":1}}", "no state-fluent is called 'turn'"},
           {"", "there is no state in"}}) {
         try {
-            read_states(file("bad.jsonl", line), problem.description(), initial);
+            read_states(file("bad.jsonl", line), problem.description(), initial, finite);
+            ADD_FAILURE() << line;
+        } catch (const Failure& failure) {
+            expect_part(failure.what(), why);
+        }
+    }
+}
+
+// No pass may be blamed for what it took from a proof about states that steps reach.
+TEST_F(Verify, RefusesStatesThatNoStepMakes) {
+    const VerifiedProblem problem = load(
+        "domain d { pvariables {\n"
+        " level : { state-fluent, real, default = 1.0 };\n"
+        " ratio : { state-fluent, real, default = 1.0 };\n"
+        " push : { action-fluent, real, default = 0.0 }; };\n"
+        " cpfs { level' = 0.5 * level + push; ratio' = 1.0 / level; };\n"
+        " reward = level; }\n"
+        "instance i { domain = d; max-nondef-actions = 1; horizon = 5; discount = 1.0; }\n");
+    FiniteValues finite(problem.files, problem.load);
+    const Record initial(static_cast<std::size_t>(problem.description().state_size));
+    const auto read = [&](const char* line) {
+        return read_states(file("states.jsonl", line), problem.description(), initial, finite);
+    };
+    EXPECT_EQ(read(R"({"state": {"ratio": "inf", "level": 2.0}, "action": {"push": 1}})").size(),
+              1u);
+    for (const auto& [line, why] :
+         {std::pair{R"({"state": {"level": "nan"}})", "'level' is \"nan\", but"},
+          {R"({"state": {}, "action": {"push": "-inf"}})", "'push' is \"-inf\", but"}}) {
+        try {
+            read(line);
             ADD_FAILURE() << line;
         } catch (const Failure& failure) {
             expect_part(failure.what(), why);

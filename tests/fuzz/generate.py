@@ -18,7 +18,8 @@ library), the value is marked unsure, and nothing that jumps (comparisons, floor
 to it.
 
 What is drawn from stands beside this: tables.py (sizes and values), expressions.py,
-distributions.py, shapes.py (what passes look for), assumptions.py (what they take for granted).
+distributions.py, shapes.py (what passes look for), assumptions.py (what they take for granted),
+matrices.py.
 """
 
 import argparse
@@ -30,6 +31,7 @@ from dataclasses import dataclass
 from assumptions import Assumptions
 from distributions import Distributions
 from expressions import Expressions
+from matrices import Matrices
 from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem, Type, work_of
 from shapes import Shapes
 from tables import Tables
@@ -55,7 +57,7 @@ FLAVOURS = {
 }
 
 
-class Generator(Tables, Expressions, Distributions, Shapes, Assumptions):
+class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Matrices):
     def __init__(self, seed: int, flavour: str):
         self.rng = random.Random(f"{seed} {flavour}")
         self.flavour = FLAVOURS[flavour]
@@ -154,7 +156,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions):
             "derived-fluent": self.rng.randint(0, 1),
             "observ-fluent": self.rng.choice([0, 0, 0, 2]),
         }
-        self.problem.fluents += self.tables_that_shapes_need() + self.fluents_with_bounds()
+        self.problem.fluents += self.tables_that_shapes_need() + self.fluents_with_bounds() + self.fluents_of_matrices()
         for role, count in counts.items():
             for _ in range(count):
                 self.problem.fluents.append(self.make_fluent(names.pop(0), role))
@@ -246,7 +248,9 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions):
         self.scope = list(zip(parameters, fluent.parameters))
         depth = self.pick([1, 2, 3, 4, 4, 5, 6, 8])
         shaped = None
-        if fluent.name in ("turn", "speed", "bound") and self.chance(0.9):
+        if fluent.name in ("ratio", "part"):
+            shaped = self.definition_of_matrix(fluent)
+        elif fluent.name in ("turn", "speed", "bound") and self.chance(0.9):
             shaped = self.definition_with_bounds(fluent)
         elif self.chance(0.6 if fluent.name in ("stock", "cap", "at") else 0.25):
             shaped = self.shaped_definition(fluent)

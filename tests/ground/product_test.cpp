@@ -64,13 +64,14 @@ TEST(Product, KnowsInversesAndRandomVectorsBeyondAllReals) {
                               "w(?o) = " +
                               cpf_of_v +
                               ";\n"
-                              "x' = x * (w(@b1) + 0.5);"});
+                              "x' = x * (sum_{?o : obj} w(?o));"});
         return value_of_x(program);
     };
-    const std::string tested = "select(state.x == 0.0, state.x, state.x * (scratch.w[0] + 0.5))";
+    const std::string tested =
+        "select(state.x == 0.0, state.x, state.x * sum[o in obj](scratch.w[o]))";
     EXPECT_EQ(product_with("v(?o, ?o)"), tested);
     EXPECT_EQ(product_with("MultivariateNormal[?o](m(_), M(_, _))"), tested);
-    EXPECT_EQ(product_with("Dirichlet[?o](m(_))"), "state.x * (scratch.w[0] + 0.5)");
+    EXPECT_EQ(product_with("Dirichlet[?o](m(_))"), "state.x * sum[o in obj](scratch.w[o])");
 }
 
 TEST(Product, OfManyFactorsStaysSmall) {

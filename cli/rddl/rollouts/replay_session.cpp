@@ -92,6 +92,14 @@ bool read_flag(const json& line, const char* name) {
     return found->get<bool>();
 }
 
+std::string with_warning(std::string answer, const std::string& warning) {
+    if (warning.empty()) return answer;
+    answer.resize(answer.size() - 2);  // the brace and the line break
+    answer += R"(,"warning":)";
+    write_string(answer, warning);
+    return answer + "}\n";
+}
+
 }  // namespace
 
 ReplaySession::ReplaySession(const rddl_simulator& simulator, ReplayOptions options)
@@ -136,16 +144,13 @@ std::string ReplaySession::answer_object(const json& line) {
     }
     Request request = read_request(line);
     prepare(request);
-    if (!request.steps) return describe_start();
+    std::string warning = doubts_about(request);
+    if (!request.steps) return with_warning(describe_start(), warning);
     require_running();
-    const std::string warning = check_preconditions(request.action);
-    std::string out =
-        request.samples ? sample(request.action, *request.samples) : step(request.action);
-    if (warning.empty()) return out;
-    out.resize(out.size() - 2);  // the brace and the line break
-    out += R"(,"warning":)";
-    write_string(out, warning);
-    return out + "}\n";
+    if (std::string violation = check_preconditions(request.action); !violation.empty())
+        warning += (warning.empty() ? "" : "; ") + violation;
+    return with_warning(
+        request.samples ? sample(request.action, *request.samples) : step(request.action), warning);
 }
 
 // ---------------------------------------------------------------------------- reading a line
@@ -193,6 +198,13 @@ ReplaySession::Record ReplaySession::read_action(const json& values) const {
         throw Refusal{fmt::format("{} action values differ from their default; at most {} may",
                                   changes, problem_.max_nondef_actions)};
     return record;
+}
+
+std::string ReplaySession::doubts_about(const Request& request) const {
+    if (!options_.doubt) return {};
+    if (request.state)
+        if (auto doubt = options_.doubt(state_layout_, request.state->data())) return *doubt;
+    return options_.doubt(action_layout_, request.action.data()).value_or("");
 }
 
 // ------------------------------------------------------------------------------- acting on it
