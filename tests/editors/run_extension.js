@@ -45,7 +45,7 @@ async function main() {
   assert.deepStrictEqual(task.execution.args, ['check', '--verbose', '--std', 'pyrddlgym', problem]);
   assert.strictEqual(task.matcher, '$rddl');
   const resolved = registered.tasks.resolveTask({ definition: { type: 'rddl', problem: ['a.rddl', 'b.rddl'] } });
-  assert.deepStrictEqual(resolved.execution.args.slice(3), ['a.rddl', 'b.rddl']);
+  assert.deepStrictEqual(resolved.execution.args.slice(4), ['a.rddl', 'b.rddl']);
   fs.rmdirSync(problem);
   console.log('ok');
 }
