@@ -285,7 +285,7 @@ TEST_F(Program, TellsCertainFaultsOfADomainAlone) {
     const Outcome outcome = run("check certain.rddl");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     const std::string warning =
-        "certain.rddl:13:31: warning: Bernoulli's probability must be in [0, 1], found 1.5: this "
+        "certain.rddl:13:34: warning: Bernoulli's probability must be in [0, 1], found 1.5: this "
         "faults whenever it is evaluated [W0601]\n";
     EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.find("W0601"), outcome.err.rfind("W0601")) << outcome.err;
