@@ -1,5 +1,5 @@
 # rddl_add_simulator(<target> DOMAIN <file> INSTANCE <file> [POLICY <file>] [EXTERN <header>...]
-#                    [NAME <name>] [HEADER] [DETAILS] [OPTIONS <option>...])
+#                    [NAME <name>] [ENTRY <name>] [HEADER] [DETAILS] [OPTIONS <option>...])
 #
 # Compiles an RDDL problem into the library <target>, and again whenever its files or rddlc change.
 #
@@ -8,33 +8,66 @@
 #   POLICY             a file with a policy block
 #   EXTERN             C++ headers that define external functions, relative to the current source folder
 #   NAME               of the emitted file (default: the target's name)
+#   ENTRY              of the function that the library exports; two simulators of the same problem in one
+#                      program need different ones (default: rddl_simulator_<domain>_<instance>)
 #   HEADER             an interface library with <NAME>.hpp to include, instead of a static one
 #   DETAILS            interm-fluents of the last step can be asked for, and objects that violate a precondition
 #   OPTIONS            more options for rddlc, such as -Werror
 #
-# A static library is compiled for speed in any build type; a header takes the flags of those who include
-# it, and wants -O3. The library exports `const rddl_simulator* rddl_simulator_<domain>_<instance>(void)`, which
-# <NAME>.h declares for C and C++.
+# A static library is compiled for speed in any build type, and can be linked into shared ones; a header
+# takes the flags of those who include it, and wants -O3. The library exports `const rddl_simulator* <ENTRY>(void)`,
+# which <NAME>.h declares for C and C++.
 #
 # rddl_compile_simulator(<target> <file>...)
 #
 # The static library of what rddlc has emitted before, with the flags that it needs: no rddlc is needed.
 include(${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake)
 
+# Stops where nothing can compile a simulator.
+function(rddl_require_cxx caller)
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(NOT CXX IN_LIST languages)
+    message(FATAL_ERROR "${caller}: simulators are C++, which this project does not enable. "
+      "Write project(... LANGUAGES C CXX), or enable_language(CXX) before.")
+  endif()
+endfunction()
+
+# rddl_absolute_files(<variable> <caller> <file>...): relative to the current source folder. They must exist.
+function(rddl_absolute_files variable caller)
+  set(files "")
+  foreach(file IN LISTS ARGN)
+    get_filename_component(absolute ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    get_source_file_property(generated ${absolute} GENERATED)
+    if(NOT generated AND NOT EXISTS ${absolute})
+      message(FATAL_ERROR "${caller}: there is no file '${file}' (${absolute})")
+    endif()
+    list(APPEND files ${absolute})
+  endforeach()
+  set(${variable} "${files}" PARENT_SCOPE)
+endfunction()
+
 function(rddl_compile_simulator target)
+  rddl_require_cxx("rddl_compile_simulator(${target})")
   add_library(${target} STATIC ${ARGN})
+  # For programs and shared libraries, which see nothing but the entry.
+  set_target_properties(${target} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PUBLIC rddlc::runtime)
   rddl_add_flags(${target} PRIVATE RDDL_NEEDED_FLAGS RDDL_FAST_FLAGS)
 endfunction()
 
 function(rddl_add_simulator target)
-  cmake_parse_arguments(ARG "HEADER;DETAILS" "DOMAIN;INSTANCE;POLICY;NAME" "EXTERN;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "HEADER;DETAILS" "DOMAIN;INSTANCE;POLICY;NAME;ENTRY" "EXTERN;OPTIONS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rddl_add_simulator: unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
   if(NOT ARG_DOMAIN)
     message(FATAL_ERROR "rddl_add_simulator(${target}): DOMAIN is missing")
   endif()
+  if(ARG_HEADER AND ARG_ENTRY)
+    message(FATAL_ERROR "rddl_add_simulator(${target}): a HEADER has no ENTRY; its functions stand in a namespace")
+  endif()
+  rddl_require_cxx("rddl_add_simulator(${target})")
   if(NOT TARGET rddlc::rddlc)
     message(FATAL_ERROR "rddl_add_simulator(${target}): only the runtime of rddlc is here, not the compiler. "
       "Install that, too, or emit the text elsewhere and use rddl_compile_simulator.")
@@ -42,17 +75,10 @@ function(rddl_add_simulator target)
   if(NOT ARG_NAME)
     set(ARG_NAME ${target})
   endif()
-  set(inputs "")
-  foreach(file IN ITEMS ${ARG_DOMAIN} ${ARG_INSTANCE} ${ARG_POLICY})
-    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
-    list(APPEND inputs ${file})
-  endforeach()
-
-  set(headers "")
+  rddl_absolute_files(inputs "rddl_add_simulator(${target})" ${ARG_DOMAIN} ${ARG_INSTANCE} ${ARG_POLICY})
+  rddl_absolute_files(headers "rddl_add_simulator(${target})" ${ARG_EXTERN})
   set(externs "")
-  foreach(file IN LISTS ARG_EXTERN)
-    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
-    list(APPEND headers ${file})
+  foreach(file IN LISTS headers)
     list(APPEND externs --extern ${file})
   endforeach()
 
@@ -67,6 +93,9 @@ function(rddl_add_simulator target)
   if(NOT ARG_HEADER)
     list(APPEND products ${folder}/${ARG_NAME}.h)
     list(APPEND more --declare ${folder}/${ARG_NAME}.h)
+  endif()
+  if(ARG_ENTRY)
+    list(APPEND more --entry ${ARG_ENTRY})
   endif()
   if(ARG_DETAILS)
     list(APPEND more --details)

@@ -18,12 +18,20 @@ set_property(GLOBAL PROPERTY RDDL_FAST_FLAGS
 include(CheckCXXCompilerFlag)
 
 # rddl_add_flags(<target> PRIVATE|INTERFACE RDDL_NEEDED_FLAGS|RDDL_FAST_FLAGS ...)
+#
+# A flag that the compiler warns of is not taken, as clang does of those that mean nothing to it. Who makes
+# it warn of everything anyway, is asked without -Werror.
 function(rddl_add_flags target visibility)
   set(CMAKE_REQUIRED_QUIET TRUE)
+  set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+  check_cxx_compiler_flag(-Werror RDDL_COMPILES_WITHOUT_WARNINGS)
+  if(RDDL_COMPILES_WITHOUT_WARNINGS)
+    list(APPEND CMAKE_REQUIRED_FLAGS -Werror)
+  endif()
   foreach(property IN LISTS ARGN)
     get_property(flags GLOBAL PROPERTY ${property})
     foreach(flag IN LISTS flags)
-      string(MAKE_C_IDENTIFIER "RDDL_TAKES_${flag}" taken)
+      string(MAKE_C_IDENTIFIER "RDDL_COMPILES_WITH_${flag}" taken)
       check_cxx_compiler_flag("${flag}" ${taken})
       if(${taken})
         target_compile_options(${target} ${visibility} ${flag})

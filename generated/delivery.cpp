@@ -1,4 +1,4 @@
-// A simulator, made by rddlc 0.1.0. Do not edit it: change its sources and compile them again.
+// A simulator, made by rddlc 0.2.0. Do not edit it: change its sources and compile them again.
 //
 //     problem   delivery
 //     instance  delivery_1

@@ -64,6 +64,10 @@ std::string completions(const Command& program, const std::string& shell);
 // The manual page in roff.
 std::string man_page(const Command& program, const std::string& version);
 
+// The options that every command knows, and those of a program, which run_command_line handles
+// itself.
+std::vector<Option> common_options(bool is_program);
+
 // "-o" and "--output" of "-o,--output".
 std::vector<std::string> names_of(const Option& option);
 

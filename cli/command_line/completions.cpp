@@ -33,21 +33,12 @@ const std::vector<std::string>& offered_values(const Option& option) {
     return option.choices.empty() ? option.suggestions : option.choices;
 }
 
-Option flag(const std::string& names, const std::string& explanation) {
-    Option option;
-    option.kind = OptionKind::Flag;
-    option.names = names;
-    option.explanation = explanation;
-    return option;
-}
-
 // Those that are known for every command, too.
 std::vector<Option> options_of(const Command& command, bool is_program) {
     std::vector<Option> options;
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument) options.push_back(option);
-    options.push_back(flag("-h,--help", "Show the help"));
-    if (is_program) options.push_back(flag("--version", "Show the version"));
+    for (const Option& option : common_options(is_program)) options.push_back(option);
     return options;
 }
 
@@ -106,10 +97,13 @@ std::string bash_body(const Command& program) {
         "        case ${{COMP_WORDS[1]}} in\n"
         "        help) offered='{0}' ;;\n"
         "{2}"
+        "        *)\n"
+        "{3}"
+        "            ;;\n"
         "        esac\n"
         "    fi\n",
         fmt::join(first_words(program), " "), fmt::join(names_of(options_of(program, true)), " "),
-        branches(program, bash_case));
+        branches(program, bash_case), bash_case(program, true, "            "));
 }
 
 std::string bash(const Command& program) {
@@ -244,8 +238,7 @@ std::string completions(const Command& program, const std::string& shell) {
     if (shell == "bash") return bash(program);
     if (shell == "zsh") return zsh(program);
     if (shell == "fish") return fish(program);
-    throw UsageError(fmt::format(
-        "--completions: '{}' is no shell that is known; bash, zsh and fish are", shell));
+    throw UsageError(fmt::format("--completions: '{}' is no shell that is known", shell));
 }
 
 }  // namespace rddlc::cli

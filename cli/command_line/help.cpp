@@ -70,11 +70,9 @@ std::string options_text(const Command& command, bool is_program) {
     std::string text = "\nOptions:\n";
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument) text += entry(name_of(option), option.explanation);
-    text += entry("-h, --help", "Show this page");
-    if (!is_program) return text;
-    return text + entry("--version", "Show the version") +
-           entry("--completions SHELL", "Print what bash, zsh or fish completes") +
-           entry("--man-page", "Print the manual page");
+    for (const Option& option : common_options(is_program))
+        text += entry(name_of(option), option.explanation);
+    return text;
 }
 
 std::string commands_text(const Command& command) {

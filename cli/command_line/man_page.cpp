@@ -60,16 +60,17 @@ std::string synopsis(const Command& command, const std::string& full_name) {
     return line + (command.commands.empty() ? "" : " " + italic("COMMAND")) + "\n";
 }
 
-std::string options_text(const Command& command) {
+std::string options_text(const std::vector<Option>& options) {
     std::string text;
-    for (const Option& option : command.options) text += item(head_of(option), option.explanation);
+    for (const Option& option : options) text += item(head_of(option), option.explanation);
     return text;
 }
 
 std::string command_text(const Command& command, const std::string& program_name) {
     const std::string full_name = program_name + " " + command.name;
     return ".SS " + plain(full_name) + "\n" + plain(command.summary) + ".\n.PP\n" +
-           synopsis(command, full_name) + options_text(command) + as_it_stands(command.details);
+           synopsis(command, full_name) + options_text(command.options) +
+           as_it_stands(command.details);
 }
 
 }  // namespace
@@ -83,9 +84,7 @@ std::string man_page(const Command& program, const std::string& version) {
             plain(first_line.substr(0, first_line.find_last_not_of('.') + 1)) + "\n";
     text += ".SH SYNOPSIS\n" + synopsis(program, program.name);
     text += ".SH DESCRIPTION\n" + plain(program.summary) + "\n" + as_it_stands(program.details);
-    text += ".SH OPTIONS\n" + options_text(program) +
-            item(bold("-h") + ", " + bold("--help"), "Show the help") +
-            item(bold("--version"), "Show the version");
+    text += ".SH OPTIONS\n" + options_text(program.options) + options_text(common_options(true));
     if (!program.commands.empty()) text += ".SH COMMANDS\n";
     for (const Command& command : program.commands) text += command_text(command, program.name);
     return text;

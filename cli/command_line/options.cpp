@@ -56,6 +56,19 @@ std::vector<std::string> names_of(const Option& option) {
     return names;
 }
 
+std::vector<Option> common_options(bool is_program) {
+    Command command;
+    const auto nothing = [](const std::string&) {
+    };
+    add_flag(command, "-h,--help", "Show the help", nothing);
+    if (!is_program) return command.options;
+    add_flag(command, "--version", "Show the version", nothing);
+    add_option(command, "--completions", "SHELL", "Print what bash, zsh or fish completes", nothing)
+        .choices = {"bash", "zsh", "fish"};
+    add_flag(command, "--man-page", "Print the manual page", nothing);
+    return command.options;
+}
+
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
                      std::function<void(const std::string&)> take) {
     return add(command, OptionKind::Argument, name, "", explanation, std::move(take));

@@ -84,17 +84,24 @@ std::string did_you_mean_text(const std::string& name, const std::vector<std::st
 }
 
 std::vector<std::string> option_names(const Command& command) {
-    std::vector<std::string> names = {"--help"};
-    for (const Option& option : command.options)
-        if (option.kind != OptionKind::Argument)
-            for (const std::string& name : names_of(option)) names.push_back(name);
+    std::vector<std::string> names;
+    for (const auto& options : {common_options(!command.commands.empty()), command.options})
+        for (const Option& option : options)
+            if (option.kind != OptionKind::Argument)
+                for (const std::string& name : names_of(option)) names.push_back(name);
     return names;
 }
 
 std::vector<std::string> command_names(const Command& program) {
     std::vector<std::string> names;
     for (const Command& command : program.commands) names.push_back(command.name);
+    names.emplace_back("help");
     return names;
+}
+
+std::string unknown_command(const std::string& name, const Command& program) {
+    return fmt::format("no command is called '{}'{}", name,
+                       did_you_mean_text(name, command_names(program)));
 }
 
 // What is wrong with words that CLI11 does not take, in words that help.
@@ -104,8 +111,7 @@ std::string message_of(const CLI::ParseError& error, const std::vector<std::stri
         return word.starts_with('-');
     };
     if (!chosen && !left.empty() && !is_option(left.front()))
-        return fmt::format("no command is called '{}'{}", left.front(),
-                           did_you_mean_text(left.front(), command_names(program)));
+        return unknown_command(left.front(), program);
     const auto unknown = std::find_if(left.begin(), left.end(), is_option);
     if (unknown != left.end()) {
         const std::string name = unknown->substr(0, unknown->find('='));
@@ -174,10 +180,19 @@ std::vector<std::string> words_of(const Command& program, std::span<char* const>
     for (std::string& word : words) word = respelled_word(program, word);
     if (!program.commands.empty() && !words.empty() && words.front() == "help") {
         words.erase(words.begin());
+        const bool names_one = !words.empty() && !words.front().starts_with('-');
+        if (names_one && &command_in(program, given.subspan(1)) == &program)
+            throw UsageError(unknown_command(words.front(), program));
         words.push_back("--help");
     }
     std::ranges::reverse(words);
     return words;
+}
+
+Option completions_option() {
+    for (Option& option : common_options(true))
+        if (option.names == "--completions") return option;
+    throw std::logic_error("no program has --completions");
 }
 
 // What --completions and --man-page ask for.
@@ -185,9 +200,11 @@ std::optional<std::string> page_asked_for(const Command& program, const std::str
                                           int argc, char** argv) {
     const std::string word = argc > 1 ? argv[1] : "";
     if (word == "--man-page") return man_page(program, version);
-    if (word == "--completions") return completions(program, argc > 2 ? argv[2] : "");
-    if (word.starts_with("--completions=")) return completions(program, word.substr(14));
-    return std::nullopt;
+    const bool has_equals = word.starts_with("--completions=");
+    if (word != "--completions" && !has_equals) return std::nullopt;
+    const std::string next = argc > 2 ? argv[2] : "";
+    return completions(program,
+                       value_of(completions_option(), has_equals ? word.substr(14) : next));
 }
 
 ExitStatus run_declared(const Declared& declared) {

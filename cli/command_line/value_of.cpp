@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace rddlc::cli {
 
@@ -30,17 +32,32 @@ std::optional<int> power_of(std::string_view unit) {
     return static_cast<int>(power) + 1;
 }
 
-// 4G and the like; at least one byte.
-std::optional<std::int64_t> read_bytes(std::string_view word) {
-    std::int64_t number = 0;
+// The number at the beginning of a word, and the unit behind it.
+template <class Number>
+std::optional<std::pair<Number, int>> number_and_power(std::string_view word) {
+    Number number{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || number < 1) return std::nullopt;
+    if (error != std::errc{}) return std::nullopt;
     std::string_view unit = word.substr(static_cast<std::size_t>(end - word.data()));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     const auto power = power_of(unit);
-    if (!power || number > std::numeric_limits<std::int64_t>::max() >> 10 * *power)
-        return std::nullopt;
-    return number << 10 * *power;
+    if (!power) return std::nullopt;
+    return std::pair{number, *power};
+}
+
+// 4G, 1.5G, 1e9 and the like; at least one byte.
+std::optional<std::int64_t> read_bytes(std::string_view word) {
+    if (const auto whole = number_and_power<std::int64_t>(word)) {
+        const auto [number, power] = *whole;
+        if (number < 1 || number > std::numeric_limits<std::int64_t>::max() >> 10 * power)
+            return std::nullopt;
+        return number << 10 * power;
+    }
+    const auto real = number_and_power<double>(word);
+    if (!real) return std::nullopt;
+    const double bytes = std::ldexp(real->first, 10 * real->second);
+    if (!(bytes >= 1 && bytes < 0x1p63)) return std::nullopt;
+    return static_cast<std::int64_t>(bytes);
 }
 
 void require_choice(const Option& option, const std::string& word) {

@@ -19,8 +19,12 @@ Command rddl_command() {
     program.name = "rddl";
     program.summary =
         "RDDL problems at work: look at them, run them, measure them.\n\n"
-        "A problem P is two files, DOMAIN INSTANCE, or the NAME and INSTANCE of a problem of\n"
-        "rddlrepository, found at $RDDL_REPOSITORY or as the installed Python package.";
+        "A problem is two files, DOMAIN INSTANCE; one file that holds both; a folder of a "
+        "domain.rddl\n"
+        "and its instances, with the number of one unless there is only one; or the NAME and "
+        "INSTANCE\n"
+        "of a problem of rddlrepository, found at $RDDL_REPOSITORY or as the installed Python "
+        "package.";
     program.details =
         "Examples:\n"
         "  rddl list traffic\n"

@@ -20,7 +20,7 @@ void print_times(const Compilation& compilation) {
 
 void print_diagnostics(const Compilation& compilation, const RenderOptions& options) {
     tell(render(compilation.diagnostics, compilation.sources, options));
-    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(compilation));
+    if (options.format == DiagnosticsFormat::Text) tell(closing_lines(compilation, "rddlc"));
 }
 
 std::string statistics(const Compilation& compilation, Statistics format) {

@@ -40,6 +40,7 @@ struct Arguments {
     bool dependencies = false;
     std::string dependency_file;
     std::string declaration_file;
+    std::string entry;
     std::vector<std::string> warnings;  // behind -W
     bool no_warnings = false;
     std::string format = "text";
@@ -82,7 +83,7 @@ void add_file_options(Command& command, Arguments& arguments) {
     add_input(command, "INSTANCE", "instance file", arguments);
     add_argument(command, "POLICY", "file with a policy block, which alone is taken from it",
                  arguments.policy);
-    add_text_option(command, "-o", "FILE",
+    add_text_option(command, "-o,--output", "FILE",
                     "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ text "
                     "goes to standard output",
                     arguments.output);
@@ -94,6 +95,10 @@ void add_file_options(Command& command, Arguments& arguments) {
                     "also write FILE, a header for C and C++ that declares the function which the "
                     ".cpp exports",
                     arguments.declaration_file);
+    add_text_option(command, "--entry", "NAME",
+                    "name the function that the .cpp exports, for two simulators of the same "
+                    "problem in one program",
+                    arguments.entry);
     add_flag(command, "-MD", "write a rule for make and ninja beside the output: FILE.d",
              arguments.dependencies);
     add_text_option(command, "-MF", "FILE", "name the file of -MD", arguments.dependency_file);
@@ -245,6 +250,16 @@ std::optional<std::filesystem::path> declaration_file(const Arguments& arguments
     return arguments.declaration_file;
 }
 
+std::string entry(const Arguments& arguments) {
+    if (arguments.entry.empty()) return "";
+    if (!arguments.output.empty() && output_kind(arguments.output) != OutputKind::Source)
+        throw usage("--entry needs an output that exports a function of its own name: -o FILE.cpp");
+    if (!can_be_entry(arguments.entry))
+        throw usage(
+            fmt::format("--entry: '{}' cannot be the name of a C function", arguments.entry));
+    return arguments.entry;
+}
+
 std::vector<std::filesystem::path> extern_headers(const Arguments& arguments) {
     std::vector<std::filesystem::path> headers;
     for (const std::string& file : arguments.extern_headers) {
@@ -286,6 +301,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     options.stop_after = last_stage(arguments, options.print);
     options.domain_may_stand_alone =
         options.stop_after <= Stage::Check && !options.print.contains(Form::Model);
+    options.entry = entry(arguments);
     options.line_directives = arguments.line_directives;
     options.details = arguments.details;
     options.lane_count = std::stoi(arguments.lanes);

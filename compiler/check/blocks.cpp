@@ -326,7 +326,7 @@ std::optional<Blocks> choose_blocks(const ast::Program& program, Context& contex
     const bool is_enough = domain && !context.needs_instance;
     const bool instance = require_block(is_enough || top.instance.node != nullptr, "instance",
                                         "give the instance's file after the domain's", context);
-    const bool non_fluents = require_block(is_enough || has_non_fluents_block, "non-fluents",
+    const bool non_fluents = require_block(is_enough || !instance || has_non_fluents_block, "non-fluents",
                                            "write 'non-fluents NAME { domain = ...; objects { ... "
                                            "}; }', or put both 'objects { ... };'"
                                            " and 'non-fluents { ... };' into the instance",

@@ -163,10 +163,12 @@ class Narrowing {
 
 void warn(Span span, model::ValueType found, const Need& need, Context& context) {
     context.report(diagnose(type_fault, span, fault_message(span, found, need, context))
-                       .with_hint("a run that gets here stops with a fault"));
+                       .with_hint("a run that gets here stops with a fault" +
+                                  (need.hint.empty() ? "" : "; " + need.hint)));
 }
 
 std::string hint_for(model::ValueType found, const Need& need) {
+    if (!need.hint.empty()) return need.hint;
     if (need.type == model::bool_type && !is_object(found))
         return "compare it with something, as in '... > 0'";
     if (need.type == model::int_type && found == model::real_type)

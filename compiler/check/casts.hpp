@@ -26,6 +26,7 @@ struct Need {
     std::string what;  // "the condition of 'if'"
     Code code;
     std::optional<Note> note = {};
+    std::string hint = {};  // what is probably meant instead; empty: what suits the types
 };
 
 // The expression at the needed type. RDDL types values, not expressions: where a branch of an

@@ -60,11 +60,13 @@ bool is_domain_alone(const ast::Program& program) {
     return has(std::type_identity<ast::Domain>{}) && !has(std::type_identity<ast::Instance>{});
 }
 
-void check_domain(const ast::Program& program, const Sources& sources, Diagnostics& diagnostics,
-                  Standard standard) {
+std::optional<model::Model> check_domain(const ast::Program& program, const Sources& sources,
+                                         Diagnostics& diagnostics, Standard standard) {
     checking::Context context{sources, diagnostics, standard};
     context.needs_instance = false;
     checking::check_blocks(program, context);
+    if (diagnostics.has_errors()) return std::nullopt;
+    return std::move(context.model);
 }
 
 }  // namespace rddlc

@@ -14,10 +14,11 @@ namespace rddlc {
 // A domain without an instance.
 bool is_domain_alone(const ast::Program& program);
 
-// Reports every error of such a program that can be told without objects and values. There is no
-// model without them.
-void check_domain(const ast::Program& program, const Sources& sources, Diagnostics& diagnostics,
-                  Standard standard = Standard::PyRddlGym);
+// Reports every error of such a program that can be told without objects and values. The model, if
+// there are none, lacks these: types have no objects, and fluents no values.
+std::optional<model::Model> check_domain(const ast::Program& program, const Sources& sources,
+                                         Diagnostics& diagnostics,
+                                         Standard standard = Standard::PyRddlGym);
 
 // Reports every error of the stage at once; nothing is returned if there was one.
 std::optional<model::Model> check(const ast::Program& program, const Sources& sources,

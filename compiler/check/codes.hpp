@@ -63,6 +63,7 @@ inline constexpr Code object_action{'E', 312};
 inline constexpr Code type_fault{'W', 301};
 inline constexpr Code constant_condition{'W', 302};
 inline constexpr Code compared_comparison{'W', 303};
+inline constexpr Code compared_literals{'W', 304};
 
 // 04xx: CPFs and their dependencies
 inline constexpr Code missing_cpf{'E', 401};

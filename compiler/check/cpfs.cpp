@@ -151,6 +151,8 @@ class CpfChecker {
     // The body is checked for errors of its own even if the CPF does not count.
     void check_definition(const ast::Cpf& cpf, model::FluentId id, bool counts) {
         Scope scope{context_};
+        const model::ValueType range = context_.fluent(id).range;
+        if (is_object(range) && context_.type(range.type).enumerated) scope.range = range.type;
         std::vector<model::VariableId> parameters;
         for (std::size_t i = 0; i < cpf.parameters.size(); ++i) {
             const auto variable = bind(cpf.parameters[i], context_.fluent(id).parameters[i], scope);

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace rddlc::checking {
 namespace {
 
@@ -16,10 +19,11 @@ constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
 constexpr std::int64_t max_groundings_of_tables = std::int64_t{1} << 40;
 
 // What other languages call the types of values.
-std::string range_in_other_languages(const std::string& name) {
-    if (name == "float" || name == "double" || name == "number") return "real";
-    if (name == "integer" || name == "long" || name == "Int") return "int";
-    if (name == "boolean" || name == "Bool" || name == "logical") return "bool";
+std::string range_in_other_languages(std::string name) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (name == "float" || name == "double" || name == "number" || name == "real") return "real";
+    if (name == "integer" || name == "long" || name == "int") return "int";
+    if (name == "boolean" || name == "bool" || name == "logical") return "bool";
     return "";
 }
 

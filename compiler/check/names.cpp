@@ -75,10 +75,16 @@ void report_unknown_name(const ast::Reference& reference, Scope& scope) {
     else if (!subtraction.empty())
         diagnostic.hint =
             fmt::format("write '{}' with blanks: '{}' is one name", subtraction, name);
+    else if (name == "Gaussian" || name == "gaussian" || name == "gauss")
+        diagnostic.hint = "the distribution is 'Normal(mean, variance)'";
     else if (context.names.types.contains(name))
         diagnostic.hint = fmt::format("'{}' is a type, and has no value", name);
     else
         diagnostic.hint = suggestion(context, name, [&] { return candidates(reference, context); });
+    if (diagnostic.hint.empty() && scope.range && reference.arguments.empty())
+        diagnostic.hint =
+            fmt::format("the values of '{}' are {}", context.type(*scope.range).name,
+                        fmt::join(as_literals(context.type(*scope.range).objects), ", "));
     context.report(std::move(diagnostic));
 }
 

@@ -84,10 +84,19 @@ Typed check_arithmetic(const BinaryPlace& place, Typed left, Typed right, Scope&
     return apply_converted(place.op, std::move(*left), std::move(*right), type, type, place.span);
 }
 
-// An order of its own, not one in parentheses.
+// One of its own, not one in parentheses.
 bool is_comparison(const ast::Expr& expression) {
     const auto* binary = std::get_if<ast::Binary>(&expression.node);
-    return binary && is_order(operator_of(binary->op));
+    if (!binary) return false;
+    const Operator op = operator_of(binary->op);
+    return is_order(op) || op == Operator::Equal || op == Operator::NotEqual;
+}
+
+// a < b < c, and 1 == n == 2; 'a == b == c' of bools may well be meant.
+bool compares_truth(const BinaryPlace& place, model::ValueType right) {
+    const bool is_of_number = right == model::int_type || right == model::real_type;
+    return is_comparison(place.left) && !is_comparison(place.right) &&
+           (is_order(place.op) || is_of_number);
 }
 
 Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
@@ -107,7 +116,7 @@ Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope&
                                  .with_hint("only '==' and '~=' compare objects"));
         return std::nullopt;
     }
-    if (is_order(place.op) && is_comparison(place.left) && !is_comparison(place.right))
+    if (compares_truth(place, right->type))
         scope.context.report(diagnose(compared_comparison, place.span,
                                       fmt::format("this compares the truth of the left comparison, "
                                                   "0 or 1, with the right side of '{}'",
@@ -147,22 +156,49 @@ bool is_arithmetic(Operator op) {
            op == Operator::Divide;
 }
 
-bool is_number(const Typed& operand) {
-    return operand && (operand->type == model::int_type || operand->type == model::real_type);
+constexpr const char* power_hint = "'^' is 'and'; a power is written 'pow[x, y]'";
+
+bool is_literal_number(const ast::Expr& expression) {
+    return std::holds_alternative<ast::Integer>(expression.node) ||
+           std::holds_alternative<ast::Real>(expression.node);
 }
 
-// x ^ 2, or x ^ 2 + y, of which the right side can be no bool on any path.
-bool is_meant_as_power(const BinaryPlace& place, const Typed& left, const Typed& right) {
-    if (place.op != Operator::And || !is_number(left) || !is_number(right)) return false;
+// What stands directly behind an operator that has this right side: the x of x * 2 > y.
+const ast::Expr& leftmost(const ast::Expr& expression) {
+    const auto* binary = std::get_if<ast::Binary>(&without_groups(expression).node);
+    return binary ? leftmost(*binary->left) : without_groups(expression);
+}
+
+// x ^ 2, x ^ 2 + y, x ^ 2 > y, or x ^ y * z.
+bool is_meant_as_power(const BinaryPlace& place) {
+    if (place.op != Operator::And) return false;
+    const auto* binary = std::get_if<ast::Binary>(&without_groups(place.right).node);
+    return is_literal_number(leftmost(place.right)) ||
+           (binary && is_arithmetic(operator_of(binary->op)));
+}
+
+// 'a ^ 2.0 > 1.0' is a matter of bools, but who compares literals means something else.
+void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     const ast::Expr& inner = without_groups(place.right);
     const auto* binary = std::get_if<ast::Binary>(&inner.node);
-    return is_constant(inner) || (binary && is_arithmetic(operator_of(binary->op)));
+    if (place.op != Operator::And || !is_comparison(inner)) return;
+    if (!is_literal_number(without_groups(*binary->left)) ||
+        !is_literal_number(without_groups(*binary->right)))
+        return;
+    context.report(diagnose(compared_literals, inner.span,
+                            "both sides of this comparison are literals, so it tells nothing")
+                       .with_hint(power_hint));
 }
 
 Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
-    if (is_meant_as_power(place, left, right)) {
-        scope.context.report(diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers")
-                                 .with_hint("'^' is 'and'; a power is written 'pow[x, y]'"));
+    if (left && left->type == model::bool_type) warn_of_compared_literals(place, scope.context);
+    const std::string hint = is_meant_as_power(place) ? power_hint : "";
+    const auto is_int_or_real = [](const Typed& operand) {
+        return operand && (operand->type == model::int_type || operand->type == model::real_type);
+    };
+    if (!hint.empty() && is_int_or_real(left) && is_int_or_real(right)) {
+        scope.context.report(
+            diagnose(bool_needed, place.op_span, "'^' joins bools, found numbers").with_hint(hint));
         return std::nullopt;
     }
     const bool swap = right_goes_first(place.right);
@@ -172,19 +208,20 @@ Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope&
     Typed& second = swap ? left : right;
     std::string first_name = swap ? place.right_operand() : place.left_operand();
     std::string second_name = swap ? place.left_operand() : place.right_operand();
-    first = require_bool(std::move(first), std::move(first_name), scope);
+    const Need first_need{model::bool_type, std::move(first_name), bool_needed, {}, hint};
+    const Need second_need{model::bool_type, std::move(second_name), bool_needed, {}, hint};
+    first = require(std::move(first), first_need, scope);
     const bool second_is_bool = second && second->type == model::bool_type;
     const bool may_be_skipped = first && !never_settles(place.op, *first);
     if (second_is_bool || !may_be_skipped) {
-        second = require_bool(std::move(second), std::move(second_name), scope);
+        second = require(std::move(second), second_need, scope);
         if (!left || !right) return std::nullopt;
         return apply(place.op, std::move(*left), std::move(*right), model::bool_type, place.span);
     }
     if (!second) return std::nullopt;
-    const Need need{model::bool_type, std::move(second_name), bool_needed};
     const model::Expr misfit = *second;
-    Typed narrowed = try_require(std::move(*second), need, scope);
-    if (!narrowed) narrowed = fault_instead_of(misfit, need, scope);
+    Typed narrowed = try_require(std::move(*second), second_need, scope);
+    if (!narrowed) narrowed = fault_instead_of(misfit, second_need, scope);
     return apply(place.op, std::move(*first), std::move(*narrowed), model::bool_type, place.span);
 }
 

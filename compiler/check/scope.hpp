@@ -38,7 +38,8 @@ struct Scope {
     std::vector<EndedBinding> ended = {};
     std::vector<FluentUse> fluent_uses = {};
     std::vector<VariableUse> variable_uses = {};
-    bool may_name_objects = false;  // those of the instance: in its own expressions
+    std::optional<model::TypeId> range = {};  // an enumerated type that the whole is of
+    bool may_name_objects = false;            // those of the instance: in its own expressions
 };
 
 // Brings a variable into scope; reported if the name is in scope already.

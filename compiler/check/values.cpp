@@ -82,7 +82,7 @@ std::optional<model::Value> object_value(const ast::Symbol& symbol, Span span,
     std::string hint;
     if (!object && fluent.range.kind == Kind::Object)
         hint = suggestion_or_list(context, symbol.name, context.type(fluent.range.type).objects);
-    else if (!object && fluent.range == model::bool_type)
+    else if (!object)
         hint = hint_for_bool(symbol.name);
     report_value(code, span, fluent, found, std::move(hint), context);
     return std::nullopt;

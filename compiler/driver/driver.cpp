@@ -9,6 +9,7 @@
 #include "driver/version.hpp"
 #include "driver/write.hpp"
 #include "emit/emit.hpp"
+#include "ground/faults_in_domain.hpp"
 #include "ground/ground.hpp"
 #include "ground/memory.hpp"
 #include "ir/analysis.hpp"
@@ -19,6 +20,7 @@
 #include "passes/make_details.hpp"
 #include "passes/passes.hpp"
 #include "support/match.hpp"
+#include "support/render.hpp"
 
 #include <fmt/format.h>
 
@@ -94,6 +96,7 @@ ir::Program verified(ir::Program program) {
 EmitOptions emit_options(const CompileOptions& options) {
     const std::string name = options.output ? options.output->filename().string() : "simulator.cpp";
     return {.header = output_kind(name) == OutputKind::Header,
+            .entry = options.entry,
             .line_directives = options.line_directives,
             .lane_count = options.lane_count,
             .output_name = name,
@@ -149,8 +152,12 @@ void run_stages(Run& run) {
     // Without an instance there is no model, but much to check.
     if (may_stand_alone(run.options) && is_domain_alone(tree)) {
         result.is_domain_alone = true;
-        run.measure(Stage::Check, [&] {
-            check_domain(tree, result.sources, diagnostics, standard);
+        const auto domain = run.measure(Stage::Check, [&] {
+            return check_domain(tree, result.sources, diagnostics, standard);
+        });
+        if (!domain || run.ends_after(Stage::Check)) return;
+        run.measure(Stage::Ground, [&] {
+            warn_of_faults_in_domain(*domain, diagnostics);
             return 0;
         });
         return;
@@ -201,7 +208,7 @@ void run_stages(Run& run) {
         return emit(*result.program, result.sources, emit_options(run.options),
                     result.details ? &*result.details : nullptr);
     });
-    result.declaration = emit_declaration(*result.program, version);
+    result.declaration = emit_declaration(*result.program, emit_options(run.options));
     run.show(Form::Cpp, [&] { return result.text; });
     if (run.ends_after(Stage::Emit)) return;
 
@@ -265,32 +272,11 @@ std::optional<std::string> complaint_about_pass(std::string_view name) {
     return complaint;
 }
 
-namespace {
-
-std::string counted(std::size_t count, const char* word) {
-    return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
-}
-
-std::string counts_of(const Diagnostics& diagnostics) {
-    const auto& all = diagnostics.all();
-    const std::size_t errors = diagnostics.error_count();
-    const std::size_t warnings = all.size() - errors;
-    if (errors == 0 && warnings == 0) return "";
-    if (errors == 0) return counted(warnings, "warning") + "\n";
-    const auto first = std::ranges::find_if(
-        all, [&](const Diagnostic& each) { return diagnostics.is_error(each); });
-    return fmt::format("{}{}\n'rddlc --explain {}' tells more\n", counted(errors, "error"),
-                       warnings == 0 ? "" : ", " + counted(warnings, "warning"),
-                       to_string(first->code));
-}
-
-}  // namespace
-
 const std::string_view no_instance_given =
     "no instance was given: objects, values and what depends on them were not checked";
 
-std::string closing_lines(const Compilation& compilation) {
-    std::string lines = counts_of(compilation.diagnostics);
+std::string closing_lines(const Compilation& compilation, std::string_view program) {
+    std::string lines = closing_lines(compilation.diagnostics, program);
     if (compilation.is_domain_alone) lines += fmt::format("{}\n", no_instance_given);
     return lines;
 }

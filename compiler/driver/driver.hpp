@@ -45,6 +45,7 @@ struct CompileOptions {
     bool domain_may_stand_alone = false;
     std::set<Form> print;
     Stage stop_after = Stage::Write;
+    std::string entry;  // the function that the output exports; empty: named after the problem
     bool line_directives = false;
     int lane_count = EmitOptions{}.lane_count;
     RealType real = RealType::Double;
@@ -91,9 +92,9 @@ std::vector<std::string> pass_names();
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 
-// What stands below diagnostics: how many there are, how to learn more of the first error, and what
-// was not checked for lack of an instance. Empty if there is nothing to tell.
-std::string closing_lines(const Compilation& compilation);
+// What stands below diagnostics: how many there are, how `program` explains the first error, and
+// what was not checked for lack of an instance. Empty if there is nothing to tell.
+std::string closing_lines(const Compilation& compilation, std::string_view program);
 
 // "no instance was given: ..."
 extern const std::string_view no_instance_given;

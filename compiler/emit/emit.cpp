@@ -4,6 +4,7 @@
 #include "emit/details.hpp"
 #include "emit/externals.hpp"
 #include "emit/functions.hpp"
+#include "emit/identifiers.hpp"
 #include "emit/line_directives.hpp"
 #include "emit/literals.hpp"
 #include "emit/tables.hpp"
@@ -11,6 +12,7 @@
 #include "emit/unit.hpp"
 #include "support/template_slots.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
 
@@ -73,6 +75,10 @@ std::string simulator(const Unit& unit, const DetailsUnit* details) {
                        {"table", cpp::table_definition(unit, details != nullptr)}});
 }
 
+std::string entry_of(const ir::Program& program, const EmitOptions& options) {
+    return options.entry.empty() ? cpp::names_of(program).entry : options.entry;
+}
+
 std::string file(const Unit& unit, const DetailsUnit* details) {
     SlotValues values = {
         {"about_file", about_file(unit)},
@@ -80,7 +86,7 @@ std::string file(const Unit& unit, const DetailsUnit* details) {
         {"space", unit.names.space},
         {"simulator", simulator(unit, details)}};
     if (unit.options.header) return fill_slots(cpp::templates::header, values);
-    values.emplace("entry", unit.names.entry);
+    values.emplace("entry", entry_of(unit.program, unit.options));
     return fill_slots(cpp::templates::source, values);
 }
 
@@ -95,16 +101,28 @@ std::string emit(const ir::Program& program, const Sources& sources, const EmitO
     return cpp::restore_lines(without_double_blanks(text), options.output_name);
 }
 
-std::string emit_declaration(const ir::Program& program, const std::string& compiler_version) {
-    const std::string entry = cpp::names_of(program).entry;
+std::string emit_declaration(const ir::Program& program, const EmitOptions& options) {
+    const std::string entry = entry_of(program, options);
     std::string guard = entry + "_h";
     for (char& c : guard) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return fill_slots(cpp::templates::declaration,
-                      {{"version", compiler_version},
+                      {{"version", options.compiler_version},
                        {"problem", cpp::comment_text(program.domain_name)},
                        {"instance", cpp::comment_text(program.instance_name)},
                        {"guard", guard},
                        {"entry", entry}});
+}
+
+bool can_be_entry(std::string_view name) {
+    const auto is_letter = [](unsigned char c) {
+        return c == '_' || (c < 0x80 && std::isalpha(c));
+    };
+    const auto fits = [&](unsigned char c) {
+        return is_letter(c) || (c < 0x80 && std::isdigit(c));
+    };
+    return !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
+           std::ranges::all_of(name, fits) && name.find("__") == name.npos &&
+           !cpp::is_keyword(name) && name != "main";
 }
 
 }  // namespace rddlc

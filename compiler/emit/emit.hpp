@@ -15,6 +15,8 @@ namespace rddlc {
 struct EmitOptions {
     // Header: everything inline, for one #include; no exported C function.
     bool header = false;
+    // The function that the text exports; empty: rddl_simulator_<domain>_<instance>.
+    std::string entry = "";
     // #line before every statement, so that debuggers and profilers show the RDDL text.
     bool line_directives = false;
     // Environments that a step in a batch computes at once (8, 16, 32 or 64; 1: no packs).
@@ -32,7 +34,10 @@ std::string emit(const ir::Program& program, const Sources& sources, const EmitO
                  const ir::Details* details = nullptr);
 
 // A header for C and C++ that declares the function which the text exports.
-std::string emit_declaration(const ir::Program& program, const std::string& compiler_version);
+std::string emit_declaration(const ir::Program& program, const EmitOptions& options);
+
+// Whether a function of C and C++ can have this name.
+bool can_be_entry(std::string_view name);
 
 // A file that exports the external functions that the program calls as rddl/external.h has it:
 // what the interpreter loads.

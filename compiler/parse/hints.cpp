@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <vector>
 
 namespace rddlc {
@@ -16,6 +17,27 @@ constexpr std::array<std::string_view, 25> functions = {
     "gamma", "div",  "mod",   "fmod",  "min",  "max", "pow"};
 constexpr std::array<std::string_view, 8> aggregations = {"sum", "prod",   "avg",    "min",
                                                           "max", "forall", "exists", "argmax"};
+
+constexpr std::array<std::string_view, 23> distributions = {
+    "KronDelta",   "DiracDelta", "Uniform",     "Bernoulli", "Normal",           "Poisson",
+    "Exponential", "Weibull",    "Gamma",       "Binomial",  "NegativeBinomial", "Beta",
+    "Geometric",   "Pareto",     "Student",     "Gumbel",    "Laplace",          "Cauchy",
+    "Gompertz",    "ChiSquare",  "Kumaraswamy", "Discrete",  "UnnormDiscrete"};
+
+std::string in_small_letters(std::string_view word) {
+    std::string small(word);
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+    return small;
+}
+
+// As other languages call it.
+std::string distribution_meant_by(std::string_view name) {
+    const std::string small = in_small_letters(name);
+    if (small == "gaussian" || small == "gauss") return "Normal";
+    for (const std::string_view each : distributions)
+        if (in_small_letters(each) == small) return std::string(each);
+    return "";
+}
 
 template <std::size_t n>
 bool contains(const std::array<std::string_view, n>& words, std::string_view word) {
@@ -41,6 +63,8 @@ std::string round_brackets_of_a_function(const SyntaxError& error) {
     if (!is(&name, Parser::ID) || error.context->getRuleIndex() == Parser::RuleExpr) return "";
     if (contains(functions, name.getText()))
         return fmt::format("functions take square brackets: {}[...]", name.getText());
+    if (const std::string meant = distribution_meant_by(name.getText()); !meant.empty())
+        return fmt::format("the distribution is written {}(...)", meant);
     if (inside(error, Parser::RuleSymbols) || inside(error, Parser::RulePvariable)) return "";
     static const TokenTypes terms = {Parser::VAR, Parser::ENUM, Parser::ID};
     if (inside(error, Parser::RuleSimpleTerm) && !terms.contains(error.found().getType()))
@@ -59,6 +83,9 @@ std::string square_brackets_of_a_distribution(const SyntaxError& error) {
 }
 
 std::string binder_form(const SyntaxError& error) {
+    if (error.context->getRuleIndex() == Parser::RuleTypedVariable && error.expects(Parser::VAR) &&
+        is(&error.found(), Parser::ID))
+        return fmt::format("names of variables begin with '?': ?{}", error.found().getText());
     if (error.context->getRuleIndex() == Parser::RuleTypedVariable)
         return is(&error.found(), Parser::PRIMITIVE)
                    ? "variables range over types of objects, which are declared in 'types'"

@@ -198,7 +198,11 @@ void ErrorStrategy::skip_to_loop(antlr4::Parser& parser, const TokenTypes& next)
     while (true) {
         const std::size_t index = parser.getCurrentToken()->getTokenIndex();
         const std::size_t type = type_at(tokens_, index);
-        if (type == Token::EOF || next.contains(type)) return;
+        // 'domain = d;' is of a block whose keyword was not known.
+        const bool is_of_unknown = parser.getContext()->getRuleIndex() == Parser::RuleText &&
+                                   type_at(tokens_, index + 1) == Parser::ASSIGN;
+        const bool fits = next.contains(type) && !is_of_unknown;
+        if (type == Token::EOF || fits) return;
         if (begins_block(tokens_, index) || (items && begins_section(tokens_, index))) return;
         const std::size_t before = index;
         skip_item(parser, index, items);

@@ -76,9 +76,14 @@ bool is_terminal(int descriptor) {
     return ::isatty(descriptor) == 1;
 }
 
+bool tells_to_screen() {
+    const char* const terminal = std::getenv("TERM");
+    return is_terminal(STDERR_FILENO) && (!terminal || std::string_view(terminal) != "dumb");
+}
+
 bool tells_in_color() {
     const char* const no_color = std::getenv("NO_COLOR");
-    return is_terminal(STDERR_FILENO) && (!no_color || *no_color == '\0');
+    return tells_to_screen() && (!no_color || *no_color == '\0');
 }
 
 void tell(std::string_view text) {

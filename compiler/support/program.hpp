@@ -21,8 +21,9 @@ int run_program(std::string_view name, std::string_view version,
                 const std::function<ExitStatus()>& work);
 
 bool is_terminal(int descriptor);
-// Whether what is told is read on a terminal, by somebody who has not set NO_COLOR
-// (https://no-color.org).
+// Whether what is told is read on a terminal that understands escape codes: TERM is not "dumb".
+bool tells_to_screen();
+// And by somebody who has not set NO_COLOR (https://no-color.org).
 bool tells_in_color();
 
 // Writes to standard error. If nobody can read that there is nobody to tell, so it never fails.

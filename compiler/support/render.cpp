@@ -242,6 +242,36 @@ std::string render_json(const Diagnostics& diagnostics, const Sources& sources) 
 
 }  // namespace
 
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string pointer_to_explanation(Code code, std::string_view program) {
+    return fmt::format("'{} --explain {}' tells more\n", program, to_string(code));
+}
+
+std::string closing_lines(const Diagnostics& diagnostics, std::string_view program) {
+    const auto& all = diagnostics.all();
+    const std::size_t errors = diagnostics.error_count();
+    const std::size_t warnings = all.size() - errors;
+    if (all.empty()) return "";
+    if (errors == 0) return counted(warnings, "warning") + "\n";
+    const auto first = std::ranges::find_if(
+        all, [&](const Diagnostic& each) { return diagnostics.is_error(each); });
+    return counted(errors, "error") + (warnings == 0 ? "" : ", " + counted(warnings, "warning")) +
+           "\n" + pointer_to_explanation(first->code, program);
+}
+
+std::vector<RenderedDiagnostic> render_each(const Diagnostics& diagnostics,
+                                            const Sources& sources) {
+    const TextRenderer renderer(diagnostics, sources, false);
+    std::vector<RenderedDiagnostic> all;
+    for (const Diagnostic& diagnostic : diagnostics.all())
+        all.push_back(
+            {diagnostic.code, diagnostics.is_error(diagnostic), renderer.render(diagnostic)});
+    return all;
+}
+
 std::string source_excerpt(const Sources& sources, Span span) {
     return source_lines(sources, span, {}, plain);
 }

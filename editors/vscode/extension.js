@@ -32,7 +32,7 @@ const formatter = {
 };
 
 function check(definition, scope) {
-  const words = ['check', '--std', standard(), ...definition.problem];
+  const words = ['check', '--verbose', '--std', standard(), ...definition.problem]; // warnings, too
   const execution = new vscode.ProcessExecution(program(), words);
   return new vscode.Task(definition, scope, `check ${definition.problem.join(' ')}`, 'rddl', execution, '$rddl');
 }

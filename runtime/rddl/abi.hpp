@@ -8,6 +8,7 @@
 #include <rddl/describe.hpp>
 #include <rddl/error_text.hpp>
 #include <rddl/fault_text.hpp>
+#include <rddl/refusals.hpp>
 #include <rddl/simulator.h>
 #include <rddl/simulator_table.hpp>
 
@@ -228,38 +229,47 @@ class Functions {
         if (batch == nullptr || out == nullptr) return missing("the batch or the transition");
         const auto* const records = static_cast<const std::byte*>(actions);
         const Handle& all = handle(batch);
-        if (all.only_one && all.only_one->blocks.are_blocks(records))
+        if (all.only_one && out->struct_size <= sizeof *out &&
+            all.only_one->blocks.are_blocks(records))
             return all.maker->engine.advance_one(*all.only_one, 0, {records, nullptr}, *out);
         return step_any(handle(batch), records, *out);
     }
     // Apart, so that a step of one environment saves no registers for it.
     [[gnu::noinline]] static rddl_error step_any(Handle& any, const std::byte* records,
                                                  const rddl_transition& out) {
+        if (!is_known(out)) return newer_transition();
         return any.use([&](auto& environments) {
-            if (!environments.accepts_actions(records)) return refused_records("actions", records);
+            if (!environments.accepts_actions(records)) return refused_actions(any, records);
             environments.step(records, out);
             return RDDL_OK;
         });
     }
 
-    static rddl_error refused_records(std::string_view what, const std::byte* records) {
-        if (records == nullptr) return bad_argument("the ", what, " are missing");
-        return bad_argument("one of the ", what, " has an object that does not exist");
+    // A caller's header may be newer.
+    static bool is_known(const rddl_transition& out) {
+        return out.struct_size <= sizeof out || read_struct(&out).has_value();
+    }
+    static rddl_error newer_transition() {
+        return fail(RDDL_UNSUPPORTED, "a member of the transition is newer than the simulator");
+    }
+    static rddl_error refused_actions(const Handle& any, const void* records) {
+        return refuse_records(any.problem(), RDDL_ACTION, static_cast<const std::byte*>(records), 0,
+                              any.environment_count());
     }
 
     static rddl_error step_values(rddl_batch* batch, rddl_number number, const void* actions,
                                   void* observations, const rddl_transition* out) {
         if (batch == nullptr || out == nullptr) return missing("the batch or the transition");
+        if (!is_known(*out)) return newer_transition();
         return with_number(number_of(number), [&]<class Number>(Number) {
             const auto* const rows = static_cast<const Number*>(actions);
             return handle(batch).use([&](auto& environments) {
                 const Columns& columns = environments.action_columns();
                 const std::int64_t count = environments.environment_count();
                 if (columns.value_count > 0 && rows == nullptr)
-                    return refused_records("actions", nullptr);
+                    return refused_actions(handle(batch), nullptr);
                 if (columns.value_count > 0 && !values_are_valid(columns, rows, count))
-                    return bad_argument(
-                        "an action is nan, the index of no object, or beyond the ints");
+                    return refuse_values(handle(batch).problem(), rows, count);
                 environments.step_values(rows, static_cast<Number*>(observations), *out);
                 return RDDL_OK;
             });
@@ -323,7 +333,8 @@ class Functions {
             return missing("the batch or the room for preconditions");
         return handle(batch).use([&](auto& environments) {
             const auto* const records = static_cast<const std::byte*>(actions);
-            if (!environments.accepts_actions(records)) return refused_records("actions", records);
+            if (!environments.accepts_actions(records))
+                return refused_actions(handle(batch), records);
             environments.violated_preconditions(records, first_violated);
             return RDDL_OK;
         });
@@ -360,7 +371,7 @@ class Functions {
         return handle(batch).use([&](auto& environments) {
             const auto* const records = static_cast<const std::byte*>(actions);
             if (records != nullptr && !environments.accepts_actions(records))
-                return refused_records("actions", records);
+                return refused_actions(handle(batch), records);
             environments.action_mask(records, masks);
             return RDDL_OK;
         });
@@ -412,14 +423,14 @@ class Functions {
                                 const void* states, const std::int64_t* steps) {
         if (batch == nullptr) return missing("the batch");
         if (lacks(states, count, handle(batch).problem().state_size))
-            return refused_records("states", nullptr);
+            return refuse_records(handle(batch).problem(), RDDL_STATE, nullptr, begin, count);
         if (const rddl_error error = handle(batch).check(begin, count)) return error;
         for (std::int64_t k = 0; steps != nullptr && k < count; ++k)
             if (steps[k] < 0) return bad_argument("a count of steps is negative: ", steps[k]);
         return handle(batch).use([&](auto& environments) {
             const auto* const records = static_cast<const std::byte*>(states);
             if (!environments.accepts_states(records, count))
-                return refused_records("states", records);
+                return refuse_records(handle(batch).problem(), RDDL_STATE, records, begin, count);
             const std::int64_t size = handle(batch).problem().state_size;
             for (std::int64_t k = 0; k < count; ++k)
                 environments.set_state(begin + k, records + k * size,
@@ -550,10 +561,9 @@ class Functions {
         const Parts& maker = *handle(batch).maker;
         const auto* const given = static_cast<const std::byte*>(action);
         return handle(batch).use([&](auto& environments) {
-            if (given == nullptr && maker.problem->action_size > 0)
-                return refused_records("actions", given);
-            if (!records_are_valid(environments.action_columns(), given, 1))
-                return refused_records("actions", given);
+            const bool is_missing = given == nullptr && maker.problem->action_size > 0;
+            if (is_missing || !records_are_valid(environments.action_columns(), given, 1))
+                return refuse_records(*maker.problem, RDDL_ACTION, given, environment, 1);
             try {
                 Records state(1, static_cast<std::size_t>(maker.problem->state_size));
                 Records plain(1, static_cast<std::size_t>(maker.problem->action_size));

@@ -36,21 +36,23 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
+// Of a fluent with this scalar and, if it is of objects, so many of them.
+template <class Number>
+bool is_valid_number(rddl_scalar scalar, std::int64_t objects, Number value) {
+    if (objects > 0) return value > Number(-0.5) && value < Number(objects) - Number(0.5);
+    if (scalar == RDDL_INT) return value > Number(-0x1p63) && value < Number(0x1p63);
+    return value == value;
+}
+
 // Every number must be one, every object value the index of an object, and every int one of 64
 // bits.
 template <class Number>
 bool values_are_valid(const Columns& columns, const Number* rows, std::int64_t row_count) {
-    const auto is_valid = [](const Column& column, Number value) {
-        if (column.limit > 0)
-            return value > Number(-0.5) && value < Number(column.limit) - Number(0.5);
-        if (column.scalar == RDDL_INT) return value > Number(-0x1p63) && value < Number(0x1p63);
-        return value == value;
-    };
     bool valid = true;
     for (std::int64_t i = 0; i < row_count; ++i, rows += columns.value_count)
         for (const Column& column : columns.list)
             for (std::int64_t k = column.first; k < column.first + column.count; ++k)
-                valid &= is_valid(column, rows[k]);
+                valid &= is_valid_number(column.scalar, column.limit, rows[k]);
     return valid;
 }
 

@@ -13,11 +13,16 @@
  * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
  * does not exist are refused with RDDL_BAD_ARGUMENT. Reals of actions are to be finite, and so are those
  * of state-fluents that no step from an initial state makes inf or nan: what a step gives else is not
- * defined, and not checked.
+ * defined, and not checked. Between fluents there may be padding, which need not be written: a buffer
+ * keeps its old bytes there. Who compares or hashes whole records clears the buffer once before it is
+ * first filled.
  *
  * Sizes. Structs grow at their ends only, and each tells its size. The caller sets
  * struct_size of every struct that it passes, also of those that a call fills, to the sizeof; 0
- * means as long as in version 3.0, so that a struct of zeros is right. Structs in arrays grow, too:
+ * means as long as in version 3.0, so that a struct of zeros is right, and less than that long is an
+ * error of the caller's. Where rddl_batch_options or rddl_transition is longer than the simulator
+ * knows, what it does not know must be zero, or the call fails with RDDL_UNSUPPORTED; a longer
+ * struct that a call fills keeps its end as it is. Structs in arrays grow, too:
  * element k of an array lies k * ..._size bytes behind its beginning (rddl_fluent_at and its like).
  * Who compiles with the simulator's own header may write array[k].
  *
@@ -271,6 +276,8 @@ struct rddl_simulator {
      * observed before the first step: its records are zero then. An environment whose initial
      * state terminates has its episode over at once. */
     rddl_error (*reset)(rddl_batch*, const uint8_t* mask, void* observations);
+    /* One action record for each environment; `actions` may be NULL only where these are empty.
+     * `out` may not be NULL: who wants nothing of a step passes a struct of zeros. */
     rddl_error (*step)(rddl_batch*, const void* actions, const rddl_transition* out);
 
     /* ---- states, also for planning */

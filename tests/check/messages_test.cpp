@@ -45,6 +45,35 @@ TEST(Messages, MisspelledName) {
     EXPECT_EQ(report("r' = flor[r];"), "there is no function 'flor'\nhint: did you mean 'floor'?");
 }
 
+TEST(Messages, NamesOfOtherLanguages) {
+    EXPECT_EQ(report("r' = Gaussian(r, r);"),
+              "'Gaussian' is not declared\nhint: the distribution is 'Normal(mean, variance)'");
+    EXPECT_EQ(report("hue' = purple;"),
+              "'purple' is not declared\nhint: the values of 'colour' are @red, @green, @blue");
+    EXPECT_TRUE(report("{ state-fluent, real ==> { state-fluent, Float")
+                    .starts_with("type 'Float' is not declared\nhint: 'Float' is written 'real'"));
+    EXPECT_EQ(report("rt(o2) = -1.5; ==> rt(o2) = True;"),
+              "'rt' is real, found the unknown name 'True'\n"
+              "note at 'rt': declared here\n"
+              "hint: 'True' is written 'true'");
+}
+
+TEST(Messages, ComparisonsOfComparisons) {
+    EXPECT_TRUE(report("b' = 1 == i == 2;").starts_with("this compares the truth of the left"));
+    EXPECT_EQ(report("b' = (1 == i) == 2;"), "");
+    EXPECT_EQ(report("b' = b == ab == b;"), "");
+}
+
+TEST(Messages, PowersOfBools) {
+    const std::string hint = "hint: '^' is 'and'; a power is written 'pow[x, y]'";
+    for (const char* probe : {"r' = 2.0 * (b ^ 2);", "b' = i ^ 2 > 3;",
+                              "r' = 2.0 * (b ^ 2.0 > 1.0);", "b' = r ^ 2 + i;"})
+        EXPECT_TRUE(report(probe).ends_with(hint)) << probe << '\n' << report(probe);
+    EXPECT_TRUE(report("rt'(?x) = bt(?x)^3 * 2.0;").ends_with(hint.substr(6)));
+    EXPECT_EQ(report("b' = b ^ 0 < i;"), "");
+    EXPECT_EQ(report("b' = b ^ i > 2;"), "");
+}
+
 TEST(Messages, SubtractionWithoutBlanks) {
     EXPECT_EQ(report("r' = r-i;"),
               "'r-i' is not declared\nhint: write 'r - i' with blanks: 'r-i' is one name");

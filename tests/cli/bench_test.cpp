@@ -46,6 +46,36 @@ void expect_speeds(const json& measurements) {
     }
 }
 
+// Every episode ends with a fault in its first step that may fault; with a chance of 0 none does.
+std::string faulty_problem(const std::string& chance) {
+    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
+           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
+           chance +
+           "); }; reward = 0; }\n"
+           "non-fluents n { domain = faulty; }\n"
+           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
+}
+
+TEST_F(Bench, TellsOfFaults) {
+    const std::string bench =
+        "bench faulty.rddl --seconds 0.01 --batch 16 --threads 1 --engine interpreter";
+    write_file(folder_ / "faulty.rddl", faulty_problem("1.0"));
+    const Outcome all = run(bench);
+    EXPECT_EQ(all.status, 1);
+    EXPECT_TRUE(all.err.starts_with("rddl: error: ")) << all.err;
+    EXPECT_NE(all.err.find(" episodes ended with a fault"), std::string::npos) << all.err;
+    const json told = run_json(bench + " --json", 1);
+    EXPECT_GT(told["episodes"], 16);
+    EXPECT_EQ(told["faulted"], told["episodes"]);
+
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.3"));
+    const Outcome some = run(bench);
+    EXPECT_EQ(some.status, 0);
+    EXPECT_TRUE(some.err.starts_with("rddl: warning: ")) << some.err;
+    write_file(folder_ / "faulty.rddl", faulty_problem("0.0"));
+    EXPECT_EQ(run(bench).err, "");
+}
+
 TEST_F(Bench, TellsAsJson) {
     const json bench =
         run_json(std::string(briefly) + "--batch 16,7 --threads 3 --json --no-cache");

@@ -47,6 +47,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
                     Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
                     Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
+                    Misuse{"hlep", "no command is called 'hlep'; did you mean 'help'?"},
+                    Misuse{"help rum", "no command is called 'rum'; did you mean 'run'?"},
+                    Misuse{"help nosuch", "no command is called 'nosuch'\n"},
+                    Misuse{"--completions",
+                           "--completions is given no value; expected --completions "},
                     Misuse{"run", "DOMAIN is required"},
                     Misuse{"run domain.rddl instance.rddl --episode=3",
                            "unknown option '--episode'; did you mean '--episodes'?"},
@@ -98,6 +103,8 @@ TEST_F(Program, TakesSizesWithUnits) {
     };
     for (const char* one_kilobyte : {"1024", "1k", "1K", "1KB", "1KiB", "'1 kib'", "1024b"})
         EXPECT_EQ(told(one_kilobyte), "") << one_kilobyte;
+    for (const char* much : {"1e9", "1.5G", "1E9", "'1.5 kib'"}) EXPECT_EQ(told(much), "") << much;
+    EXPECT_NE(told("1e1").find("more than the limit of 10 bytes"), std::string::npos);
     EXPECT_NE(told("8").find("more than the limit of 8 bytes"), std::string::npos) << told("8");
     EXPECT_EQ(run("info domain.rddl instance.rddl --json=false").out.find('{'), std::string::npos);
 }
@@ -224,6 +231,80 @@ TEST_F(Program, ChecksAProblem) {
     const Outcome missing = run("check none.rddl instance.rddl");
     EXPECT_EQ(missing.status, 1);
     EXPECT_NE(missing.err.find("cannot read 'none.rddl': No such file"), std::string::npos);
+}
+
+TEST_F(Program, NamesItsOwnExplanation) {
+    write_file(folder_ / "bad/domain.rddl",
+               "domain d { pvariables { x : { state-fluent, int }; };");
+    write_file(folder_ / "bad/instance1.rddl", tanks_instance);
+    for (const char* arguments :
+         {"check bad/domain.rddl", "check bad", "fmt bad/domain.rddl", "run bad"}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_TRUE(outcome.err.ends_with("\n'rddl --explain E0103' tells more\n"))
+            << arguments << '\n'
+            << outcome.err;
+    }
+    const Outcome unbuilt = run("run domain.rddl instance.rddl --no-cache", "CXX=nosuch");
+    EXPECT_EQ(unbuilt.status, 1);
+    EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' tells more\n"), std::string::npos)
+        << unbuilt.err;
+}
+
+TEST_F(Program, TellsOnceWhatInstancesShare) {
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("LEAK(?t))"), 9, "LEAK(?s))");
+    write_file(folder_ / "bad/domain.rddl", domain);
+    write_file(folder_ / "bad/instance1.rddl", tanks_instance);
+    write_file(folder_ / "bad/instance2.rddl", tanks_instance);
+    const Outcome outcome = run("check bad");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.find("domain.rddl:13:51"), outcome.err.rfind("domain.rddl:13:51"));
+    EXPECT_NE(outcome.out.find("0 of 2 instances without errors, 1 error, "), std::string::npos)
+        << outcome.out;
+}
+
+TEST_F(Program, SaysHowToSeeTheWarningsOfAFolder) {
+    write_file(folder_ / "tanks/domain.rddl", tanks_domain);
+    write_file(folder_ / "tanks/instance1.rddl", tanks_instance);
+    const Outcome quiet = run("check tanks");
+    EXPECT_EQ(quiet.status, 0);
+    EXPECT_EQ(quiet.err, "");
+    EXPECT_TRUE(quiet.out.ends_with("0 errors, 1 warning; --verbose shows the warning\n"))
+        << quiet.out;
+    const Outcome verbose = run("check --verbose tanks");
+    EXPECT_NE(verbose.err.find("domain.rddl:7:9: warning: "), std::string::npos) << verbose.err;
+    EXPECT_TRUE(verbose.out.ends_with("0 errors, 1 warning\n")) << verbose.out;
+}
+
+TEST_F(Program, TellsCertainFaultsOfADomainAlone) {
+    std::string domain = tanks_domain;
+    domain.replace(domain.find("Exponential(LEAK(?t))"), 21, "Bernoulli(0.5 + 1.0) ");
+    domain.replace(domain.find("Normal(0.0, 2.0 + extra)"), 24, "Normal(0.0, extra - 2.0)");
+    write_file(folder_ / "certain.rddl", domain);
+    const Outcome outcome = run("check certain.rddl");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string warning =
+        "certain.rddl:13:34: warning: Bernoulli's probability must be in [0, 1], found 1.5: this "
+        "faults whenever it is evaluated [W0601]\n";
+    EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("W0601"), outcome.err.rfind("W0601")) << outcome.err;
+}
+
+TEST_F(Program, SaysWhichFilesAreMissing) {
+    const auto told = [&](const std::string& arguments) {
+        return run(arguments).err;
+    };
+    EXPECT_EQ(told("run domain.rddl"),
+              "error: there is no instance block [E0204]\n"
+              "hint: give the instance's file after the domain's\n"
+              "1 error\n'rddl --explain E0204' tells more\n");
+    EXPECT_TRUE(
+        told("run domain.rddl 1").starts_with("rddl: error: there is no instance file '1'\n"));
+    write_file(folder_ / "e/other.rddl", "");
+    EXPECT_TRUE(told("run e e").starts_with("rddl: error: there is no domain.rddl in 'e'\n"));
+    EXPECT_TRUE(told("run e instance.rddl")
+                    .starts_with("rddl: error: 'e' is a folder, and 'instance.rddl' a file\n"));
 }
 
 constexpr const char* domain_alone =

@@ -12,6 +12,13 @@
 namespace rddlc::cli {
 namespace {
 
+TEST(Progress, EstimatesNothingAtTheBeginning) {
+    EXPECT_EQ(remaining_text(0, 5), "");
+    EXPECT_EQ(remaining_text(3e-7, 0.1), "") << "94 h, by nothing but the start";
+    EXPECT_EQ(remaining_text(0.001, 1), "16 min 39 s left");
+    EXPECT_EQ(remaining_text(0.05, 0.1), "1.9 s left");
+}
+
 TEST(Table, AlignsColumns) {
     Table table({{"name"}, {"count", Align::Right}, {"note"}});
     table.add_row({"a", "1", ""});

@@ -42,10 +42,10 @@ async function main() {
   const problem = fs.mkdtempSync(path.join(os.tmpdir(), 'rddl-'));
   editor.window.activeTextEditor = { document: { languageId: 'rddl', uri: { fsPath: path.join(problem, 'domain.rddl') } } };
   const [task] = registered.tasks.provideTasks();
-  assert.deepStrictEqual(task.execution.args, ['check', '--std', 'pyrddlgym', problem]);
+  assert.deepStrictEqual(task.execution.args, ['check', '--verbose', '--std', 'pyrddlgym', problem]);
   assert.strictEqual(task.matcher, '$rddl');
   const resolved = registered.tasks.resolveTask({ definition: { type: 'rddl', problem: ['a.rddl', 'b.rddl'] } });
-  assert.deepStrictEqual(resolved.execution.args.slice(3), ['a.rddl', 'b.rddl']);
+  assert.deepStrictEqual(resolved.execution.args.slice(4), ['a.rddl', 'b.rddl']);
   fs.rmdirSync(problem);
   console.log('ok');
 }

@@ -40,7 +40,7 @@ TEST_P(Generated, IsWhatRddlcMakes) {
     options.stop_after = Stage::Emit;
     if (fs::exists(folder / "functions.hpp")) options.extern_headers = {folder / "functions.hpp"};
     const Compilation compilation = compile(options);
-    EXPECT_EQ(closing_lines(compilation), "");
+    EXPECT_EQ(closing_lines(compilation, "rddlc"), "");
     expect_golden(output, compilation.text, "generated");
 }
 

@@ -1,10 +1,8 @@
 // The simulator is linked with a policy from a file of its own.
-#include <rddl/simulator.h>
+#include "integration_filled_tank.h"
 
 #include <cstdint>
 #include <cstring>
-
-extern "C" const rddl_simulator* rddl_simulator_tank_one(void);
 
 namespace {
 
@@ -30,7 +28,7 @@ bool acts_as_written(const rddl_simulator& simulator, rddl_batch* batch) {
 }  // namespace
 
 int main() {
-    const rddl_simulator& simulator = *rddl_simulator_tank_one();
+    const rddl_simulator& simulator = *filled_tank();
     if (!simulator.policy || std::strcmp(simulator.policy->name, "fill") != 0) return 1;
     rddl_batch_options options{};
     options.seed = 7;

@@ -3,13 +3,14 @@
 import argparse
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
 options = argparse.Namespace()
-WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]
 
 
 def block(name: str) -> str:
@@ -54,6 +55,8 @@ class Clients(unittest.TestCase):
         self.assertRegex(results[0], r"^network_1: 1000 environments, \d+ steps each, "
                          r"mean return \d+\.\d{3}\n$")
         self.assertEqual(results[0], results[1])
+        if shutil.which("clang"):  # which warns of other conversions
+            self.run_in_folder("clang", "-std=c99", *WARNINGS, *include, "-fsyntax-only", "client.c")
 
     def test_python(self):
         self.compile_problem("network", "-o", "network.so")

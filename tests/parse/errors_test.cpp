@@ -226,6 +226,9 @@ TEST(Errors, BracketsOfFunctionsAndDistributions) {
 }
 
 TEST(Errors, FormsOfAggregations) {
+    EXPECT_EQ(
+        errors_in_reward("sum_{r : room} a"),
+        "E0101: expected a variable such as ?x, found 'r' | names of variables begin with '?': ?r");
     const std::string hint = " | write the variables and their types as in sum_{?x : type} ...";
     EXPECT_EQ(errors_in_reward("sum{?x : t} a"),
               "E0101: expected ';' or an operator, found '{'" + hint);
@@ -233,6 +236,25 @@ TEST(Errors, FormsOfAggregations) {
     EXPECT_EQ(errors_in_reward("sum_{?x} a"),
               "E0101: expected ':', found '}' | every variable needs its type, as in sum_{?x : "
               "type} ...");
+}
+
+TEST(Errors, DistributionsOfOtherLanguages) {
+    for (const auto& [written, meant] : {std::pair{"normal", "Normal"},
+                                         {"Gaussian", "Normal"},
+                                         {"BERNOULLI", "Bernoulli"},
+                                         {"chisquare", "ChiSquare"}})
+        EXPECT_TRUE(
+            errors_in_reward(std::string(written) + "(0.0, 1.0)")
+                .ends_with(" | the distribution is written " + std::string(meant) + "(...)"))
+            << errors_in_reward(std::string(written) + "(0.0, 1.0)");
+}
+
+TEST(Errors, AMisspeltBlockIsOneError) {
+    EXPECT_EQ(summary(parse_text("domain d {\n reward = 1;\n}\ninstances i {\n domain = d;\n "
+                                 "non-fluents = n;\n objects { o : { a }; };\n horizon = 3;\n}\n"
+                                 "non-fluents n { domain = d; }")),
+              "E0101: expected a block ('domain', 'non-fluents' or 'instance') or the end of the "
+              "file, found 'instances' | did you mean 'instance'?");
 }
 
 TEST(Errors, EqualSigns) {

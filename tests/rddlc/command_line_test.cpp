@@ -52,13 +52,37 @@ TEST_F(CommandLine, RefusesWhatItDoesNotKnow) {
     }
 }
 
+TEST_F(CommandLine, NamesTheEntry) {
+    const std::vector<std::string> problem = {"domain.rddl", "instance.rddl"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), problem.begin(), problem.end());
+        return rddlc(more);
+    };
+    EXPECT_EQ(with({"--entry=narrow", "--output=sim.cpp", "--declare", "sim.h"}).status, 0);
+    EXPECT_NE(read("sim.cpp").find("#define RDDL_ENTRY narrow\n"), std::string::npos);
+    EXPECT_NE(read("sim.h").find("const rddl_simulator* narrow(void);"), std::string::npos);
+    EXPECT_NE(read("sim.h").find("#ifndef NARROW_H\n"), std::string::npos);
+    for (const char* name : {"3x", "a-b", "a__b", "int", "main", ""}) {
+        const Result result = with({"--entry=" + std::string(name)});
+        EXPECT_EQ(result.status, 2) << name << result.output;
+    }
+    EXPECT_EQ(with({"--entry=narrow", "-o", "sim.hpp"}).status, 2);
+    EXPECT_EQ(with({"--entry=narrow", "-o", "sim.so"}).status, 2);
+}
+
+TEST_F(CommandLine, SuggestsAnOption) {
+    EXPECT_NE(rddlc({"domain.rddl", "--ouput", "x.cpp"}).output.find("did you mean '--output'?"),
+              std::string::npos);
+}
+
 TEST_F(CommandLine, ListsTheDiagnostics) {
     const Result list = rddlc({"--explain", "list"});
     EXPECT_EQ(list.status, 0);
     EXPECT_EQ(list.output.substr(0, 7), "E0101: ");
     EXPECT_NE(list.output.find("\nW0601: fault for certain\n"), std::string::npos);
-    EXPECT_NE(rddlc({"--explain"}).output.find("--explain is given no value; expected --explain CODE"),
-              std::string::npos);
+    EXPECT_NE(
+        rddlc({"--explain"}).output.find("--explain is given no value; expected --explain CODE"),
+        std::string::npos);
 }
 
 TEST_F(CommandLine, PrintsEveryForm) {
@@ -89,8 +113,9 @@ TEST_F(CommandLine, ReadsBothBlocksFromOneFile) {
 TEST_F(CommandLine, ChecksADomainAlone) {
     const Result alone = rddlc({"domain.rddl", "--check"});
     EXPECT_EQ(alone.status, 0) << alone.output;
-    EXPECT_TRUE(alone.output.ends_with("no instance was given: objects, values and what depends on "
-                                       "them were not checked\n"))
+    EXPECT_TRUE(
+        alone.output.ends_with("no instance was given: objects, values and what depends on "
+                               "them were not checked\n"))
         << alone.output;
     EXPECT_EQ(rddlc({"domain.rddl", "--check", "--diagnostics-format=json"}).output, "[]\n");
     for (const char* needs_instance : {"--print=model", "--stop-after=ground", "--print=cpp"})
@@ -134,7 +159,8 @@ TEST_F(CommandLine, ComputesInFloatsWhereTheyCanBePacked) {
         << refused.output;
     const Result floats = rddlc({"domain.rddl", "instance.rddl", "--real=float", "--print=cpp"});
     EXPECT_EQ(floats.status, 0);
-    EXPECT_NE(floats.output.find("rddl::Packed<Simulator, about::problem, 16, float>"), std::string::npos);
+    EXPECT_NE(floats.output.find("rddl::Packed<Simulator, about::problem, 16, float>"),
+              std::string::npos);
     EXPECT_EQ(rddlc({"domain.rddl", "instance.rddl", "--lanes=1", "--real=double"}).status, 0);
 }
 

@@ -136,7 +136,31 @@ TEST(Errors, HaveAReason) {
     const rddl_transition nothing{};
     EXPECT_EQ(functions.step(batch.get(), batch.actions.data(), &nothing), RDDL_BAD_ARGUMENT);
     EXPECT_STREQ(functions.last_error(&functions),
-                 "one of the actions has an object that does not exist");
+                 "environment 1: set-mode is 2, beyond the 2 objects of 'speed'");
+    std::vector<double> values(
+        static_cast<std::size_t>(4 * functions.action_value_count(&functions)));
+    values.back() = std::nan("");
+    EXPECT_EQ(functions.step_values(batch.get(), RDDL_DOUBLE, values.data(), nullptr, &nothing),
+              RDDL_BAD_ARGUMENT);
+    EXPECT_TRUE(std::string(functions.last_error(&functions)).starts_with("environment 3: "));
+    EXPECT_TRUE(std::string(functions.last_error(&functions)).ends_with(" is nan, no number"));
+}
+
+TEST(Transitions, OfNewerHeadersAreRefusedIfTheyAskForMore) {
+    TinyBatch batch(batch_options(2));
+    struct {
+        rddl_transition known;
+        void* newer;
+    } out{};
+    out.known.struct_size = sizeof out;
+    const auto step = [&] {
+        return functions.step(batch.get(), batch.actions.data(), &out.known);
+    };
+    EXPECT_EQ(step(), RDDL_OK);
+    out.newer = &out;
+    EXPECT_EQ(step(), RDDL_UNSUPPORTED);
+    EXPECT_STREQ(functions.last_error(&functions),
+                 "a member of the transition is newer than the simulator");
 }
 
 }  // namespace

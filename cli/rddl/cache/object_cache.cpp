@@ -45,7 +45,7 @@ std::string content_key(const std::string& text, const std::string& toolchain,
 // Tells on a terminal what takes so long.
 class CompilingMessage {
   public:
-    CompilingMessage(const std::string& problem, bool shown) : shown_(shown && is_terminal(2)) {
+    CompilingMessage(const std::string& problem, bool shown) : shown_(shown && tells_to_screen()) {
         if (shown_) tell("compiling {} ...", problem);
     }
     // The seconds that it took.
@@ -83,6 +83,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     if (!built) {
         give_up_if_interrupted();
         tell(render(diagnostics, {}, {}));
+        tell(closing_lines(diagnostics, "rddl"));
         if (!options.extern_headers.empty()) throw Diagnosed{};
         throw Failure("the simulator cannot be compiled", "--engine=interpreter needs no compiler");
     }

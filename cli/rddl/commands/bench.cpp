@@ -2,6 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "engines/batch.hpp"
+#include "formats/table.hpp"
 #include "measure/bench_report.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -60,18 +61,33 @@ double first_step_seconds(const rddl_simulator& simulator) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::vector<Measurement> measure_all(const rddl_simulator& simulator,
-                                     const std::vector<std::int64_t>& batches,
-                                     const BenchOptions& options) {
-    std::vector<Measurement> all{measure(simulator, draw_course(simulator, 1, options.seconds),
-                                         Stepping{}, options.seconds)};
+void measure_all(const rddl_simulator& simulator, const std::vector<std::int64_t>& batches,
+                 const BenchOptions& options, BenchReport& report) {
+    const auto course_of = [&](std::int64_t environments) {
+        RandomCourse course = draw_course(simulator, environments, options.seconds);
+        report.episodes += course.episodes;
+        report.faulted += course.faulted;
+        return course;
+    };
+    std::vector<Measurement>& all = report.measurements;
+    all.push_back(measure(simulator, course_of(1), Stepping{}, options.seconds));
     for (const std::int64_t batch : batches) {
         if (is_interrupted()) break;
-        const RandomCourse course = draw_course(simulator, batch, options.seconds);
+        const RandomCourse course = course_of(batch);
         for (const Stepping& stepping : steppings(simulator, batch, options.threads))
             if (!is_interrupted())
                 all.push_back(measure(simulator, course, stepping, options.seconds));
     }
+}
+
+// The speed of episodes that end at once is none that anybody wants to know.
+bool tells_of_faults(const BenchReport& report) {
+    if (report.faulted == 0) return false;
+    const bool all = report.faulted == report.episodes;
+    tell(
+        "rddl: {}: {} of {} episodes ended with a fault, which is what these speeds are of; 'rddl "
+        "run' tells the first\n",
+        all ? "error" : "warning", grouped(report.faulted), grouped(report.episodes));
     return all;
 }
 
@@ -116,9 +132,10 @@ ExitStatus bench(const BenchOptions& options) {
     const std::int64_t largest = *std::max_element(batches.begin(), batches.end());
     require_room(simulator, largest, files.memory_limit);
     report.memory_per_environment = memory_per_environment(simulator, largest);
-    report.measurements = measure_all(simulator, batches, options);
+    measure_all(simulator, batches, options, report);
     options.json ? print_json(report) : print_table(report);
-    if (!is_interrupted()) return success;
+    const bool has_failed = tells_of_faults(report);
+    if (!is_interrupted()) return has_failed ? diagnosed : success;
     tell("rddl: interrupted before all was measured\n");
     return interrupted;
 }

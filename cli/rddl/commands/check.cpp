@@ -12,7 +12,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <set>
+#include <span>
+#include <string_view>
 
 namespace rddlc::cli {
 
@@ -24,10 +28,6 @@ struct CheckOptions {
     bool all = false;
     bool verbose = false;
 };
-
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 std::size_t warning_count(const Diagnostics& diagnostics) {
     return diagnostics.all().size() - diagnostics.error_count();
@@ -58,14 +58,16 @@ ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
 
 struct Outcome {
     bool done = false;
-    std::size_t errors = 0, warnings = 0;
-    std::string text;  // the rendered diagnostics
+    std::vector<RenderedDiagnostic> diagnostics;
+
+    bool has_errors() const {
+        return std::ranges::any_of(diagnostics, &RenderedDiagnostic::is_error);
+    }
 };
 
 Outcome check_quietly(const ProblemFiles& files) {
     const Compilation compilation = compile(check_options(files, Stage::Ground));
-    return {true, compilation.diagnostics.error_count(), warning_count(compilation.diagnostics),
-            render(compilation.diagnostics, compilation.sources, {})};
+    return {true, render_each(compilation.diagnostics, compilation.sources)};
 }
 
 // In parallel; outcomes in the order of the files. Stops early on an interrupt.
@@ -76,14 +78,31 @@ std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
     return outcomes;
 }
 
+// What several instances share, such as an error in the domain, is told and counted once.
 struct ProblemRow {
     std::size_t instances = 0, without_errors = 0, errors = 0, warnings = 0;
+    std::vector<const RenderedDiagnostic*> different;
 
-    void add(const Outcome& outcome) {
-        instances += 1;
-        without_errors += outcome.errors == 0;
-        errors += outcome.errors;
-        warnings += outcome.warnings;
+    ProblemRow() = default;
+    explicit ProblemRow(std::span<const Outcome> outcomes) {
+        std::set<std::string_view> seen;
+        for (const Outcome& outcome : outcomes) {
+            instances += outcome.done;
+            without_errors += outcome.done && !outcome.has_errors();
+            for (const RenderedDiagnostic& each : outcome.diagnostics) {
+                if (!seen.insert(each.text).second) continue;
+                (each.is_error ? errors : warnings) += 1;
+                different.push_back(&each);
+            }
+        }
+    }
+
+    void add(const ProblemRow& row) {
+        instances += row.instances;
+        without_errors += row.without_errors;
+        errors += row.errors;
+        warnings += row.warnings;
+        different.insert(different.end(), row.different.begin(), row.different.end());
     }
     std::vector<std::string> cells(std::string name) const {
         return {std::move(name), std::to_string(instances), std::to_string(without_errors),
@@ -91,29 +110,29 @@ struct ProblemRow {
     }
 };
 
-ExitStatus summarise(const std::vector<RepositoryProblem>& problems,
-                     const std::vector<Outcome>& outcomes) {
+void print_table(const std::vector<RepositoryProblem>& problems,
+                 const std::vector<ProblemRow>& rows) {
     Table table({{"problem"},
                  {"instances", Align::Right},
                  {"without errors", Align::Right},
                  {"errors", Align::Right},
                  {"warnings", Align::Right}});
-    ProblemRow total;
-    std::size_t next = 0;
-    for (const RepositoryProblem& problem : problems) {
-        ProblemRow row;
-        for (std::size_t i = 0; i < problem.instances.size(); ++i) {
-            const Outcome& outcome = outcomes[next++];
-            if (!outcome.done) continue;
-            row.add(outcome);
-            total.add(outcome);
-        }
-        table.add_row(row.cells(problem.name));
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i) table.add_row(rows[i].cells(problems[i].name));
     fmt::print("{}\n", table.text());
-    fmt::print("{} of {} without errors, {}, {}\n", total.without_errors,
+}
+
+ExitStatus summarise(const ProblemRow& total, bool shows_warnings) {
+    const bool hides_some = total.warnings > 0 && !shows_warnings;
+    fmt::print("{} of {} without errors, {}, {}{}\n", total.without_errors,
                counted(total.instances, "instance"), counted(total.errors, "error"),
-               counted(total.warnings, "warning"));
+               counted(total.warnings, "warning"),
+               hides_some
+                   ? fmt::format("; --verbose shows the warning{}", total.warnings == 1 ? "" : "s")
+                   : "");
+    std::fflush(stdout);
+    const auto first = std::ranges::find_if(
+        total.different, [](const RenderedDiagnostic* each) { return each->is_error; });
+    if (first != total.different.end()) tell(pointer_to_explanation((*first)->code, "rddl"));
     if (is_interrupted()) return interrupted;
     return total.errors == 0 ? success : diagnosed;
 }
@@ -125,9 +144,19 @@ ExitStatus check_problems(const std::vector<RepositoryProblem>& problems,
         for (const std::string& instance : problem.instances)
             files.push_back(options.problem.with_options(find_instance(problem, instance)));
     const std::vector<Outcome> outcomes = check_many(files);
-    for (const Outcome& outcome : outcomes)
-        if (outcome.errors > 0 || options.verbose) tell(outcome.text);
-    return summarise(problems, outcomes);
+
+    std::vector<ProblemRow> rows;
+    ProblemRow total;
+    std::span<const Outcome> left(outcomes);
+    for (const RepositoryProblem& problem : problems) {
+        rows.emplace_back(left.first(problem.instances.size()));
+        left = left.subspan(problem.instances.size());
+        total.add(rows.back());
+    }
+    for (const RenderedDiagnostic* each : total.different)
+        if (each->is_error || options.verbose) tell(each->text);
+    print_table(problems, rows);
+    return summarise(total, options.verbose);
 }
 
 ExitStatus check(const CheckOptions& options) {
@@ -161,7 +190,7 @@ Command check_command() {
     command.name = "check";
     command.summary = "Check problems and show diagnostics";
     command.details =
-        "The exit status is 1 if there are errors. 'rddlc --explain E0203' explains a code.\n\n"
+        "The exit status is 1 if there are errors. 'rddl --explain E0203' explains a code.\n\n"
         "Examples:\n"
         "  rddl check domain.rddl instance.rddl\n"
         "  rddl check domain.rddl                what can be checked without an instance\n"

@@ -94,6 +94,7 @@ ExitStatus format_one(const FormatOptions& options, const std::string& path) {
         format_file(sources, *file, diagnostics, options.standard);
     if (!text) {
         tell(render(diagnostics, sources, {.color = tells_in_color()}));
+        tell(closing_lines(diagnostics, "rddl"));
         return diagnosed;
     }
     const Formatted formatted{path, sources[*file].text(), *text};

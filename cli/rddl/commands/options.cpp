@@ -18,15 +18,15 @@ ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
 
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
     add_argument(command, "DOMAIN",
-                 "Domain file, folder of a domain.rddl and its instances, or NAME of a problem of "
-                 "rddlrepository",
+                 "Domain file, or one that holds the instance, too; folder of a domain.rddl and its "
+                 "instances; or NAME of a problem of rddlrepository",
                  arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
     add_standard_option(command, arguments.standard);
     add_option(
         command, "--memory-limit", "SIZE",
-        "Bytes that simulators may take: 4G (default), 512M, ...",
+        "Bytes that simulators may take: 4G (default), 512M, 1e9, ...",
         [&arguments](const std::string& bytes) { arguments.memory_limit = std::stoll(bytes); })
         .kind = OptionKind::Bytes;
 }

@@ -138,6 +138,8 @@ nlohmann::ordered_json to_json(const BenchReport& report) {
             {"emitted_bytes", costs.emitted_bytes},
             {"object_bytes", costs.object_bytes},
             {"bytes_per_environment", to_json(report.memory_per_environment)},
+            {"episodes", report.episodes},
+            {"faulted", report.faulted},
             {"measurements", to_json(report.measurements)},
             {"peers", peers}};
 }

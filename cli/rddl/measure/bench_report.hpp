@@ -23,6 +23,8 @@ struct BenchReport {
                                                    // taken from the cache
     std::optional<double> memory_per_environment;  // bytes, in the largest batch
     std::vector<Measurement> measurements;         // one environment, then batches
+    std::int64_t episodes = 0;                     // that ended while actions were drawn for these
+    std::int64_t faulted = 0;                      // of which a fault ended so many
     std::vector<PeerFigures> peers;
 };
 

@@ -25,6 +25,13 @@ std::int64_t most_steps(std::int64_t environments) {
     return std::max(least_steps_of_batches, steps_of_all_environments / environments);
 }
 
+void count_ends(const std::vector<std::uint8_t>& causes, RandomCourse& course) {
+    for (const std::uint8_t cause : causes) {
+        course.episodes += cause != RDDL_RUNNING;
+        course.faulted += (cause & RDDL_FAULTED) != 0;
+    }
+}
+
 }  // namespace
 
 rddl_batch_options course_options(std::int64_t environments) {
@@ -47,9 +54,12 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
     const Batch batch = create_batch(simulator, options);
     RandomPolicy policy(*simulator.problem, 0);
     RandomActions random(simulator, policy, environments);
-    const rddl_transition nothing{};
+    std::vector<std::uint8_t> causes(static_cast<std::size_t>(environments));
+    rddl_transition ends{};
+    ends.causes = causes.data();
 
-    RandomCourse course{environments, 0, {}};
+    RandomCourse course;
+    course.environments = environments;
     while (course.steps < limit &&
            (course.steps < least_steps || (Clock::now() < end && !is_interrupted()))) {
         const std::size_t used = course.actions.size();
@@ -58,7 +68,8 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
             batch.get(), course.actions.data() + used, [](std::size_t) { return true; },
             [](std::size_t i) { return static_cast<std::int64_t>(i); },
             [&](std::size_t) { return course.steps; });
-        simulator.step(batch.get(), course.actions.data() + used, &nothing);
+        simulator.step(batch.get(), course.actions.data() + used, &ends);
+        count_ends(causes, course);
         ++course.steps;
     }
     return course;

@@ -19,6 +19,8 @@ struct RandomCourse {
     std::int64_t environments = 0;
     std::int64_t steps = 0;
     std::vector<std::byte> actions;  // records by step, then by environment
+    std::int64_t episodes = 0;       // that end within it,
+    std::int64_t faulted = 0;        // and those of them that a fault ends
 
     const std::byte* of_step(std::int64_t step) const {
         return actions.data() +

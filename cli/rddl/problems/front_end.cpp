@@ -30,7 +30,7 @@ void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = tells_in_color();
     tell(render(compilation.diagnostics, compilation.sources, options));
-    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation));
+    if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation, "rddl"));
 }
 
 Compilation compile_or_give_up(const CompileOptions& options) {

@@ -112,9 +112,18 @@ ProblemFiles find_in_folder(const fs::path& folder, const std::string& instance)
 
 ProblemFiles find_paths(const std::string& domain, const std::string& instance) {
     std::error_code ignored;
-    if (fs::is_directory(domain, ignored) && !is_path(instance))
+    if (fs::is_directory(domain, ignored) && (!is_path(instance) || instance == domain))
         return find_in_folder(domain, instance);
     if (instance.empty()) return {domain, domain, std::nullopt};
+    if (fs::is_directory(domain, ignored))
+        throw Failure(fmt::format("'{}' is a folder, and '{}' a file", domain, instance),
+                      "name two files, DOMAIN INSTANCE, or a folder and the number of an instance");
+    if (fs::exists(domain, ignored) && !is_path(instance))
+        throw Failure(
+            fmt::format("there is no instance file '{}'", instance),
+            fmt::format("'{}' is a file, so name the file of its instance; numbers are of "
+                        "the instances of a folder, or of a problem of rddlrepository",
+                        domain));
     return {domain + " " + instance, domain, instance};
 }
 

@@ -13,7 +13,7 @@ namespace rddlc::cli {
 Progress::Progress(std::string what, std::int64_t total, bool wanted)
     : what_(std::move(what)),
       total_(std::max<std::int64_t>(total, 1)),
-      shown_(wanted && is_terminal(2)) {}
+      shown_(wanted && tells_to_screen()) {}
 
 Progress::~Progress() {
     if (drawn_) tell("\r\x1b[K");
@@ -34,12 +34,15 @@ void Progress::draw(Clock::time_point now) {
     const double part = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
     const int filled = static_cast<int>(part * bar_width);
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    const std::string remaining =
-        part > 0 ? duration_text(elapsed * (1 - part) / part) + " left" : "";
     tell("\r\x1b[K{} [{}{}] {:3.0f} %  {}", what_, std::string(filled, '='),
-         std::string(bar_width - filled, ' '), 100 * part, remaining);
+         std::string(bar_width - filled, ' '), 100 * part, remaining_text(part, elapsed));
     std::fflush(stderr);
     drawn_ = true;
+}
+
+std::string remaining_text(double part, double elapsed) {
+    const bool can_tell = part >= 0.01 || (part > 0 && elapsed >= 1);
+    return can_tell ? duration_text(elapsed * (1 - part) / part) + " left" : "";
 }
 
 std::string duration_text(double seconds) {

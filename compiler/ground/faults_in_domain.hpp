@@ -1,0 +1,13 @@
+// Faults that are certain whatever the instance is, such as Bernoulli(1.5).
+#pragma once
+
+#include "model/model.hpp"
+#include "support/diagnostic.hpp"
+
+namespace rddlc {
+
+// Warns of them (W0601), for a domain that stands alone: a model without objects and values. With
+// an instance ground() tells of these and of more.
+void warn_of_faults_in_domain(const model::Model& domain, Diagnostics& diagnostics);
+
+}  // namespace rddlc
