@@ -82,10 +82,13 @@ class OutputFile {
     OutputFile(int descriptor, const char* name) : path_(name), descriptor_(descriptor) {}
     void open_stream();
     void open_temporary(mode_t mode);
+    void open_named(mode_t mode);
+    void give_name();
 
     std::filesystem::path path_;       // as the user calls it
     std::filesystem::path target_;     // what that leads to
-    std::filesystem::path temporary_;  // what is renamed to the target; empty for streams
+    std::filesystem::path temporary_;  // what is renamed to the target; empty if it has no name
+    bool is_nameless_ = false;         // a file without a name until it is complete
     int descriptor_ = -1;
 };
 

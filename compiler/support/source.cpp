@@ -94,7 +94,8 @@ std::optional<FileId> Sources::load(const std::filesystem::path& path) {
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     // A folder opens but cannot be read.
     if (stream.bad()) {
-        errno = std::filesystem::is_directory(path) ? EISDIR : EIO;
+        std::error_code ignored;
+        errno = std::filesystem::is_directory(path, ignored) ? EISDIR : EIO;
         return std::nullopt;
     }
     if (text.size() > largest_file) {

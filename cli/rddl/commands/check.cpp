@@ -138,7 +138,8 @@ ExitStatus check(const CheckOptions& options) {
         return check_problems(require_repository().problems, options);
     }
     if (problem.first.empty()) throw UsageError("name a problem, or say --all");
-    if (problem.second.empty() && std::filesystem::is_directory(problem.first)) {
+    std::error_code ignored;
+    if (problem.second.empty() && std::filesystem::is_directory(problem.first, ignored)) {
         const RepositoryProblem found = problem_in(problem.first);
         const std::filesystem::path domain = found.domain_file();
         if (found.instances.empty())

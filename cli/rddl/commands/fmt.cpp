@@ -47,7 +47,8 @@ std::optional<FileId> read(const std::string& path, Sources& sources) {
 
 // A file is read as a whole before it is written.
 void rewrite(const std::string& path, const std::string& text) {
-    if (!fs::is_regular_file(path))
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored))
         throw Failure(fmt::format("'{}' is no regular file, so it cannot be rewritten", path),
                       "--stdout or -o FILE says where the text shall go");
     UsedFiles none;

@@ -56,7 +56,8 @@ std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
     std::vector<std::filesystem::path> changed;
     for (const auto& file : files) {
         // What came through a pipe cannot be read again.
-        const bool is_readable = std::filesystem::is_regular_file(file);
+        std::error_code ignored;
+        const bool is_readable = std::filesystem::is_regular_file(file, ignored);
         if (is_readable && !known.empty() && !known.contains(sha256_of_file(file)))
             changed.push_back(file);
     }
