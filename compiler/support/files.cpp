@@ -103,7 +103,7 @@ int open_nameless([[maybe_unused]] const fs::path& folder, [[maybe_unused]] mode
 
 // ------------------------------------------------------------------------------------- reading
 
-std::string read_descriptor(int descriptor, std::string_view name) {
+std::string read_descriptor(int descriptor, std::string_view name, std::size_t largest) {
     std::string text;
     std::array<char, 1 << 16> block;
     while (true) {
@@ -112,6 +112,7 @@ std::string read_descriptor(int descriptor, std::string_view name) {
         if (count < 0) throw unreadable(name, errno);
         if (count == 0) return text;
         text.append(block.data(), static_cast<std::size_t>(count));
+        if (text.size() > largest) throw unreadable(name, EFBIG);
     }
 }
 

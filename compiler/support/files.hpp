@@ -19,8 +19,11 @@ namespace rddlc {
 // The bytes of a file, which may be a pipe; "-" is no special name. Throws a Failure "cannot read
 // 'x': Is a directory".
 std::string read_file(const std::filesystem::path& path);
-// The same of an open file, called `name` in messages.
-std::string read_descriptor(int descriptor, std::string_view name);
+// The same of an open file, called `name` in messages, which may have so many bytes.
+std::string read_descriptor(int descriptor, std::string_view name,
+                            std::size_t largest = std::string::npos);
+// What a text that people write may have: places in it have 32 bits, and devices have no end.
+inline constexpr std::size_t largest_text = std::size_t{1} << 28;
 
 // Why not to write: the system's reason, or that the file is in use by this very run.
 struct UnwritableFile : Failure {

@@ -120,7 +120,7 @@ ExitStatus bench(const BenchOptions& options) {
     options.json ? print_json(report) : print_table(report);
     if (!is_interrupted()) return success;
     tell("rddl: interrupted before all was measured\n");
-    return interrupted;
+    return interrupted_status();
 }
 
 void add_peer_options(Command& command, BenchOptions& options) {

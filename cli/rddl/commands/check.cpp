@@ -114,7 +114,7 @@ ExitStatus summarise(const std::vector<RepositoryProblem>& problems,
     fmt::print("{} of {} without errors, {}, {}\n", total.without_errors,
                counted(total.instances, "instance"), counted(total.errors, "error"),
                counted(total.warnings, "warning"));
-    if (is_interrupted()) return interrupted;
+    if (is_interrupted()) return interrupted_status();
     return total.errors == 0 ? success : diagnosed;
 }
 

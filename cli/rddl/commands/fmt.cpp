@@ -42,7 +42,7 @@ void require_consistent(const FormatOptions& options) {
 
 std::optional<FileId> read(const std::string& path, Sources& sources) {
     if (path != "-") return sources.load(path);
-    return sources.add("<stdin>", read_descriptor(STDIN_FILENO, "standard input"));
+    return sources.add("<stdin>", read_descriptor(STDIN_FILENO, "standard input", largest_text));
 }
 
 // A file is read as a whole before it is written.

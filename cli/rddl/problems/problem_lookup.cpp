@@ -71,8 +71,8 @@ std::vector<std::string> instances_in(const fs::path& folder) {
     std::error_code error;
     const fs::directory_iterator files(folder, error);
     if (error)
-        throw Failure(fmt::format("cannot read '{}': {}", folder.string(),
-                                  std::strerror(error.value())));
+        throw Failure(
+            fmt::format("cannot read '{}': {}", folder.string(), std::strerror(error.value())));
     std::vector<std::string> all;
     for (const auto& file : files)
         if (const auto instance = instance_of(file.path())) all.push_back(*instance);
@@ -126,8 +126,7 @@ ProblemFiles find_in_folder(const fs::path& folder, const std::string& instance)
 }
 
 ProblemFiles find_paths(const std::string& domain, const std::string& instance) {
-    if (is_folder(domain) && !is_path(instance))
-        return find_in_folder(domain, instance);
+    if (is_folder(domain) && !is_path(instance)) return find_in_folder(domain, instance);
     if (instance.empty()) return {domain, domain, std::nullopt};
     return {domain + " " + instance, domain, instance};
 }

@@ -27,7 +27,7 @@ struct ReplayOptions {
     Preconditions preconditions = Preconditions::Ignore;
     // Tells what is wrong, in one line; called for each violated precondition.
     std::function<std::string(const Violation&)> explain = {};
-    // Sees the header of each trace that is replayed.
+    // Sees the header of a trace.
     std::function<void(const nlohmann::json&)> see_header = {};
 };
 
@@ -42,9 +42,11 @@ class ReplaySession {
     // `simulator` must outlive the session.
     ReplaySession(const rddl_simulator& simulator, ReplayOptions options);
 
-    // The answer with its line break; empty for blank lines and a trace's header. May throw a
-    // ForeignTrace.
+    // The answer with its line break; empty for blank lines and a trace's header, which stands
+    // before all other lines. May throw a ForeignTrace.
     std::string answer(std::string_view line);
+    // The answer to a line that cannot even be read.
+    std::string refuse(std::string_view why);
 
   private:
     using Record = std::vector<std::byte>;
@@ -59,7 +61,8 @@ class ReplaySession {
         std::optional<std::int64_t> samples;
     };
 
-    std::string answer_object(const nlohmann::json& line);
+    std::string answer_object(const nlohmann::json& line, bool is_first);
+    std::string error_line(std::string_view message) const;
     void read_header(const nlohmann::json& header);
     Request read_request(const nlohmann::json& line) const;
     Record read_state(const nlohmann::json& values, bool fresh) const;
@@ -89,6 +92,7 @@ class ReplaySession {
     std::int64_t horizon_;  // in force; 0: none
     RecordLayout state_layout_, action_layout_, observation_layout_;
     std::int64_t line_ = 0;         // the number of the last one, from 1 on
+    bool has_begun_ = false;        // some line was not blank
     std::int64_t environment_ = 0;  // identity of the one that is stepped
     std::int64_t next_sample_;      // identity of the next environment that draws a sample
     Batch batch_;
