@@ -12,7 +12,7 @@ from pathlib import Path
 from commands import EXAMPLES, RDDL, RDDLC, SECONDS, SUCCESS, CommandTest
 
 PROBLEM = EXAMPLES[0] / "domain.rddl", EXAMPLES[0] / "instance.rddl"
-LONG_RUN = [RDDL, "run", *PROBLEM, "--engine=interpreter", "--episodes=100000000", "--threads=1"]
+LONG_RUN = [RDDL, "run", *PROBLEM, "--engine=interpreter", "--episodes=1000000", "--threads=1"]
 
 # Writes its number and that of what it starts, which ends by itself only after the test.
 SLOW_COMPILER = """
