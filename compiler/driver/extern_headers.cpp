@@ -34,8 +34,9 @@ std::optional<std::string_view> included_name(std::string_view line) {
 
 std::vector<fs::path> included_by(const fs::path& file) {
     std::vector<fs::path> included;
-    std::ifstream stream(file);
     std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return included;
+    std::ifstream stream(file);
     for (std::string line; std::getline(stream, line);) {
         const auto name = included_name(line);
         if (!name) continue;
@@ -45,18 +46,32 @@ std::vector<fs::path> included_by(const fs::path& file) {
     return included;
 }
 
+// Headers are read more than once, and to their end.
+std::optional<std::string> why_unreadable(const fs::path& header) {
+    std::error_code ignored;
+    const fs::file_type type = fs::status(header, ignored).type();
+    if (type == fs::file_type::directory) return std::strerror(EISDIR);
+    if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular)
+        return "it is no regular file";
+    return std::ifstream(header) ? std::nullopt : std::optional<std::string>(std::strerror(errno));
+}
+
+// As it stands where the current folder is gone.
+fs::path full_name(const fs::path& path) {
+    std::error_code error;
+    const fs::path full = fs::absolute(path, error);
+    return error ? path : full;
+}
+
 }  // namespace
 
 void check_extern_headers(const CompileOptions& options, Diagnostics& diagnostics) {
     for (const fs::path& header : options.extern_headers) {
-        std::error_code ignored;
-        const bool is_folder = fs::is_directory(header, ignored);
-        if (!is_folder && std::ifstream(header)) continue;
-        const int error = is_folder ? EISDIR : errno;
-        diagnostics.report({.code = unreadable_file,
-                            .span = {},
-                            .message = fmt::format("cannot read '{}': {}", header.string(),
-                                                   std::strerror(error))});
+        if (const auto why = why_unreadable(header))
+            diagnostics.report(
+                {.code = unreadable_file,
+                 .span = {},
+                 .message = fmt::format("cannot read '{}': {}", header.string(), *why)});
     }
 }
 
@@ -85,11 +100,11 @@ std::vector<std::string> include_paths(const CompileOptions& options) {
         std::error_code ignored;
         fs::path path = header;
         if (options.output)
-            path = fs::relative(header, fs::absolute(*options.output).parent_path(), ignored);
+            path = fs::relative(header, full_name(*options.output).parent_path(), ignored);
         // The text of a shared object is compiled elsewhere.
         const bool elsewhere =
             options.output && output_kind(*options.output) == OutputKind::SharedObject;
-        if (elsewhere || path.empty()) path = fs::absolute(header);
+        if (elsewhere || path.empty()) path = full_name(header);
         paths.push_back(path.generic_string());
     }
     return paths;

@@ -1,8 +1,9 @@
 #include "driver/process.hpp"
 
+#include "driver/watched_process.hpp"
+
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,14 +51,6 @@ int wait_for(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// As posix_spawn takes them; they point into the strings.
-std::vector<char*> pointers(const std::vector<std::string>& words) {
-    std::vector<char*> all;
-    for (const std::string& word : words) all.push_back(const_cast<char*>(word.c_str()));
-    all.push_back(nullptr);
-    return all;
-}
-
 std::string_view name_of(std::string_view variable) {
     return variable.substr(0, variable.find('='));
 }
@@ -79,23 +72,15 @@ std::optional<ProcessResult> run_process(const std::vector<std::string>& command
     std::array<int, 2> ends;  // to read from, to write to
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
 
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-
-    const std::vector<std::string> variables = environment_with(environment);
-    pid_t process = 0;
-    const int error = ::posix_spawnp(&process, command.front().c_str(), &actions, nullptr,
-                                     pointers(command).data(), pointers(variables).data());
-    ::posix_spawn_file_actions_destroy(&actions);
+    const pid_t process = start_watched(command, environment_with(environment), ends[1]);
+    const int error = process < 0 ? errno : 0;
     ::close(ends[1]);
     std::optional<ProcessResult> result;
-    if (error == 0) {
+    if (process > 0) {
         result.emplace();
         const auto end = limit ? std::optional(Clock::now() + *limit) : std::nullopt;
         result->timed_out = !read_all(ends[0], end, result->output);
-        if (result->timed_out) ::kill(process, SIGKILL);
+        if (result->timed_out) ::kill(process, SIGTERM);
         result->status = wait_for(process);
     }
     ::close(ends[0]);

@@ -20,8 +20,9 @@ struct ProcessResult {
     bool was_killed() const { return status >= 128; }
 };
 
-// Looks command[0] up in PATH and waits for it, but no longer than `limit`. `environment` holds
-// variables, "LC_ALL=C", in place of ours. Nothing, with errno set, if it does not start.
+// Looks command[0] up in PATH and waits for it, but no longer than `limit`; if we are killed, it
+// is, with all that it started. It reads nothing. `environment` holds variables, "LC_ALL=C", in
+// place of ours. Nothing, with errno set, if it does not start.
 std::optional<ProcessResult> run_process(const std::vector<std::string>& command,
                                          const std::vector<std::string>& environment = {},
                                          std::optional<std::chrono::seconds> limit = {});

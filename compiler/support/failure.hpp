@@ -8,12 +8,12 @@
 namespace rddlc {
 
 // 70 is for mistakes of our own alone.
-enum ExitStatus {
+enum ExitStatus : int {
     success = 0,
     diagnosed = 1,
     usage_error = 2,
-    internal_error = 70,
-    interrupted = 130
+    internal_error = 70
+    // 128 and the number of the signal that ended it, as shells count
 };
 
 // The user's command, files or machine do not allow it: no such file, a full disk, no memory.

@@ -54,8 +54,9 @@ std::optional<int> descriptor_named(const fs::path& path) {
     return number;
 }
 
-// Where symbolic links lead, to the one that names a descriptor at the furthest.
-fs::path target_of(const fs::path& path) {
+// Where symbolic links lead, to the one that names a descriptor at the furthest; nothing if they go
+// round in a circle.
+std::optional<fs::path> find_target(const fs::path& path) {
     constexpr int most_links = 40;  // as Linux has it
     fs::path target = path;
     for (int i = 0; i < most_links; ++i) {
@@ -64,6 +65,11 @@ fs::path target_of(const fs::path& path) {
         if (no_link || descriptor_named(target)) return target;
         target = next.is_absolute() ? next : folder_of(target) / next;
     }
+    return std::nullopt;
+}
+
+fs::path target_of(const fs::path& path) {
+    if (auto target = find_target(path)) return *std::move(target);
     throw UnwritableFile(path, ELOOP);
 }
 
@@ -71,11 +77,33 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
     return ::open(path.c_str(), flags | O_CLOEXEC, mode);
 }
 
+std::string name_of_descriptor(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+// A name that nobody can foresee.
+fs::path temporary_name(const fs::path& target) {
+    std::random_device random;
+    return target.parent_path() / fmt::format(".rddlc-{:08x}{:08x}", random(), random());
+}
+
+// A file that gets its name later; -1 where the system or the file system has none, or could not
+// name it.
+int open_nameless([[maybe_unused]] const fs::path& folder, [[maybe_unused]] mode_t mode) {
+#ifdef O_TMPFILE
+    const int descriptor = open_file(folder, O_WRONLY | O_TMPFILE, mode);
+    if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0)
+        return descriptor;
+    ::close(descriptor);
+#endif
+    return -1;
+}
+
 }  // namespace
 
 // ------------------------------------------------------------------------------------- reading
 
-std::string read_descriptor(int descriptor, std::string_view name) {
+std::string read_descriptor(int descriptor, std::string_view name, std::size_t largest) {
     std::string text;
     std::array<char, 1 << 16> block;
     while (true) {
@@ -84,6 +112,7 @@ std::string read_descriptor(int descriptor, std::string_view name) {
         if (count < 0) throw unreadable(name, errno);
         if (count == 0) return text;
         text.append(block.data(), static_cast<std::size_t>(count));
+        if (text.size() > largest) throw unreadable(name, EFBIG);
     }
 }
 
@@ -116,9 +145,10 @@ std::set<UsedFiles::Identity> UsedFiles::identities(const fs::path& file) {
     const auto status = status_of(file);
     if (status && !is_regular(status)) return all;
     if (status) all.emplace(status->st_dev, status->st_ino, "");
-    const fs::path target = target_of(file);
-    if (const auto folder = status_of(folder_of(target)))
-        all.emplace(folder->st_dev, folder->st_ino, target.filename().string());
+    const auto target = find_target(file);
+    if (!target) return all;
+    if (const auto folder = status_of(folder_of(*target)))
+        all.emplace(folder->st_dev, folder->st_ino, target->filename().string());
     return all;
 }
 
@@ -184,20 +214,40 @@ void OutputFile::open_stream() {
     if (descriptor_ < 0) throw UnwritableFile(path_, errno);
 }
 
-// Beside the target, so that renaming it is one step; O_EXCL, so that nobody can prepare a link
-// there.
+// Beside the target, so that renaming it is one step. Without a name where the system can do that:
+// of a process that is killed nothing is left then.
 void OutputFile::open_temporary(mode_t mode) {
-    std::random_device random;
-    do {
-        temporary_ = target_.parent_path() / fmt::format(".rddlc-{:08x}{:08x}", random(), random());
-        descriptor_ = open_file(temporary_, O_WRONLY | O_CREAT | O_EXCL, mode);
-    } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) throw UnwritableFile(path_, errno);
+    descriptor_ = open_nameless(folder_of(target_), mode);
+    is_nameless_ = descriptor_ >= 0;
+    if (!is_nameless_) open_named(mode);
     const auto older = status_of(target_);
     if (!older) return;
     // Somebody else's file can stay theirs only where we are root.
     static_cast<void>(!::fchown(descriptor_, older->st_uid, older->st_gid));
     static_cast<void>(!::fchmod(descriptor_, older->st_mode & 0777));
+}
+
+// O_EXCL, so that nobody can prepare a link there.
+void OutputFile::open_named(mode_t mode) {
+    do {
+        temporary_ = temporary_name(target_);
+        descriptor_ = open_file(temporary_, O_WRONLY | O_CREAT | O_EXCL, mode);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ >= 0) return;
+    temporary_.clear();
+    throw UnwritableFile(path_, errno);
+}
+
+// Only renaming replaces, so the name lasts for a moment.
+void OutputFile::give_name() {
+    do {
+        temporary_ = temporary_name(target_);
+        if (::linkat(AT_FDCWD, name_of_descriptor(descriptor_).c_str(), AT_FDCWD,
+                     temporary_.c_str(), AT_SYMLINK_FOLLOW) == 0)
+            return;
+    } while (errno == EEXIST);
+    temporary_.clear();
+    throw UnwritableFile(path_, errno);
 }
 
 OutputFile::~OutputFile() {
@@ -220,6 +270,7 @@ void OutputFile::write(std::string_view text) {
 
 void OutputFile::finish() {
     if (descriptor_ <= STDERR_FILENO) return;
+    if (is_nameless_) give_name();
     const int error = ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
     if (error != 0 && error != EINTR) throw UnwritableFile(path_, error);
     if (temporary_.empty()) return;

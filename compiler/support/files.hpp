@@ -19,8 +19,11 @@ namespace rddlc {
 // The bytes of a file, which may be a pipe; "-" is no special name. Throws a Failure "cannot read
 // 'x': Is a directory".
 std::string read_file(const std::filesystem::path& path);
-// The same of an open file, called `name` in messages.
-std::string read_descriptor(int descriptor, std::string_view name);
+// The same of an open file, called `name` in messages, which may have so many bytes.
+std::string read_descriptor(int descriptor, std::string_view name,
+                            std::size_t largest = std::string::npos);
+// What a text that people write may have: places in it have 32 bits, and devices have no end.
+inline constexpr std::size_t largest_text = std::size_t{1} << 28;
 
 // Why not to write: the system's reason, or that the file is in use by this very run.
 struct UnwritableFile : Failure {
@@ -82,10 +85,13 @@ class OutputFile {
     OutputFile(int descriptor, const char* name) : path_(name), descriptor_(descriptor) {}
     void open_stream();
     void open_temporary(mode_t mode);
+    void open_named(mode_t mode);
+    void give_name();
 
     std::filesystem::path path_;       // as the user calls it
     std::filesystem::path target_;     // what that leads to
-    std::filesystem::path temporary_;  // what is renamed to the target; empty for streams
+    std::filesystem::path temporary_;  // what is renamed to the target; empty if it has no name
+    bool is_nameless_ = false;         // a file without a name until it is complete
     int descriptor_ = -1;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <system_error>
@@ -25,13 +26,27 @@ void occupy_standard_descriptors() {
     }
 }
 
+Failure unwritable_standard_output(int error) {
+    return Failure(fmt::format("cannot write to standard output: {}",
+                               error != 0 ? std::strerror(error) : "it was refused before"));
+}
+
 void flush_standard_output() {
     errno = 0;
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (flushed && std::cout) return;
-    const char* const why = errno != 0 ? std::strerror(errno) : "it was refused before";
-    throw Failure(fmt::format("cannot write to standard output: {}", why));
+    throw unwritable_standard_output(errno);
+}
+
+// What the system refuses, in words of ours. Only printing to standard output leaves that mark.
+Failure failure_of(const std::system_error& error) {
+    const int number = error.code().value();
+    if (std::ferror(stdout)) return unwritable_standard_output(number);
+    if (const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+        return Failure(
+            fmt::format("cannot use '{}': {}", file->path1().string(), std::strerror(number)));
+    return Failure(error.what());
 }
 
 ExitStatus tell_own_mistake(std::string_view name, std::string_view version, const char* what) {
@@ -64,7 +79,7 @@ int run_program(std::string_view name, std::string_view version,
     } catch (const Failure& failure) {
         return failed(failure.what(), failure.hint, failure.status);
     } catch (const std::system_error& error) {
-        return failed(error.what(), "", diagnosed);
+        return failed(failure_of(error).what(), "", diagnosed);
     } catch (const std::bad_alloc&) {
         return failed("not enough memory", "", diagnosed);
     } catch (const std::exception& error) {

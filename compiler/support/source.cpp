@@ -1,5 +1,6 @@
 #include "support/source.hpp"
 
+#include "support/files.hpp"
 #include "support/utf8.hpp"
 
 #include <fmt/format.h>
@@ -13,9 +14,6 @@
 namespace rddlc {
 
 namespace {
-
-// Places in a text have 32 bits, and devices have no end.
-constexpr std::size_t largest_file = std::size_t{1} << 28;
 
 // Lines end at "\n", "\r\n" or a lone "\r".
 std::vector<std::uint32_t> find_line_begins(std::string_view text) {
@@ -89,15 +87,16 @@ std::optional<FileId> Sources::load(const std::filesystem::path& path) {
     if (!stream) return std::nullopt;
     std::string text;
     std::array<char, 1 << 16> block;
-    while (text.size() <= largest_file &&
+    while (text.size() <= largest_text &&
            (stream.read(block.data(), block.size()) || stream.gcount() > 0))
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     // A folder opens but cannot be read.
     if (stream.bad()) {
-        errno = std::filesystem::is_directory(path) ? EISDIR : EIO;
+        std::error_code ignored;
+        errno = std::filesystem::is_directory(path, ignored) ? EISDIR : EIO;
         return std::nullopt;
     }
-    if (text.size() > largest_file) {
+    if (text.size() > largest_text) {
         errno = EFBIG;
         return std::nullopt;
     }

@@ -83,15 +83,39 @@ TEST_F(Replay, RefusesALineAndGoesOn) {
               "2 action values differ from their default; at most 1 may");
     EXPECT_EQ(error(R"({"repeat": 0})"), "'repeat' is not an int from 1 to 10000000");
     EXPECT_EQ(error(R"({"reset": 1})"), "'reset' is not true or false");
-    for (const char* number : {"9223372036854775808", "18446744073709551616", "-1", "1e20", "0.5"})
-        EXPECT_EQ(error(fmt::format(R"({{"rddl_trace": 1, "horizon": {}}})", number)),
-                  "'horizon' is not an int from 0 to 9223372036854775807");
-    for (const char* number : {"18446744073709551616", "-1", "1e3", "\"0\""})
-        EXPECT_EQ(error(fmt::format(R"({{"rddl_trace": 1, "seed": {}}})", number)),
-                  "'seed' is not an int from 0 to 18446744073709551615");
     EXPECT_EQ(error(R"({"episode": 18446744073709551615})"),
               "'episode' is not an int from 0 to 1099511627775");
     EXPECT_EQ(answer("{}")["state"]["repairs"], 0) << "nothing has changed";
+}
+
+TEST_F(Replay, RefusesHeadersWithWrongNumbers) {
+    const auto error_of_first = [](const std::string& line) {
+        ReplaySession session(*tiny::simulator(), {});
+        return json::parse(session.answer(line)).value("error", "no error");
+    };
+    for (const char* number : {"9223372036854775808", "18446744073709551616", "-1", "1e20", "0.5"})
+        EXPECT_EQ(error_of_first(fmt::format(R"({{"rddl_trace": 1, "horizon": {}}})", number)),
+                  "'horizon' is not an int from 0 to 9223372036854775807");
+    for (const char* number : {"18446744073709551616", "-1", "1e3", "\"0\""})
+        EXPECT_EQ(error_of_first(fmt::format(R"({{"rddl_trace": 1, "seed": {}}})", number)),
+                  "'seed' is not an int from 0 to 18446744073709551615");
+}
+
+TEST_F(Replay, TakesAHeaderOnTheFirstLineOnly) {
+    const std::string header = R"({"rddl_trace": 1, "seed": 1})";
+    ReplaySession traced(*tiny::simulator(), {}), seeded(*tiny::simulator(), {.seed = 1});
+    EXPECT_EQ(traced.answer("  "), "");
+    EXPECT_EQ(traced.answer(header), "");
+    EXPECT_EQ(traced.answer("{}"), seeded.answer("{}"));
+    for (const std::string& late : {header, std::string(R"({"rddl_trace": 2})")})
+        EXPECT_EQ(json::parse(traced.answer(late))["error"],
+                  "a trace's header stands before all other lines");
+    EXPECT_EQ(traced.answer("{}"), seeded.answer("{}")) << "nothing has changed";
+}
+
+TEST_F(Replay, RefusesWhatCannotBeRead) {
+    EXPECT_EQ(session_.refuse("too long"), "{\"error\":\"too long\",\"line\":1}\n");
+    EXPECT_EQ(answer("x")["line"], 2);
 }
 
 TEST_F(Replay, SurvivesHostileLines) {

@@ -42,15 +42,19 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
     return -1;
 }
 
+static int makes_file(int flags) {
+    return (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
+}
+
 static int open_by(const char* name, const char* path, int flags, mode_t mode) {
-    if ((flags & O_CREAT) != 0 && is_full()) return -1;
+    if (makes_file(flags) && is_full()) return -1;
     return ((int (*)(const char*, int, mode_t))real(name))(path, flags, mode);
 }
 
 int open(const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);
-    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+    const mode_t mode = makes_file(flags) ? va_arg(rest, mode_t) : 0;
     va_end(rest);
     return open_by("open", path, flags, mode);
 }
@@ -58,9 +62,15 @@ int open(const char* path, int flags, ...) {
 int open64(const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);
-    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+    const mode_t mode = makes_file(flags) ? va_arg(rest, mode_t) : 0;
     va_end(rest);
     return open_by("open64", path, flags, mode);
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
+    if (is_full()) return -1;
+    return ((int (*)(int, const char*, int, const char*, int))real("linkat"))(from_folder, from,
+                                                                             to_folder, to, flags);
 }
 
 int rename(const char* from, const char* to) {

@@ -165,11 +165,13 @@ class Blame(CommandTest):
         for words in ([RDDLC, "--help"], [RDDL, "--help"], [RDDL, "run", "--help"],
                       [RDDLC, "--version"], [RDDL, "--version"], [RDDLC, "--explain", "E0101"],
                       [RDDL, "info", *PROBLEM], [RDDLC, *PROBLEM, "--stats"],
-                      [RDDL, "fmt", "--stdout", PROBLEM[0]]):
+                      [RDDL, "fmt", "--stdout", PROBLEM[0]], [RDDLC, *PROBLEM, "--print=cpp"],
+                      [RDDL, "--man-page"], [RDDL, "--completions=bash"], [RDDL, "list"]):
             with open("/dev/full", "w") as full:
-                result = self.run_command(*words, stdout=full, stderr=subprocess.PIPE)
+                result = self.run_command(*words, stdout=full, stderr=subprocess.PIPE,
+                                          environment={"RDDL_REPOSITORY": str(ROOT / "examples")})
             self.assertEqual(result.status, DIAGNOSED, f"{words}\n{result}")
-            self.assertIn("No space left on device", result.errors)
+            self.assertIn("cannot write to standard output: No space left on device", result.errors)
         for words, status in (([RDDL, "nonsense"], USAGE), ([RDDLC, "--nonsense"], USAGE),
                               ([RDDLC, "no.rddl"], DIAGNOSED), ([RDDL, "run", "no.rddl"], DIAGNOSED),
                               ([RDDLC, *PROBLEM, "--check", "-v"], SUCCESS)):

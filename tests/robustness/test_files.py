@@ -1,6 +1,8 @@
 """No command destroys a file that it reads, nor a pipe or device, whatever names it is given."""
 
+import json
 import os
+import resource
 import stat
 import threading
 import unittest
@@ -155,6 +157,54 @@ class Reading(CommandTest):
             os.close(descriptor)
             self.assertEqual(result.status, DIAGNOSED, result)
             self.assertIn("cannot read 'standard input': Is a directory", result.errors)
+
+    def test_names_that_lead_nowhere(self):
+        self.write("domain.rddl", DOMAIN)
+        self.write("instance.rddl", INSTANCE)
+        (self.folder / "loop").symlink_to("loop")
+        problem = "domain.rddl", "instance.rddl"
+        for name, why in ("loop", "Too many levels of symbolic links"), ("x" * 300, "File name too long"):
+            for words in ([RDDLC, name], [RDDLC, *problem, "--extern", name], [RDDL, "check", name],
+                          [RDDL, "run", name], [RDDL, "run", "domain.rddl", name],
+                          [RDDL, "check", *problem, "--extern", name],
+                          [RDDL, "run", *problem, "--policy", f"./{name}"]):
+                self.assert_refused(self.run_command(*words), f"{why} [E0901]")
+            for words in ([RDDL, "fmt", name], [RDDL, "replay", *problem, INTERPRET, "--input", name],
+                          [RDDL, "verify", *problem, "--states", name, "--no-pyrddlgym"]):
+                result = self.run_command(*words, environment={"CXX": "false"})
+                self.assertEqual(result.status, DIAGNOSED, result)
+                self.assertNotIn("filesystem error", result.errors)
+                self.assertNotIn("cannot write", result.errors)
+        self.assert_refused(self.run_command(RDDL, "check", *problem, "--extern", ""), "E0901")
+
+    def test_devices_have_no_end(self):
+        self.write("domain.rddl", DOMAIN)
+        self.write("instance.rddl", INSTANCE)
+        problem = "domain.rddl", "instance.rddl"
+        self.assert_refused(self.run_command(RDDLC, *problem, "--extern=/dev/zero"), "E0901")
+        with open("/dev/zero") as zeros:
+            result = self.run_command(RDDL, "fmt", "-", stdin=zeros)
+        self.assertEqual(result.status, DIAGNOSED, result)
+        result = self.run_command(RDDL, "replay", *problem, INTERPRET, "--input=/dev/zero",
+                                  preexec_fn=self.little_memory)
+        self.assertEqual(result.status, DIAGNOSED, result)
+        self.assertIn("it has a line without end", result.errors)
+        self.assertIn('{"error":"the line has more than ', result.output)
+
+    def little_memory(self) -> None:
+        limit = 2**28
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+    def test_long_lines_are_left_out(self):
+        self.write("domain.rddl", DOMAIN)
+        self.write("instance.rddl", INSTANCE)
+        self.write("steps.jsonl", "{}\n" + "x" * 2**24 + "\n{}" + " " * 2**19 + "\n" + "[" * 2**24)
+        result = self.run_command(RDDL, "replay", "domain.rddl", "instance.rddl", INTERPRET,
+                                  "--input=steps.jsonl", "--horizon=0")
+        self.assertEqual(result.status, SUCCESS, result)
+        answers = [json.loads(line) for line in result.output.splitlines()]
+        self.assertEqual([(answer.get("line"), "state" in answer) for answer in answers],
+                         [(None, True), (2, False), (None, True), (4, False)])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #include "cache/prepared_runtime.hpp"
 
+#include "cache/builders_turn.hpp"
 #include "cache/sealed_files.hpp"
 #include "cache/sha256.hpp"
 #include "driver/process.hpp"
@@ -73,9 +74,12 @@ std::string toolchain_text() {
 std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::string& toolchain) {
     const fs::path target = cache / (sha256(toolchain) + extension);
     if (is_sealed_folder(target)) return target;
+    const BuildersTurn turn(cache);
+    if (is_sealed_folder(target)) return target;  // by whom we have waited for
     const WorkFolder work(cache, "building-", "set XDG_CACHE_HOME to a folder that can be written");
     const fs::path made = work.path() / "runtime";
-    fs::create_directory(made);
+    std::error_code error;
+    if (!fs::create_directory(made, error)) throw UnwritableFile(made, error.value());
     if (!prepare_runtime(made)) return std::nullopt;
     seal_folder(made);
     std::error_code exists_by_now;

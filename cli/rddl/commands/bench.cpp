@@ -137,7 +137,7 @@ ExitStatus bench(const BenchOptions& options) {
     const bool has_failed = tells_of_faults(report);
     if (!is_interrupted()) return has_failed ? diagnosed : success;
     tell("rddl: interrupted before all was measured\n");
-    return interrupted;
+    return interrupted_status();
 }
 
 void add_peer_options(Command& command, BenchOptions& options) {

@@ -133,7 +133,7 @@ ExitStatus summarise(const ProblemRow& total, bool shows_warnings) {
     const auto first = std::ranges::find_if(
         total.different, [](const RenderedDiagnostic* each) { return each->is_error; });
     if (first != total.different.end()) tell(pointer_to_explanation((*first)->code, "rddl"));
-    if (is_interrupted()) return interrupted;
+    if (is_interrupted()) return interrupted_status();
     return total.errors == 0 ? success : diagnosed;
 }
 
@@ -167,7 +167,8 @@ ExitStatus check(const CheckOptions& options) {
         return check_problems(require_repository().problems, options);
     }
     if (problem.first.empty()) throw UsageError("name a problem, or say --all");
-    if (problem.second.empty() && std::filesystem::is_directory(problem.first)) {
+    std::error_code ignored;
+    if (problem.second.empty() && std::filesystem::is_directory(problem.first, ignored)) {
         const RepositoryProblem found = problem_in(problem.first);
         const std::filesystem::path domain = found.domain_file();
         if (found.instances.empty())

@@ -42,12 +42,13 @@ void require_consistent(const FormatOptions& options) {
 
 std::optional<FileId> read(const std::string& path, Sources& sources) {
     if (path != "-") return sources.load(path);
-    return sources.add("<stdin>", read_descriptor(STDIN_FILENO, "standard input"));
+    return sources.add("<stdin>", read_descriptor(STDIN_FILENO, "standard input", largest_text));
 }
 
 // A file is read as a whole before it is written.
 void rewrite(const std::string& path, const std::string& text) {
-    if (!fs::is_regular_file(path))
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored))
         throw Failure(fmt::format("'{}' is no regular file, so it cannot be rewritten", path),
                       "--stdout or -o FILE says where the text shall go");
     UsedFiles none;

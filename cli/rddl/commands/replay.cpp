@@ -15,6 +15,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -77,10 +79,21 @@ class ChangedFiles {
     bool is_told_ = false;
 };
 
+// Nothing at the end of the input.
+std::optional<std::string> next_answer(LineReader& input, ReplaySession& session) {
+    try {
+        const auto line = input.next();
+        if (!line) return std::nullopt;
+        return session.answer(*line);
+    } catch (const LongLine& line) {
+        return session.refuse(line.what());
+    }
+}
+
 ExitStatus replay(const ReplayCommandOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     UsedFiles used = problem.used;
-    LineReader input(options.input, used);
+    LineReader input(options.input, used, longest_line(TraceFormat(*problem.simulator->problem)));
     LineWriter output(options.output, used);
     ViolationLog log(problem.files, options.load, options.session.preconditions);
     ReplayOptions session_options = options.session;
@@ -96,10 +109,10 @@ ExitStatus replay(const ReplayCommandOptions& options) {
         changed.see_header(header);
     };
     ReplaySession session(*problem.simulator, session_options);
-    while (const auto line = input.next()) output.write(session.answer(*line));
+    while (const auto answer = next_answer(input, session)) output.write(*answer);
     output.finish();
     log.print_total();
-    return is_interrupted() ? interrupted : success;
+    return is_interrupted() ? interrupted_status() : success;
 }
 
 }  // namespace

@@ -250,7 +250,7 @@ ExitStatus run(const RunOptions& options) {
     if (!is_interrupted()) return failed ? diagnosed : success;
     tell("rddl: interrupted after {} of {} episodes\n", summary.episodes,
          options.rollouts.episodes);
-    return interrupted;
+    return interrupted_status();
 }
 
 }  // namespace

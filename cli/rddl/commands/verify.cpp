@@ -122,7 +122,7 @@ ExitStatus verify(const VerifyOptions& options) {
     if (!report.agrees()) return diagnosed;
     if (!report.walk.interrupted) return success;
     tell("rddl: interrupted before all was compared\n");
-    return interrupted;
+    return interrupted_status();
 }
 
 void add_amount_options(Command& command, VerifyOptions& options) {

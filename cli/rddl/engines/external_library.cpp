@@ -15,12 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// An empty name has none, and nor has any where the current folder is gone: who reads the file
+// tells.
+fs::path full_name(const fs::path& path) {
+    std::error_code error;
+    const fs::path full = fs::absolute(path, error);
+    return error ? path : full.lexically_normal();
+}
+
 std::shared_ptr<void> load_library(const fs::path& object) {
     const auto close = [](void* handle) {
         if (handle) dlclose(handle);
     };
     // A path without a slash would be searched for elsewhere.
-    const std::shared_ptr<void> library(dlopen(fs::absolute(object).c_str(), RTLD_NOW | RTLD_LOCAL),
+    const std::shared_ptr<void> library(dlopen(full_name(object).c_str(), RTLD_NOW | RTLD_LOCAL),
                                         close);
     if (library) return library;
     const char* const why = dlerror();
@@ -64,7 +72,7 @@ ExternFiles extern_files(const std::vector<fs::path>& paths) {
         if (path.extension() == ".so")
             files.shared_objects.push_back(path);
         else
-            files.headers.push_back(fs::absolute(path).lexically_normal());
+            files.headers.push_back(full_name(path));
     }
     return files;
 }

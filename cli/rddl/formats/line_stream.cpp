@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -29,8 +30,10 @@ int open_input(const std::string& path) {
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path, UsedFiles& used)
-    : path_(path == "-" ? "standard input" : path), descriptor_(open_input(path)) {
+LineReader::LineReader(const std::string& path, UsedFiles& used, std::size_t longest)
+    : path_(path == "-" ? "standard input" : path),
+      descriptor_(open_input(path)),
+      longest_(longest) {
     used.add(descriptor_);
 }
 
@@ -39,9 +42,13 @@ LineReader::~LineReader() {
 }
 
 std::optional<std::string> LineReader::next() {
+    if (is_within_long_line_ && !leave_out_rest()) return std::nullopt;
     std::size_t searched = begin_;
     while (true) {
         const std::size_t end = buffer_.find('\n', searched);
+        is_within_long_line_ = std::min(end, buffer_.size()) - begin_ > longest_;
+        if (is_within_long_line_)
+            throw LongLine(fmt::format("the line has more than {} bytes", longest_));
         if (end != std::string::npos) {
             std::string line = buffer_.substr(begin_, end - begin_);
             begin_ = end + 1;
@@ -54,6 +61,23 @@ std::optional<std::string> LineReader::next() {
     }
     if (buffer_.empty() || is_interrupted()) return std::nullopt;
     return std::exchange(buffer_, {});  // a last line without a line break
+}
+
+// Up to its line break; false if the input ends before. A device has neither.
+bool LineReader::leave_out_rest() {
+    constexpr std::size_t endless = std::size_t{1} << 32;
+    for (std::size_t left_out = 0; left_out < endless; left_out += buffer_.size()) {
+        const std::size_t end = buffer_.find('\n', begin_);
+        is_within_long_line_ = end == std::string::npos;
+        if (!is_within_long_line_) {
+            begin_ = end + 1;
+            return true;
+        }
+        buffer_.clear();
+        begin_ = 0;
+        if (!fill()) return false;
+    }
+    throw Failure(fmt::format("cannot read '{}': it has a line without end", path_));
 }
 
 bool LineReader::fill() {

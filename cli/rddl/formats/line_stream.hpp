@@ -9,25 +9,34 @@
 
 namespace rddlc::cli {
 
+// A line is longer than any that means something. It is left out: the next one can be read.
+struct LongLine : Failure {
+    using Failure::Failure;
+};
+
 class LineReader {
   public:
     // "-" is standard input. Fails if the file cannot be opened, and later if it cannot be read, as
-    // a folder. `used` gets the file.
-    LineReader(const std::string& path, UsedFiles& used);
+    // a folder. `used` gets the file. Lines have at most `longest` bytes.
+    LineReader(const std::string& path, UsedFiles& used, std::size_t longest);
     ~LineReader();
     LineReader(const LineReader&) = delete;
     LineReader& operator=(const LineReader&) = delete;
 
-    // Without its line break; nothing at the end of the input and on an interrupt.
+    // Without its line break; nothing at the end of the input and on an interrupt. Throws a
+    // LongLine as soon as the line is too long; fails if one has no end.
     std::optional<std::string> next();
 
   private:
     bool fill();
+    bool leave_out_rest();
 
     std::string path_;
     int descriptor_;
+    std::size_t longest_;
     std::string buffer_;
     std::size_t begin_ = 0;  // of what is not yet given out
+    bool is_within_long_line_ = false;
 };
 
 class LineWriter {

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <map>
 #include <set>
+#include <string_view>
 
 namespace rddlc::cli {
 
@@ -29,6 +32,26 @@ std::set<std::string> hashes_of(const nlohmann::json& header) {
     for (const auto& file : *files)
         if (file.is_object()) hashes.insert(text_of(file, "sha256"));
     return hashes;
+}
+
+// Bytes of its longest name.
+std::size_t longest_object(const rddl_type& type) {
+    std::size_t longest = 0;
+    for (std::int64_t i = 0; i < type.object_count; ++i)
+        longest = std::max(longest, std::string_view(type.objects[i]).size());
+    return longest;
+}
+
+std::size_t longest_values(const RecordLayout& layout) {
+    constexpr std::size_t longest_number = 24;
+    std::map<const rddl_type*, std::size_t> of_type{{nullptr, longest_number}};
+    std::size_t bytes = 0;
+    for (const RecordEntry& entry : layout.entries()) {
+        if (!of_type.contains(entry.objects))
+            of_type[entry.objects] = longest_object(*entry.objects);
+        bytes += entry.name.size() + of_type[entry.objects];
+    }
+    return bytes;
 }
 
 }  // namespace
@@ -56,7 +79,8 @@ std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
     std::vector<std::filesystem::path> changed;
     for (const auto& file : files) {
         // What came through a pipe cannot be read again.
-        const bool is_readable = std::filesystem::is_regular_file(file);
+        std::error_code ignored;
+        const bool is_readable = std::filesystem::is_regular_file(file, ignored);
         if (is_readable && !known.empty() && !known.contains(sha256_of_file(file)))
             changed.push_back(file);
     }
@@ -87,6 +111,14 @@ std::string causes_json(std::uint8_t causes) {
     add(RDDL_TRUNCATED_INVARIANT, "invariant");
     add(RDDL_FAULTED, "fault");
     return '[' + out + ']';
+}
+
+std::size_t longest_line(const TraceFormat& format) {
+    constexpr std::size_t all_else = std::size_t{1} << 20;  // a header's names of files, too
+    constexpr std::size_t margin = 4;
+    const std::size_t states = 2 * longest_values(format.state);  // this one and the next
+    return all_else +
+           margin * (states + longest_values(format.action) + longest_values(format.observation));
 }
 
 TraceLines::TraceLines(const rddl_simulator& simulator, const TraceFormat& format,

@@ -50,6 +50,10 @@ struct TraceFormat {
     RecordLayout state, action, observation;
 };
 
+// How many bytes a line with records of the problem has at most, as it is written here or by
+// others, with blanks and more digits.
+std::size_t longest_line(const TraceFormat& format);
+
 // The lines of a batch's episodes while they run side by side.
 class TraceLines {
   public:

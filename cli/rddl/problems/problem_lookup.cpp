@@ -57,9 +57,24 @@ void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
     problem.name = fmt::format("{}", fmt::join(parts, "_"));
 }
 
+bool is_there(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(file, ignored);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
 std::vector<std::string> instances_in(const fs::path& folder) {
+    std::error_code error;
+    const fs::directory_iterator files(folder, error);
+    if (error)
+        throw Failure(
+            fmt::format("cannot read '{}': {}", folder.string(), std::strerror(error.value())));
     std::vector<std::string> all;
-    for (const auto& file : fs::directory_iterator(folder))
+    for (const auto& file : files)
         if (const auto instance = instance_of(file.path())) all.push_back(*instance);
     std::sort(all.begin(), all.end(), instance_before);
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -70,7 +85,7 @@ RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) 
     RepositoryProblem problem;
     problem.folder = folder;
     const fs::path description = folder / "__init__.py";
-    auto info = read_python_info(fs::exists(description) ? read_file(description) : "");
+    auto info = read_python_info(is_there(description) ? read_file(description) : "");
     problem.name = info["name"];
     problem.context = info["context"];
     problem.description = info["description"];
@@ -111,14 +126,13 @@ ProblemFiles find_in_folder(const fs::path& folder, const std::string& instance)
 }
 
 ProblemFiles find_paths(const std::string& domain, const std::string& instance) {
-    std::error_code ignored;
-    if (fs::is_directory(domain, ignored) && (!is_path(instance) || instance == domain))
+    if (is_folder(domain) && (!is_path(instance) || instance == domain))
         return find_in_folder(domain, instance);
     if (instance.empty()) return {domain, domain, std::nullopt};
-    if (fs::is_directory(domain, ignored))
+    if (is_folder(domain))
         throw Failure(fmt::format("'{}' is a folder, and '{}' a file", domain, instance),
                       "name two files, DOMAIN INSTANCE, or a folder and the number of an instance");
-    if (fs::exists(domain, ignored) && !is_path(instance))
+    if (is_there(domain) && !is_path(instance))
         throw Failure(
             fmt::format("there is no instance file '{}'", instance),
             fmt::format("'{}' is a file, so name the file of its instance; numbers are of "
@@ -143,11 +157,11 @@ std::vector<fs::path> ProblemFiles::all() const {
 
 fs::path RepositoryProblem::instance_file(std::string_view instance) const {
     const fs::path file = folder / fmt::format("instance{}.rddl", instance);
-    return instance == "1" && !fs::exists(file) ? folder / "instance.rddl" : file;
+    return instance == "1" && !is_there(file) ? folder / "instance.rddl" : file;
 }
 
 Repository scan_repository(const fs::path& folder) {
-    const fs::path archive = fs::is_directory(folder / "archive") ? folder / "archive" : folder;
+    const fs::path archive = is_folder(folder / "archive") ? folder / "archive" : folder;
     Repository repository{archive, {}};
     const auto options = fs::directory_options::skip_permission_denied |
                          fs::directory_options::follow_directory_symlink;
@@ -163,7 +177,7 @@ Repository scan_repository(const fs::path& folder) {
 
 std::optional<Repository> find_repository() {
     if (const char* const given = std::getenv("RDDL_REPOSITORY"); given && *given) {
-        if (!fs::is_directory(given))
+        if (!is_folder(given))
             throw Failure(fmt::format("RDDL_REPOSITORY is '{}', which is not a folder", given));
         return scan_repository(given);
     }
@@ -211,7 +225,7 @@ RepositoryProblem problem_in(const fs::path& folder) {
     problem.name = folder.string();
     problem.folder = folder;
     problem.instances = instances_in(folder);
-    if (!fs::exists(problem.domain_file()))
+    if (!is_there(problem.domain_file()))
         throw Failure(fmt::format("there is no domain.rddl in '{}'", problem.name),
                       "name the files: DOMAIN INSTANCE");
     return problem;
@@ -238,9 +252,10 @@ ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view in
 }
 
 bool is_path(const std::string& text) {
-    std::error_code ignored;
-    return text.ends_with(".rddl") || text.find('/') != std::string::npos ||
-           fs::exists(text, ignored);
+    if (text.ends_with(".rddl") || text.find('/') != std::string::npos) return true;
+    // A link that goes round in a circle is there, too.
+    std::error_code error;
+    return fs::status(text, error).type() != fs::file_type::not_found;
 }
 
 ProblemFiles find_files(const std::string& first, const std::string& second) {

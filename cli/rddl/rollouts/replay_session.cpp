@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace rddlc::cli {
 
@@ -118,9 +119,10 @@ ReplaySession::ReplaySession(const rddl_simulator& simulator, ReplayOptions opti
 std::string ReplaySession::answer(std::string_view line) {
     ++line_;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
+    const bool is_first = !std::exchange(has_begun_, true);
     std::string message;
     try {
-        return answer_object(parse_json(line));
+        return answer_object(parse_json(line), is_first);
     } catch (const json::exception& error) {
         message = message_of(error);
     } catch (const RepeatedMember& error) {
@@ -132,13 +134,24 @@ std::string ReplaySession::answer(std::string_view line) {
     } catch (const Failure& failure) {  // such as a lack of memory: the next line may need less
         message = failure.what();
     }
+    return error_line(message);
+}
+
+std::string ReplaySession::refuse(std::string_view why) {
+    ++line_;
+    has_begun_ = true;
+    return error_line(why);
+}
+
+std::string ReplaySession::error_line(std::string_view message) const {
     std::string out = R"({"error":)";
     write_string(out, message);
     return out + fmt::format(",\"line\":{}}}\n", line_);
 }
 
-std::string ReplaySession::answer_object(const json& line) {
+std::string ReplaySession::answer_object(const json& line, bool is_first) {
     if (line.is_object() && line.contains("rddl_trace")) {
+        if (!is_first) throw Refusal{"a trace's header stands before all other lines"};
         read_header(line);
         return {};
     }

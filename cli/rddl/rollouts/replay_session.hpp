@@ -30,7 +30,7 @@ struct ReplayOptions {
     // Tells of a value of a state or action that must not be what it is; the step is made all the
     // same.
     std::function<std::optional<std::string>(const RecordLayout&, const std::byte*)> doubt = {};
-    // Sees the header of each trace that is replayed.
+    // Sees the header of a trace.
     std::function<void(const nlohmann::json&)> see_header = {};
 };
 
@@ -45,9 +45,11 @@ class ReplaySession {
     // `simulator` must outlive the session.
     ReplaySession(const rddl_simulator& simulator, ReplayOptions options);
 
-    // The answer with its line break; empty for blank lines and a trace's header. May throw a
-    // ForeignTrace.
+    // The answer with its line break; empty for blank lines and a trace's header, which stands
+    // before all other lines. May throw a ForeignTrace.
     std::string answer(std::string_view line);
+    // The answer to a line that cannot even be read.
+    std::string refuse(std::string_view why);
 
   private:
     using Record = std::vector<std::byte>;
@@ -62,7 +64,8 @@ class ReplaySession {
         std::optional<std::int64_t> samples;
     };
 
-    std::string answer_object(const nlohmann::json& line);
+    std::string answer_object(const nlohmann::json& line, bool is_first);
+    std::string error_line(std::string_view message) const;
     void read_header(const nlohmann::json& header);
     Request read_request(const nlohmann::json& line) const;
     Record read_state(const nlohmann::json& values, bool fresh) const;
@@ -93,6 +96,7 @@ class ReplaySession {
     std::int64_t horizon_;  // in force; 0: none
     RecordLayout state_layout_, action_layout_, observation_layout_;
     std::int64_t line_ = 0;         // the number of the last one, from 1 on
+    bool has_begun_ = false;        // some line was not blank
     std::int64_t environment_ = 0;  // identity of the one that is stepped
     std::int64_t next_sample_;      // identity of the next environment that draws a sample
     Batch batch_;

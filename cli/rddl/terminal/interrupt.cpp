@@ -1,7 +1,5 @@
 #include "terminal/interrupt.hpp"
 
-#include "support/failure.hpp"
-
 #include <unistd.h>
 
 #include <atomic>
@@ -13,20 +11,25 @@ namespace rddlc::cli {
 namespace {
 
 // A signal handler can reach nothing but globals.
-std::atomic<bool> interrupt_seen = false;
+std::atomic<int> signal_seen = 0;
 std::atomic<std::time_t> first_interrupt = 0;
-static_assert(std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
 static_assert(std::atomic<std::time_t>::is_always_lock_free);
 
 // One Ctrl-C may arrive several times, by way of the process group and of a parent.
 constexpr std::time_t same_interrupt = 1;  // seconds
 
-void on_interrupt(int) {
+int status_of(int signal) {
+    return 128 + signal;
+}
+
+void on_interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
-    if (!interrupt_seen.exchange(true))
+    int none = 0;
+    if (signal_seen.compare_exchange_strong(none, signal))
         first_interrupt = now;
     else if (now - first_interrupt > same_interrupt)
-        _exit(interrupted);
+        _exit(status_of(signal));
 }
 
 }  // namespace
@@ -35,16 +38,23 @@ void catch_interrupts() {
     struct sigaction action {};
     action.sa_handler = on_interrupt;
     // No SA_RESTART: a blocked read returns, so that its caller sees the interrupt.
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction given {};
+        sigaction(signal, nullptr, &given);
+        if (given.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+    }
 }
 
 bool is_interrupted() {
-    return interrupt_seen;
+    return signal_seen != 0;
+}
+
+ExitStatus interrupted_status() {
+    return static_cast<ExitStatus>(status_of(signal_seen));
 }
 
 void give_up_if_interrupted() {
-    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted);
+    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted_status());
 }
 
 }  // namespace rddlc::cli

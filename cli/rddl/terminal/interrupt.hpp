@@ -1,13 +1,19 @@
 // Ctrl-C as a question that long work asks itself.
 #pragma once
 
+#include "support/failure.hpp"
+
 namespace rddlc::cli {
 
-// From now on the first Ctrl-C (or SIGTERM) only makes `is_interrupted` true; one more,
-// a little later, ends the process at once.
+// From now on the first Ctrl-C (or SIGTERM, or the SIGHUP of a terminal that is closed) only makes
+// `is_interrupted` true; one more, a little later, ends the process at once. Signals that whoever
+// started this process has it ignore, as nohup does, stay ignored.
 void catch_interrupts();
 
 bool is_interrupted();
+
+// With which to end then: 128 and the number of the signal, 130 for Ctrl-C.
+ExitStatus interrupted_status();
 
 // While something is compiled: throws a Failure. Ctrl-C reaches the compiler, too, which then ends
 // as if it had failed.

@@ -130,7 +130,7 @@ std::vector<RecordedState> read_states(const std::filesystem::path& file,
     const RecordLayout states(problem, RDDL_STATE), actions(problem, RDDL_ACTION);
     const auto* const defaults = static_cast<const std::byte*>(problem.default_action);
     UsedFiles used;
-    LineReader reader(file.string(), used);
+    LineReader reader(file.string(), used, longest_line(TraceFormat(problem)));
     std::vector<RecordedState> recorded;
     std::int64_t number = 0;
     const auto refuse = [&](const std::string& why) {
@@ -138,8 +138,16 @@ std::vector<RecordedState> read_states(const std::filesystem::path& file,
                       "lines are those of a trace (rddl run P --trace FILE) or of rddl replay: "
                       "docs/traces.md");
     };
-    while (const auto text = reader.next()) {
+    const auto next_line = [&]() -> std::optional<std::string> {
         ++number;
+        try {
+            return reader.next();
+        } catch (const LongLine& line) {
+            refuse(line.what());
+        }
+        return std::nullopt;
+    };
+    while (const auto text = next_line()) {
         if (text->find_first_not_of(" \t\r") == std::string::npos) continue;
         const json line = read_line(*text, refuse);
         if (line.contains("rddl_trace")) {
