@@ -1,7 +1,7 @@
 // What an update learns from: all steps of all environments between two updates.
 #pragma once
 
-#include "solvers/ppo/choosing.hpp"
+#include "solvers/choosing/choosing.hpp"
 #include "solvers/ppo/loss.hpp"
 #include "solvers/ppo/model.hpp"
 

@@ -2,6 +2,7 @@
 // details of S. Huang et al., "The 37 implementation details of PPO", 2022.
 #pragma once
 
+#include "solvers/choosing/choosing.hpp"
 #include "solvers/spaces/observations.hpp"
 
 #include <cstdint>
@@ -13,7 +14,6 @@
 namespace rddlc::solvers {
 
 enum class LearningRate { Constant, Linear, Kl };  // Kl: changed so that the policy moves evenly
-enum class Noise { White, Ar1 };                   // Ar1: of reals, correlated in time
 
 struct PpoOptions {
     std::int64_t steps = 1'000'000;  // of all environments together

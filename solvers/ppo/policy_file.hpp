@@ -1,8 +1,8 @@
 // Policies of PPO as JSON (docs/solvers.md describes it), and as policies.
 #pragma once
 
+#include "solvers/choosing/choosing.hpp"
 #include "solvers/policies/policy.hpp"
-#include "solvers/ppo/choosing.hpp"
 #include "solvers/ppo/model.hpp"
 
 #include <cstdint>

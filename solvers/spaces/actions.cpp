@@ -231,7 +231,7 @@ ActionSpace action_space(const rddl_simulator& simulator) {
     else if (bites && !space.categories.empty())
         add_masks_of_categories(space, simulator, columns);
     space.masked = space.picks > 0 || !space.logit_of_mask.empty();
-    space.may_be_illegal = problem.precondition_count > 0;
+    space.may_be_illegal = bites;
     if (space.output_count() == 0 || space.logit_count == 1)
         throw Failure(
             "there is nothing to choose in this problem: it has no action but the default");

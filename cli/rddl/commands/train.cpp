@@ -3,6 +3,9 @@
 #include "commands/options.hpp"
 #include "formats/statistics.hpp"
 #include "learning/training.hpp"
+#include "solvers/cgp/formula.hpp"
+#include "solvers/cgp/policy_file.hpp"
+#include "solvers/cgp/search.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 #include "support/files.hpp"
@@ -266,6 +269,148 @@ Command ppo_command() {
     return command;
 }
 
+// --------------------------------------------------------------------------------------- CGP
+
+struct TrainCgpOptions : TrainOptions {
+    solvers::CgpOptions cgp;
+    std::vector<std::string> functions;
+};
+
+ExitStatus train_cgp(const TrainCgpOptions& options) {
+    const LoadedProblem problem = load_problem(options.problem.files(), options.load);
+    const rddl_simulator& simulator = *problem.simulator;
+    solvers::CgpOptions cgp = options.cgp;
+    cgp.seed = options.training.seed;
+    if (!options.functions.empty()) cgp.functions = solvers::functions_named(options.functions);
+    solvers::CgpSearch search(simulator, cgp);
+    // So many at once that to look at what came of them costs nothing.
+    const std::int64_t some = std::clamp<std::int64_t>(cgp.generations / 200, 1, 50);
+    const auto left = [&] {
+        return cgp.generations - search.progress().generations;
+    };
+    Trainee trainee;
+    trainee.solver = "cgp";
+    trainee.update = [&] {
+        search.run(std::min(some, left()));
+    };
+    trainee.done = [&] {
+        return left() <= 0;
+    };
+    trainee.steps = [&] {
+        return search.progress().generations;
+    };
+    trainee.part_done = [&] {
+        return static_cast<double>(search.progress().generations) /
+               static_cast<double>(cgp.generations);
+    };
+    trainee.row = [&]() -> Row {
+        const solvers::CgpProgress& p = search.progress();
+        return {{"search/evaluations", static_cast<double>(p.evaluations)},
+                {"time/evaluations_per_second",
+                 static_cast<double>(p.evaluations) / std::max(p.seconds, 1e-9)},
+                {"search/best", p.best.value},
+                {"search/best_steps", p.best.steps},
+                {"search/best_nodes", static_cast<double>(p.best.nodes)},
+                {"search/mean_of_children", p.mean_of_children},
+                {"search/father_replaced", p.replaced ? 1.0 : 0.0},
+                {"search/restarts", static_cast<double>(p.restarts)}};
+    };
+    trainee.status = [&] {
+        const solvers::CgpProgress& p = search.progress();
+        return fmt::format(
+            "gen {}  {} evaluations/s  {} in {} steps  nodes {}  {}", p.generations,
+            rate_text(static_cast<double>(p.evaluations) / std::max(p.seconds, 1e-9)),
+            number_text(p.best.value), number_text(p.best.steps), p.best.nodes,
+            solvers::short_formula(solvers::simplified(search.best()), search.scope(), 60));
+    };
+    trainee.save = [&] {
+        return search.save();
+    };
+    trainee.load = [&](std::string_view bytes) {
+        search.load(bytes);
+    };
+    trainee.policy_text = [&] {
+        return solvers::program_text(simulator, search.scope(), search.best());
+    };
+    trainee.policy = [&] {
+        const auto found = std::make_shared<solvers::FoundProgram>(
+            solvers::FoundProgram{search.scope(), search.best()});
+        return solvers::program_policy(simulator, found, "cgp");
+    };
+    trainee.best_known = [&] {
+        return search.progress().best.value;
+    };
+    const ExitStatus status = run_training(options, simulator, trainee);
+    if (!options.training.quiet)
+        fmt::print("{}", solvers::formula_text(solvers::simplified(search.best()), search.scope()));
+    return status;
+}
+
+void add_cgp_options(Command& command, TrainCgpOptions& options) {
+    using namespace solvers;
+    CgpOptions& cgp = options.cgp;
+    add_number_option<std::int64_t>(command, "--gens", "N", "Generations (1000)", cgp.generations,
+                                    1, std::int64_t{1} << 40);
+    add_number_option(command, "--lambda", "N",
+                      "Children (32, or 8 where anything is drawn at random)", cgp.children, 1,
+                      1 << 16);
+    add_number_option(command, "--cols", "N", "Nodes (100)", cgp.nodes, 1, 1 << 20);
+    add_number_option(command, "--constants", "N", "Constants (4)", cgp.constants, 0, 1 << 10);
+    add_number_option(command, "--levels-back", "N", "How far back a node reads; 0 (default): all",
+                      cgp.levels_back, 0, 1 << 20);
+    add_choice_option<Mutation>(
+        command, "--mutation", "HOW",
+        "single (default): until one gene that counts is another; gene: each with a probability",
+        cgp.mutation, {{"single", Mutation::Single}, {"gene", Mutation::Gene}});
+    add_list_option(command, "--functions", "NAME,...",
+                    "Functions, or groups of them: arith, trig, logic (default: these), round",
+                    [&options](const std::string& name) { options.functions.push_back(name); });
+    add_number_option(command, "--episodes", "N",
+                      "Of each program (1, or 16 where anything is drawn at random)", cgp.episodes,
+                      1, 1 << 20);
+    add_choice_option<Measure>(command, "--fitness", "WHAT",
+                               "Of the returns: mean (default), median, min, or cvar: the mean of "
+                               "the worst fifth",
+                               cgp.measure,
+                               {{"mean", Measure::Mean},
+                                {"median", Measure::Median},
+                                {"min", Measure::Minimum},
+                                {"cvar", Measure::WorstFifth}});
+    add_number_option<std::int64_t>(command, "--restart", "N",
+                                    "Begin anew after so many generations without progress (300)",
+                                    cgp.restart_after, 0, std::int64_t{1} << 40);
+    add_choice_option<Lifting>(
+        command, "--lifted", "WHEN",
+        "One program for all objects: auto (default: where an action has "
+        "objects), on, off",
+        cgp.lifting, {{"auto", Lifting::Auto}, {"on", Lifting::On}, {"off", Lifting::Off}});
+    add_flag(command, "--time-input", "Programs read how much of the episode is over", cgp.time);
+    add_number_option(command, "--islands", "N", "Populations (1)", cgp.islands, 1, 1 << 12);
+    add_number_option<std::int64_t>(command, "--migrate", "N",
+                                    "Generations between migrations (50)", cgp.migrate_every, 0,
+                                    std::int64_t{1} << 40);
+    add_number_option(command, "--threads", "T", "Threads, for islands (1)", cgp.threads, 1,
+                      most_threads);
+}
+
+Command cgp_command() {
+    const auto options = std::make_shared<TrainCgpOptions>();
+    Command command;
+    command.name = "cgp";
+    command.summary = "Find a formula by Cartesian genetic programming";
+    command.details =
+        "Examples:\n"
+        "  rddl train cgp MountainCar_ippc2023 1 --gens 25 --out runs/c\n"
+        "  rddl train cgp Reservoir_ippc2023 1 --time 60 --islands 2 --threads 2";
+    add_common_options(command, *options);
+    add_cgp_options(command, *options);
+    command.run = [options] {
+        options->load.quiet = options->training.quiet;
+        return train_cgp(*options);
+    };
+    return command;
+}
+
 }  // namespace
 
 Command train_command() {
@@ -273,7 +418,7 @@ Command train_command() {
     command.name = "train";
     command.summary = "Learn a policy";
     command.details = "'rddl help train ppo' tells all options.";
-    command.commands = {ppo_command()};
+    command.commands = {ppo_command(), cgp_command()};
     return command;
 }
 

@@ -1,5 +1,6 @@
 #include "learning/learned_policy.hpp"
 
+#include "solvers/cgp/policy_file.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
@@ -29,6 +30,9 @@ solvers::Policy learned_policy(const rddl_simulator& simulator, const std::files
     const std::filesystem::path file = file_of(path);
     const std::string text = read_file(file);
     try {
+        if (text.starts_with("rddl-cgp"))
+            return solvers::program_policy(simulator, solvers::read_program(simulator, text),
+                                           path.string());
         return solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random,
                                    seed, path.string());
     } catch (const Failure& failure) {

@@ -40,7 +40,9 @@ class Training {
             trainee_.update();
             const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
                                                          static_cast<double>(options_.evaluations);
-            if (due) evaluate();
+            const bool promises = options_.stop_return && trainee_.best_known &&
+                                  trainee_.best_known() >= *options_.stop_return;
+            if (due || promises) evaluate();
             log();
             show(false);
             stops = is_interrupted() || out_of_time() || result_.reached;

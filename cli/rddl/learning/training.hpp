@@ -30,6 +30,7 @@ struct Trainee {
     std::function<std::string()> save;    // checkpoints
     std::function<void(std::string_view)> load;
     std::function<std::string()> policy_text;  // what a policy file holds,
+    std::function<double()> best_known;        // what it takes for the best return; may be empty
     std::function<solvers::Policy()> policy;   // and the policy itself
 };
 

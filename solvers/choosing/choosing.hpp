@@ -1,7 +1,6 @@
 // From the outputs of a policy's network to actions: at random as it says, or the likeliest.
 #pragma once
 
-#include "solvers/ppo/options.hpp"
 #include "solvers/spaces/actions.hpp"
 
 #include <rddl/simulator.h>
@@ -12,7 +11,11 @@
 
 namespace rddlc::solvers {
 
-// Where what was chosen for n environments goes: rows as in Samples.
+enum class Noise { White, Ar1 };  // of reals; Ar1: correlated in time
+
+// Where what was chosen for n environments goes: rows of the action space's
+// real_count numbers and shifts (by how much noise of the step before moved the mean), a spread
+// (the part of the deviation that is noise of this step), index_count indices and mask_size bytes.
 struct Chosen {
     float* numbers;
     float* shifts;

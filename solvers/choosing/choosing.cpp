@@ -1,6 +1,6 @@
-#include "solvers/ppo/choosing.hpp"
+#include "solvers/choosing/choosing.hpp"
 
-#include "solvers/ppo/loss.hpp"
+#include "solvers/choosing/probabilities.hpp"
 #include "solvers/spaces/mending.hpp"
 
 #include <rddl/philox.hpp>
