@@ -7,9 +7,10 @@ namespace rddlc::solvers {
 
 // Cornish and Fisher's expansion (Abramowitz and Stegun 26.7.5) with exact values where it is poor.
 double student_quantile(std::int64_t degrees_of_freedom) {
-    constexpr double exact[] = {12.7062, 4.3027, 3.1824, 2.7764};
+    constexpr double exact[] = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
+                                2.4469,  2.3646, 2.3060, 2.2622, 2.2281};
     if (degrees_of_freedom < 1) return 0;
-    if (degrees_of_freedom <= 4) return exact[degrees_of_freedom - 1];
+    if (degrees_of_freedom <= 10) return exact[degrees_of_freedom - 1];
     const double x = 1.959963985, n = static_cast<double>(degrees_of_freedom);
     const double x3 = x * x * x, x5 = x3 * x * x, x7 = x5 * x * x;
     return x + (x3 + x) / (4 * n) + (5 * x5 + 16 * x3 + 3 * x) / (96 * n * n) +

@@ -32,31 +32,6 @@ std::vector<rddl_column> action_columns(const rddl_simulator& simulator) {
     return columns;
 }
 
-// Whether any of some random actions violates a precondition in the states that they lead to.
-bool preconditions_bite(const rddl_simulator& simulator) {
-    constexpr std::int64_t environments = 16, steps = 40;
-    const rddl_problem& problem = *simulator.problem;
-    if (problem.precondition_count == 0) return false;
-    rddl_batch_options options{};
-    options.environment_count = environments;
-    options.thread_count = 1;
-    options.autoreset = RDDL_AUTORESET_SAME_STEP;
-    const Batch batch = create_batch(simulator, options);
-    RandomPolicy policy(problem, 0);
-    const auto size = static_cast<std::size_t>(problem.action_size);
-    std::vector<std::byte> actions(environments * size);
-    std::vector<std::int32_t> violated(environments);
-    for (std::int64_t step = 0; step < steps; ++step) {
-        for (std::int64_t e = 0; e < environments; ++e)
-            policy.act(e, step, actions.data() + static_cast<std::size_t>(e) * size);
-        simulator.violated_preconditions(batch.get(), actions.data(), violated.data());
-        if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
-            return true;
-        simulator.step(batch.get(), actions.data(), nullptr);
-    }
-    return false;
-}
-
 // The mean size of the reals in the initial state, at least 1: what an unbounded action, of which
 // nothing else is known, is measured in.
 double typical_size(const rddl_simulator& simulator) {
@@ -199,6 +174,44 @@ void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator
     }
 }
 
+// Whether any of some random actions, reals among them of the size that a learner begins with,
+// violates a precondition in the states that they lead to.
+bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
+                        const ActionRecords& records) {
+    constexpr std::int64_t environments = 16, steps = 40;
+    const rddl_problem& problem = *simulator.problem;
+    if (problem.precondition_count == 0) return false;
+    rddl_batch_options options{};
+    options.environment_count = environments;
+    options.thread_count = 1;
+    options.autoreset = RDDL_AUTORESET_SAME_STEP;
+    const Batch batch = create_batch(simulator, options);
+    RandomPolicy policy(problem, 0);
+    std::vector<std::byte> actions(environments * records.record_size());
+    std::vector<float> values(static_cast<std::size_t>(space.column_count));
+    std::vector<std::int32_t> violated(environments);
+    for (std::int64_t step = 0; step < steps; ++step) {
+        for (std::int64_t e = 0; e < environments; ++e) {
+            std::byte* const action =
+                actions.data() + static_cast<std::size_t>(e) * records.record_size();
+            policy.act(e, step, action);
+            records.read(action, values.data());
+            double number = -2 + 4 * static_cast<double>((e * 7 + step * 3) % 16) / 15;
+            for (const RealHead& head : space.reals) {
+                values[static_cast<std::size_t>(head.column)] =
+                    static_cast<float>(real_value(head, number));
+                number = -number + 0.1;
+            }
+            records.write(values.data(), action);
+        }
+        simulator.violated_preconditions(batch.get(), actions.data(), violated.data());
+        if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
+            return true;
+        simulator.step(batch.get(), actions.data(), nullptr);
+    }
+    return false;
+}
+
 double softplus(double x) {
     return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
 }
@@ -222,7 +235,7 @@ ActionSpace action_space(const rddl_simulator& simulator) {
             space.reals.push_back(real_head(simulator, records, space, columns[c], index));
     }
 
-    const bool bites = preconditions_bite(simulator);
+    const bool bites = preconditions_bite(simulator, space, records);
     const std::int64_t limit =
         problem.max_nondef_actions < 0 ? space.column_count : problem.max_nondef_actions;
     const bool coupled = bites && space.reals.empty() && space.categories.size() > 1;
