@@ -2,12 +2,8 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/statistics.hpp"
-#include "learning/training.hpp"
-#include "solvers/cgp/formula.hpp"
-#include "solvers/cgp/policy_file.hpp"
-#include "solvers/cgp/search.hpp"
-#include "solvers/ppo/policy_file.hpp"
-#include "solvers/ppo/trainer.hpp"
+#include "solvers/cgp/trainee.hpp"
+#include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -27,7 +23,7 @@ namespace {
 struct TrainOptions {
     ProblemArguments problem;
     LoadOptions load;
-    TrainingOptions training;
+    solvers::TrainingOptions training;
     std::string folder;
 };
 
@@ -47,14 +43,16 @@ void require_an_end(const rddl_problem& problem) {
 }
 
 ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simulator,
-                        const Trainee& trainee) {
-    TrainingOptions training = options.training;
+                        const solvers::Trainee& trainee) {
+    solvers::TrainingOptions training = options.training;
+    training.stops = is_interrupted;
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
-    const TrainingResult result = train(simulator, trainee, training);
+    const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
     if (!training.quiet)
         fmt::print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
                    number_text(result.best_length), duration_text(result.seconds),
                    training.folder.string());
+    if (!training.quiet && trainee.summary) fmt::print("{}", trainee.summary());
     if (!result.interrupted) return success;
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,
          training.folder.string());
@@ -88,78 +86,13 @@ struct TrainPpoOptions : TrainOptions {
     solvers::PpoOptions ppo;
 };
 
-Row ppo_row(const solvers::PpoProgress& progress, double seconds) {
-    const double all = std::max(seconds, 1e-9);
-    const double rollout = std::max(progress.collect_seconds + progress.learn_seconds, 1e-9);
-    return {{"rollout/ep_rew_mean", progress.mean_return},
-            {"rollout/ep_disc_rew_mean", progress.mean_discounted_return},
-            {"rollout/ep_len_mean", progress.mean_length},
-            {"rollout/success_rate", progress.success_rate},
-            {"rollout/mended_actions", progress.mended_rate},
-            {"time/fps", static_cast<double>(progress.steps) / all},
-            {"time/sim_share", progress.simulator_seconds / rollout},
-            {"train/approx_kl", progress.kl},
-            {"train/clip_fraction", progress.clip_fraction},
-            {"train/entropy_loss", -progress.entropy},
-            {"train/explained_variance", progress.explained_variance},
-            {"train/learning_rate", progress.learning_rate},
-            {"train/policy_gradient_loss", progress.policy_loss},
-            {"train/std", progress.deviation},
-            {"train/value_loss", progress.value_loss}};
-}
-
-std::string ppo_status(const solvers::PpoProgress& progress, double seconds) {
-    return fmt::format("{} steps  {} steps/s  return {}  length {:.0f}  kl {:.4f}  ev {:.2f}",
-                       rate_text(static_cast<double>(progress.steps)),
-                       rate_text(static_cast<double>(progress.steps) / std::max(seconds, 1e-9)),
-                       number_text(progress.mean_return), progress.mean_length, progress.kl,
-                       progress.explained_variance);
-}
-
 ExitStatus train_ppo(const TrainPpoOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     require_an_end(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
-    solvers::PpoTrainer trainer(simulator, ppo);
-    double seconds = 0;
-    const auto total = static_cast<double>(ppo.steps);
-    Trainee trainee;
-    trainee.solver = "ppo";
-    trainee.update = [&] {
-        trainer.update();
-        seconds += trainer.progress().collect_seconds + trainer.progress().learn_seconds;
-    };
-    trainee.done = [&] {
-        return trainer.done();
-    };
-    trainee.steps = [&] {
-        return trainer.progress().steps;
-    };
-    trainee.part_done = [&] {
-        return std::min(1.0, static_cast<double>(trainer.progress().steps) / total);
-    };
-    trainee.row = [&] {
-        return ppo_row(trainer.progress(), seconds);
-    };
-    trainee.status = [&] {
-        return ppo_status(trainer.progress(), seconds);
-    };
-    trainee.save = [&] {
-        return trainer.save();
-    };
-    trainee.load = [&](std::string_view bytes) {
-        trainer.load(bytes);
-    };
-    trainee.policy_text = [&] {
-        return solvers::ppo_policy_text(simulator, trainer.model());
-    };
-    trainee.policy = [&] {
-        const auto model = std::make_shared<solvers::PpoModel>(trainer.model());
-        return solvers::ppo_policy(simulator, model, false, ppo.seed, "ppo");
-    };
-    return run_training(options, simulator, trainee);
+    return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo));
 }
 
 template <class Choice>
@@ -282,68 +215,7 @@ ExitStatus train_cgp(const TrainCgpOptions& options) {
     solvers::CgpOptions cgp = options.cgp;
     cgp.seed = options.training.seed;
     if (!options.functions.empty()) cgp.functions = solvers::functions_named(options.functions);
-    solvers::CgpSearch search(simulator, cgp);
-    // So many at once that to look at what came of them costs nothing.
-    const std::int64_t some = std::clamp<std::int64_t>(cgp.generations / 200, 1, 50);
-    const auto left = [&] {
-        return cgp.generations - search.progress().generations;
-    };
-    Trainee trainee;
-    trainee.solver = "cgp";
-    trainee.update = [&] {
-        search.run(std::min(some, left()));
-    };
-    trainee.done = [&] {
-        return left() <= 0;
-    };
-    trainee.steps = [&] {
-        return search.progress().generations;
-    };
-    trainee.part_done = [&] {
-        return static_cast<double>(search.progress().generations) /
-               static_cast<double>(cgp.generations);
-    };
-    trainee.row = [&]() -> Row {
-        const solvers::CgpProgress& p = search.progress();
-        return {{"search/evaluations", static_cast<double>(p.evaluations)},
-                {"time/evaluations_per_second",
-                 static_cast<double>(p.evaluations) / std::max(p.seconds, 1e-9)},
-                {"search/best", p.best.value},
-                {"search/best_steps", p.best.steps},
-                {"search/best_nodes", static_cast<double>(p.best.nodes)},
-                {"search/mean_of_children", p.mean_of_children},
-                {"search/father_replaced", p.replaced ? 1.0 : 0.0},
-                {"search/restarts", static_cast<double>(p.restarts)}};
-    };
-    trainee.status = [&] {
-        const solvers::CgpProgress& p = search.progress();
-        return fmt::format(
-            "gen {}  {} evaluations/s  {} in {} steps  nodes {}  {}", p.generations,
-            rate_text(static_cast<double>(p.evaluations) / std::max(p.seconds, 1e-9)),
-            number_text(p.best.value), number_text(p.best.steps), p.best.nodes,
-            solvers::short_formula(solvers::simplified(search.best()), search.scope(), 60));
-    };
-    trainee.save = [&] {
-        return search.save();
-    };
-    trainee.load = [&](std::string_view bytes) {
-        search.load(bytes);
-    };
-    trainee.policy_text = [&] {
-        return solvers::program_text(simulator, search.scope(), search.best());
-    };
-    trainee.policy = [&] {
-        const auto found = std::make_shared<solvers::FoundProgram>(
-            solvers::FoundProgram{search.scope(), search.best()});
-        return solvers::program_policy(simulator, found, "cgp");
-    };
-    trainee.best_known = [&] {
-        return search.progress().best.value;
-    };
-    const ExitStatus status = run_training(options, simulator, trainee);
-    if (!options.training.quiet)
-        fmt::print("{}", solvers::formula_text(solvers::simplified(search.best()), search.scope()));
-    return status;
+    return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp));
 }
 
 void add_cgp_options(Command& command, TrainCgpOptions& options) {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 // What is known after an update, under the names that Stable-Baselines3 has for it.
 using Row = std::vector<std::pair<std::string, double>>;
@@ -30,8 +30,9 @@ struct Trainee {
     std::function<std::string()> save;    // checkpoints
     std::function<void(std::string_view)> load;
     std::function<std::string()> policy_text;  // what a policy file holds,
+    std::function<std::string()> summary;      // lines about what was learned; may be empty
     std::function<double()> best_known;        // what it takes for the best return; may be empty
-    std::function<solvers::Policy()> policy;   // and the policy itself
+    std::function<Policy()> policy;            // and the policy itself
 };
 
 struct TrainingOptions {
@@ -43,6 +44,7 @@ struct TrainingOptions {
     std::int64_t evaluation_episodes = 20;
     std::uint64_t seed = 0;
     bool quiet = false;
+    std::function<bool()> stops;  // Ctrl-C; may be empty
 };
 
 struct TrainingResult {
@@ -55,7 +57,10 @@ struct TrainingResult {
 // Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
 // events.out.tfevents.rddl, checkpoint. All are written whole or not at all. Throws a Failure where
 // the folder holds another run, or nothing to resume.
+// How many digits people read: "1.5 M", "812".
+std::string count_text(double count);
+
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers

@@ -1,20 +1,17 @@
-#include "learning/training.hpp"
+#include "solvers/training/training.hpp"
 
-#include "formats/statistics.hpp"
-#include "learning/run_log.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
 #include "support/program.hpp"
-#include "terminal/interrupt.hpp"
-#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 namespace {
 
@@ -25,6 +22,14 @@ double seconds_between(Clock::time_point begin, Clock::time_point end) {
 }
 
 constexpr double seconds_between_checkpoints = 10;
+
+// "3.2 s", "4 min 10 s", "2 h 5 min".
+std::string time_text(double seconds) {
+    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(seconds);
+    return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
 
 class Training {
   public:
@@ -45,14 +50,14 @@ class Training {
             if (due || promises) evaluate();
             log();
             show(false);
-            stops = is_interrupted() || out_of_time() || result_.reached;
+            stops = interrupted() || out_of_time() || result_.reached;
             if (!stops && seconds_between(last_saved_, Clock::now()) > seconds_between_checkpoints)
                 save();
         }
         if (!evaluated_ || evaluated_at_ != trainee_.steps()) evaluate();
         show(true);
         save();
-        result_.interrupted = is_interrupted();
+        result_.interrupted = interrupted();
         result_.seconds = elapsed();
         result_.best_return = best_return_;
         result_.best_length = best_length_;
@@ -75,16 +80,17 @@ class Training {
     }
 
     double elapsed() const { return seconds_before_ + seconds_between(begin_, Clock::now()); }
+    bool interrupted() const { return options_.stops && options_.stops(); }
     bool out_of_time() const { return options_.seconds > 0 && elapsed() >= options_.seconds; }
 
     // The likeliest actions, on seeds that are the same for all evaluations.
     void evaluate() {
-        solvers::EpisodeOptions episodes;
+        EpisodeOptions episodes;
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
         if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
-        const solvers::Summary summary =
-            solvers::summary_of(solvers::run_episodes(simulator_, trainee_.policy(), episodes, {}));
+        const Summary summary =
+            summary_of(run_episodes(simulator_, trainee_.policy(), episodes, {}));
         evaluated_ = true;
         evaluated_at_ = trainee_.steps();
         evaluations_ = static_cast<std::int64_t>(trainee_.part_done() *
@@ -124,11 +130,11 @@ class Training {
         const double part = trainee_.part_done(), seconds = elapsed();
         std::string text = fmt::format("{} {} {:3.0f} %  {}", trainee_.solver,
                                        simulator_.problem->instance, 100 * part, trainee_.status());
-        if (evaluated_) text += fmt::format("  best {}", number_text(best_return_));
+        if (evaluated_) text += fmt::format("  best {:.6g}", best_return_);
         if (last)
-            text += fmt::format("  in {}", duration_text(seconds));
+            text += fmt::format("  in {}", time_text(seconds));
         else if (part > 0)
-            text += fmt::format("  {} left", duration_text(seconds * (1 - part) / part));
+            text += fmt::format("  {} left", time_text(seconds * (1 - part) / part));
         tell("{}{}{}", terminal ? "\r\x1b[K" : "", text, terminal && !last ? "" : "\n");
     }
 
@@ -147,7 +153,7 @@ class Training {
         write((std::string("last") + extension).c_str(), trainee_.policy_text());
         write("progress.csv", log_.csv());
         write("events.out.tfevents.rddl", log_.events());
-        solvers::SavingArchive archive;
+        SavingArchive archive;
         archive_all(archive);
         archive(trainee_.save());
         write("checkpoint", archive.bytes());
@@ -157,7 +163,7 @@ class Training {
         const std::filesystem::path path = file("checkpoint");
         const std::string bytes = read_file(path);
         try {
-            solvers::LoadingArchive archive(bytes);
+            LoadingArchive archive(bytes);
             archive_all(archive);
             std::string learner;
             archive(learner);
@@ -199,9 +205,16 @@ class Training {
 
 }  // namespace
 
+std::string count_text(double count) {
+    if (count >= 1e9) return fmt::format("{:.3g} G", count / 1e9);
+    if (count >= 1e6) return fmt::format("{:.3g} M", count / 1e6);
+    if (count >= 1e3) return fmt::format("{:.3g} k", count / 1e3);
+    return fmt::format("{:.3g}", count);
+}
+
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options) {
     return Training(simulator, trainee, options).run();
 }
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers

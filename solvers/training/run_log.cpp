@@ -1,4 +1,4 @@
-#include "learning/run_log.hpp"
+#include "solvers/training/run_log.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::string RunLog::events() const {
     return out;
 }
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers

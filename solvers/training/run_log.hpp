@@ -1,13 +1,13 @@
 // The course of a training: progress.csv and TensorBoard's events.
 #pragma once
 
-#include "learning/training.hpp"
+#include "solvers/training/training.hpp"
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 class RunLog {
   public:
@@ -30,4 +30,4 @@ class RunLog {
     std::vector<double> numbers_;  // row by row: wall time, steps, seconds, the row
 };
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers
