@@ -39,7 +39,7 @@ Command rddl_command() {
     };
     program.commands = {list_command(),   info_command(),     check_command(),   fmt_command(),
                         run_command(),    evaluate_command(), compare_command(), train_command(),
-                        replay_command(), bench_command(),    verify_command()};
+                        export_command(), replay_command(),   bench_command(),   verify_command()};
     return program;
 }
 

@@ -1,5 +1,7 @@
 #include "solvers/training/run_log.hpp"
 
+#include "solvers/files/protocol_buffers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,9 +34,6 @@ std::uint32_t masked_crc(std::string_view bytes) {
     return std::rotr(~crc, 15) + 0xA282EAD8;
 }
 
-void append_little_endian(std::string& out, std::uint64_t number, int bytes) {
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(number >> 8 * i & 0xFF);
-}
 void append_record(std::string& out, const std::string& record) {
     std::string length;
     append_little_endian(length, record.size(), 8);
@@ -42,25 +41,6 @@ void append_record(std::string& out, const std::string& record) {
     append_little_endian(out, masked_crc(length), 4);
     out += record;
     append_little_endian(out, masked_crc(record), 4);
-}
-
-// Fields of protocol buffers.
-void append_varint(std::string& out, std::uint64_t number) {
-    for (; number >= 0x80; number >>= 7) out += static_cast<char>((number & 0x7F) | 0x80);
-    out += static_cast<char>(number);
-}
-void append_bytes(std::string& out, char tag, std::string_view bytes) {
-    out += tag;
-    append_varint(out, bytes.size());
-    out += bytes;
-}
-void append_double(std::string& out, char tag, double value) {
-    out += tag;
-    append_little_endian(out, std::bit_cast<std::uint64_t>(value), 8);
-}
-void append_float(std::string& out, char tag, float value) {
-    out += tag;
-    append_little_endian(out, std::bit_cast<std::uint32_t>(value), 4);
 }
 
 std::string number_text(double value) {
@@ -95,8 +75,8 @@ std::string RunLog::csv() const {
 std::string RunLog::events() const {
     const std::vector<std::string_view> names = lines_of(columns_);
     std::string out, version;
-    append_double(version, 0x09, numbers_.empty() ? 0 : numbers_[0]);
-    append_bytes(version, 0x1A, "brain.Event:2");
+    append_double(version, 1, numbers_.empty() ? 0 : numbers_[0]);
+    append_bytes(version, 3, "brain.Event:2");
     append_record(out, version);
     for (std::size_t row = 0; row + width() <= numbers_.size(); row += width()) {
         std::string summary;
@@ -104,15 +84,14 @@ std::string RunLog::events() const {
             const double number = numbers_[row + 3 + c];
             if (std::isnan(number)) continue;
             std::string value;
-            append_bytes(value, 0x0A, names[c]);
-            append_float(value, 0x15, static_cast<float>(number));
-            append_bytes(summary, 0x0A, value);
+            append_bytes(value, 1, names[c]);
+            append_float(value, 2, static_cast<float>(number));
+            append_bytes(summary, 1, value);
         }
         std::string event;
-        append_double(event, 0x09, numbers_[row]);
-        event += 0x10;
-        append_varint(event, static_cast<std::uint64_t>(numbers_[row + 1]));
-        append_bytes(event, 0x2A, summary);
+        append_double(event, 1, numbers_[row]);
+        append_number(event, 2, static_cast<std::uint64_t>(numbers_[row + 1]));
+        append_bytes(event, 5, summary);
         append_record(out, event);
     }
     return out;

@@ -13,6 +13,7 @@ Command run_command();
 Command evaluate_command();
 Command compare_command();
 Command train_command();
+Command export_command();
 Command replay_command();
 Command bench_command();
 Command verify_command();

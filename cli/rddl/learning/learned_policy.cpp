@@ -9,25 +9,21 @@
 
 namespace rddlc::cli {
 
-namespace {
-
-std::filesystem::path file_of(const std::filesystem::path& path) {
+std::filesystem::path policy_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path)) return path;
     const std::filesystem::path formula = path / "policy.cgp";
     return std::filesystem::exists(formula) ? formula : path / "policy.json";
 }
 
-}  // namespace
-
 bool is_learned_policy(const std::filesystem::path& path) {
-    const std::filesystem::path file = file_of(path);
+    const std::filesystem::path file = policy_file(path);
     return (file.extension() == ".json" || file.extension() == ".cgp") &&
            std::filesystem::exists(file);
 }
 
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
                                bool random, std::uint64_t seed) {
-    const std::filesystem::path file = file_of(path);
+    const std::filesystem::path file = policy_file(path);
     const std::string text = read_file(file);
     try {
         if (text.starts_with("rddl-cgp"))

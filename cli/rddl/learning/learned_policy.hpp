@@ -9,6 +9,9 @@
 
 namespace rddlc::cli {
 
+// The file that holds the policy: the best one of a run's folder.
+std::filesystem::path policy_file(const std::filesystem::path& path);
+
 // A policy file of a solver, or the folder of a run, whose best policy it is.
 bool is_learned_policy(const std::filesystem::path& path);
 // Throws a Failure that names the file. The simulator must outlive the policy.

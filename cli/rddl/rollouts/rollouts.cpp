@@ -1,6 +1,7 @@
 #include "rollouts/rollouts.hpp"
 
 #include "formats/trace.hpp"
+#include "learning/learned_policy.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
 
@@ -37,6 +38,8 @@ solvers::Policy policy_of(const rddl_simulator& simulator, const RolloutOptions&
             return solvers::random_policy(simulator, options.seed);
         case Policy::Noop:
             return solvers::noop_policy(simulator);
+        case Policy::Learned:
+            return learned_policy(simulator, options.learned, false, options.seed);
         case Policy::Rddl:
             break;
     }
@@ -51,6 +54,8 @@ std::string_view name_of(Policy policy) {
             return "random";
         case Policy::Noop:
             return "noop";
+        case Policy::Learned:
+            return "learned";
         case Policy::Rddl:
             break;
     }

@@ -8,6 +8,7 @@
 #include <rddl/simulator.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -20,12 +21,13 @@ using solvers::EpisodeFault;
 using solvers::EpisodeViolation;
 using solvers::Rollouts;
 
-// Rddl: the policy block of the problem, which must have one.
-enum class Policy { Random, Noop, Rddl };
+// Rddl: the policy block of the problem, which must have one. Learned: that of `learned`.
+enum class Policy { Random, Noop, Rddl, Learned };
 std::string_view name_of(Policy policy);  // "random", ...
 
 struct RolloutOptions {
     Policy policy = Policy::Random;
+    std::filesystem::path learned = {};  // a policy file, or the folder of a run
     Preconditions preconditions = Preconditions::Ignore;
     std::int64_t episodes = 1;
     std::uint64_t seed = 0;
