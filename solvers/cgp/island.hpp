@@ -128,7 +128,7 @@ class Island {
         archive(episodes_);
         archive(restarts_);
         archive(confirmed_);
-        archive(best_here_);
+        archive(start_value_);
         archive(deviation_);
     }
 
@@ -225,17 +225,21 @@ class Island {
         const std::vector<Fitness> all = is_noisy() ? race(candidates) : evaluate_all(candidates);
         const std::size_t first = is_noisy() ? 1 : 0;
         if (is_noisy()) fitness_ = all.front();
+        if (!(start_value_ < std::numeric_limits<double>::infinity())) start_value_ = fitness_.value;
         std::size_t best = first;
         double sum = 0, count = 0;
         for (std::size_t c = first; c < all.size(); ++c) {
-            if (beats(all[c], all[best])) best = c;
+            if (is_better(all[c], all[best])) best = c;
             if (std::isfinite(all[c].value)) {
                 sum += all[c].value;
                 count += 1;
             }
         }
         mean_of_children_ = count > 0 ? sum / count : 0;
-        replaced_ = !beats(fitness_, all[best]);
+        // As long as nothing is better than what it began with, programs grow and shrink as they like.
+        const bool saves = options_.parsimony && fitness_.value > start_value_;
+        replaced_ = saves ? !is_better(fitness_, all[best])
+                                       : !beats(fitness_, all[best]);
         const bool improves = beats(all[best], fitness_);
         if (replaced_) {
             father_ = candidates[best];
@@ -308,6 +312,7 @@ class Island {
         father_ = random_genome(shape_, random_);
         stagnation_ = 0;
         restarts_ += 1;
+        start_value_ = std::numeric_limits<double>::infinity();
         if (!is_noisy()) fitness_ = evaluate_all({father_}).front();
     }
 
@@ -322,7 +327,7 @@ class Island {
     bool has_record_ = false, replaced_ = false;
     std::int64_t generations_ = 0, stagnation_ = 0, evaluations_ = 0, episodes_ = 0, restarts_ = 0;
     std::uint64_t confirmed_ = 0;
-    double best_here_ = 0, mean_of_children_ = 0, deviation_ = 0.3;
+    double start_value_ = std::numeric_limits<double>::infinity(), mean_of_children_ = 0, deviation_ = 0.3;
     std::unordered_map<std::uint64_t, Fitness> known_;
 };
 

@@ -37,6 +37,7 @@ struct CgpOptions {
     int islands = 1;
     int threads = 1;
     Lifting lifting = Lifting::Auto;
+    bool parsimony = true;  // of programs that are as good, a smaller one is better
     bool time = false;  // programs read how much of the episode is over
     std::uint64_t seed = 0;
 };

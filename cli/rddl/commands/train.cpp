@@ -256,6 +256,10 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
         "One program for all objects: auto (default: where an action has "
         "objects), on, off",
         cgp.lifting, {{"auto", Lifting::Auto}, {"on", Lifting::On}, {"off", Lifting::Off}});
+    add_choice_option<bool>(command, "--parsimony", "WHEN",
+                            "Whether of programs that are as good a smaller one is better: on "
+                            "(default), off",
+                            cgp.parsimony, {{"on", true}, {"off", false}});
     add_flag(command, "--time-input", "Programs read how much of the episode is over", cgp.time);
     add_number_option(command, "--islands", "N", "Populations (1)", cgp.islands, 1, 1 << 12);
     add_number_option<std::int64_t>(command, "--migrate", "N",
