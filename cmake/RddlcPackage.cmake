@@ -11,6 +11,23 @@ if(TARGET rddlc)
   install(TARGETS rddlc EXPORT rddlcCompilerTargets RUNTIME COMPONENT rddlc)
   install(EXPORT rddlcCompilerTargets NAMESPACE rddlc:: DESTINATION ${package_folder} COMPONENT rddlc)
 endif()
+# Solvers as libraries and as programs (component "solvers").
+if(TARGET rddl_ppo)
+  set(solver_targets rddl_solvers rddl_ppo rddl_cgp rddl_solver_program rddl_ppo_program rddl_cgp_program)
+  foreach(target IN LISTS solver_targets)
+    string(REGEX REPLACE "^rddl_" "" name ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  endforeach()
+  install(TARGETS ${solver_targets} rddlc_support rddlc_options EXPORT rddlcSolverTargets COMPONENT solvers)
+  foreach(folder batches policies evaluation spaces choosing files training network ppo cgp program)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/solvers/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/solvers
+            COMPONENT solvers FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  install(FILES ${PROJECT_SOURCE_DIR}/compiler/support/failure.hpp ${PROJECT_SOURCE_DIR}/compiler/support/memory.hpp
+          ${PROJECT_SOURCE_DIR}/compiler/support/files.hpp
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/support COMPONENT solvers)
+  install(EXPORT rddlcSolverTargets NAMESPACE rddl:: DESTINATION ${package_folder} COMPONENT solvers)
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rddlcConfig.cmake.in
   ${PROJECT_BINARY_DIR}/rddlcConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
@@ -18,5 +35,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/rddlcConfig.cmake
               ${PROJECT_BINARY_DIR}/rddlcConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlAddSimulator.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/RddlAddSolver.cmake
               ${CMAKE_CURRENT_LIST_DIR}/RddlSimulatorFlags.cmake
         DESTINATION ${package_folder} COMPONENT rddlc)

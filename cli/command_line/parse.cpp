@@ -213,10 +213,27 @@ ExitStatus run_declared(const Declared& declared) {
     return declared.command->run();
 }
 
+// `rddl train ppo ...`, or `rddl help train ppo`: a command with commands of its own is a program by
+// itself. Nothing if the words name none.
+std::optional<ExitStatus> run_inner_program(const Command& program, const std::string& version,
+                                            int argc, char** argv) {
+    const bool helps = argc > 2 && std::string_view(argv[1]) == "help";
+    const std::span<char* const> words(argv + 1, static_cast<std::size_t>(std::max(argc - 1, 0)));
+    const Command& found = command_in(program, words.subspan(helps ? 1 : 0));
+    if (&found == &program || found.commands.empty()) return std::nullopt;
+    Command inner = found;
+    inner.name = program.name + " " + found.name;
+    std::vector<char*> rest(argv + 1, argv + argc);
+    if (helps) std::swap(rest[0], rest[1]);
+    if (helps && rest.size() == 2) rest[1] = const_cast<char*>("--help");
+    return run_command_line(inner, version, static_cast<int>(rest.size()), rest.data());
+}
+
 }  // namespace
 
 ExitStatus run_command_line(const Command& program, const std::string& version, int argc,
                             char** argv) {
+    if (const auto status = run_inner_program(program, version, argc, argv)) return *status;
     CLI::App app("", program.name);
     app.set_version_flag("--version", "");
     std::deque<Declared> all;

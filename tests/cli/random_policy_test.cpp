@@ -1,4 +1,4 @@
-#include "rollouts/random_policy.hpp"
+#include "rollouts/random_actions.hpp"
 
 #include "../runtime/tiny_simulator.hpp"
 #include "formats/records_json.hpp"

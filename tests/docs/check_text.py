@@ -73,6 +73,8 @@ class Programs:
             if command not in self.commands():
                 return f"rddl has no command '{command}'"
             command = "" if command == "help" else command
+            if "\nCommands:\n" in self.help(program, command) and command and len(words) > 1:
+                command += " " + words[1].split("|")[0]  # train ppo
         for word in words:
             option = word.split("=")[0].rstrip(",.;:)")
             if re.fullmatch(r"--[a-z][a-z-]*", option) and option not in self.options(program, command):

@@ -1,6 +1,7 @@
 #include "commands/options.hpp"
 
 #include "driver/driver.hpp"
+#include "learning/learned_policy.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +83,7 @@ void add_engine_options(Command& command, LoadOptions& options) {
 namespace {
 
 void choose_policy(const std::string& name, Policy& policy,
-                   std::optional<std::filesystem::path>& file) {
+                   std::optional<std::filesystem::path>& file, std::filesystem::path* learned) {
     for (const Policy each : {Policy::Random, Policy::Noop, Policy::Rddl}) {
         if (name_of(each) != name) continue;
         policy = each;
@@ -92,18 +93,25 @@ void choose_policy(const std::string& name, Policy& policy,
     if (!is_path(name))
         throw UsageError(
             fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
+    if (learned && is_learned_policy(name)) {
+        policy = Policy::Learned;
+        *learned = name;
+        return;
+    }
     policy = Policy::Rddl;
     file = name;
 }
 
 }  // namespace
 
-void add_policy_option(Command& command, Policy& policy,
-                       std::optional<std::filesystem::path>& file) {
+void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
+                       std::filesystem::path* learned) {
     add_option(command, "--policy", "POLICY",
                "random (default): legal random actions; noop: default actions; rddl: the policy "
-               "block of the problem; FILE: the policy block in it",
-               [&](const std::string& name) { choose_policy(name, policy, file); })
+               "block of the problem; FILE: the policy block in it, or what a solver has learned",
+               [&policy, &file, learned](const std::string& name) {
+                   choose_policy(name, policy, file, learned);
+               })
         .suggestions = {"random", "noop", "rddl"};
 }
 

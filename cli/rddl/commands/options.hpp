@@ -63,9 +63,9 @@ void add_cache_option(Command& command, LoadOptions& options);
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
 
-// --policy; of a file its policy block
-void add_policy_option(Command& command, Policy& policy,
-                       std::optional<std::filesystem::path>& file);
+// --policy; of a file its policy block or, where there is a place for it, a learned policy
+void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
+                       std::filesystem::path* learned = nullptr);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);

@@ -273,7 +273,8 @@ Command run_command() {
         "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
         "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl";
     add_problem_arguments(command, options->problem);
-    add_policy_option(command, options->rollouts.policy, options->policy_file);
+    add_policy_option(command, options->rollouts.policy, options->policy_file,
+                      &options->rollouts.learned);
     RolloutOptions& rollouts = options->rollouts;
     add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
                                     1, 100'000'000);

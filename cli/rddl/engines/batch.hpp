@@ -1,32 +1,14 @@
-// Owning a batch of a simulator.
+// Batches of a simulator, as the solvers have them.
 #pragma once
 
-#include "support/failure.hpp"
-
-#include <rddl/simulator.h>
-
-#include <cstdint>
-#include <memory>
+#include "solvers/batches/batch.hpp"
 
 namespace rddlc::cli {
 
-using Batch = std::unique_ptr<rddl_batch, void (*)(rddl_batch*)>;
-
-inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_options& options) {
-    Batch batch(simulator.create(&simulator, &options), simulator.destroy);
-    if (!batch) throw Failure("not enough memory for so many environments", "try a smaller batch");
-    return batch;
-}
-
-// Where users say 0 for no horizon, and problems do.
-inline std::int64_t horizon_option(std::int64_t horizon) {
-    return horizon == 0 ? RDDL_NO_HORIZON : horizon;
-}
-
-// What an environment takes in a batch, with the records that go in and out: at least 1.
-std::int64_t bytes_per_environment(const rddl_simulator& simulator);
-
-// Fails with a sentence if so many environments take more bytes than they may.
-void require_room(const rddl_simulator& simulator, std::int64_t environments, std::int64_t limit);
+using solvers::Batch;
+using solvers::bytes_per_environment;
+using solvers::create_batch;
+using solvers::horizon_option;
+using solvers::require_room;
 
 }  // namespace rddlc::cli

@@ -3,33 +3,18 @@
 
 #include "engines/load_simulator.hpp"
 #include "problems/problem_lookup.hpp"
+#include "solvers/evaluation/preconditions.hpp"
 
-#include <rddl/context.hpp>
-
-#include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace rddlc::cli {
 
-// What becomes of an action that violates a precondition.
-enum class Preconditions {
-    Ignore,  // it is taken, and nobody looks
-    Warn,    // it is taken and reported
-    Error,   // it is refused
-    Noop     // the default action is taken instead, and that is reported
-};
+using solvers::Preconditions;
+using solvers::Violation;
 
 // "refused"
 const char* fate_of_illegal_actions(Preconditions preconditions);
-
-// What a condition was evaluated on.
-struct Violation {
-    std::vector<std::byte> state;
-    std::vector<std::byte> action;             // of a precondition
-    rddl::Context<rddl::Scalar> context = {};  // the random numbers
-};
 
 struct ViolationText {
     std::string place;        // "reservoir.rddl:52:9"

@@ -132,6 +132,7 @@ class Walker {
             case Policy::Noop:
                 leave_defaults();
                 break;
+            case Policy::Learned:  // takes no part in comparisons
             case Policy::Rddl:
                 ask_policies();
                 break;

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 class RandomPolicy {
   public:
@@ -77,4 +77,4 @@ class RandomPolicy {
     std::vector<std::size_t> partners_;  // what was swapped there
 };
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers

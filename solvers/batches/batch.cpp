@@ -1,10 +1,10 @@
-#include "engines/batch.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include "support/memory.hpp"
 
 #include <fmt/format.h>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 // Two states, as a step needs them, and what is known about each episode.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator) {
@@ -25,4 +25,11 @@ void require_room(const rddl_simulator& simulator, std::int64_t environments, st
         "try a smaller batch, fewer threads, or a larger --memory-limit");
 }
 
-}  // namespace rddlc::cli
+std::string fault_text(const rddl_simulator& simulator, const rddl_batch& batch,
+                       std::int64_t environment) {
+    rddl_fault fault{};
+    if (simulator.get_fault(&batch, environment, &fault) != RDDL_OK || !fault.faulty) return {};
+    return fault.message;
+}
+
+}  // namespace rddlc::solvers

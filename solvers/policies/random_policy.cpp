@@ -1,6 +1,4 @@
-#include "rollouts/random_policy.hpp"
-
-#include "formats/records_json.hpp"
+#include "solvers/policies/random_policy.hpp"
 
 #include <rddl/random.hpp>
 
@@ -12,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace rddlc::cli {
+namespace rddlc::solvers {
 
 namespace {
 
@@ -110,7 +108,8 @@ RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, std::int
                 0,
                 0};
     entry.offset = static_cast<std::size_t>(fluent.offset) +
-                   static_cast<std::size_t>(grounding) * scalar_size(fluent.scalar);
+                   static_cast<std::size_t>(grounding) *
+                       static_cast<std::size_t>(fluent.scalar == RDDL_BOOL ? 1 : 8);
     if (fluent.range_type >= 0) {
         entry.kind = Entry::Kind::Int;
         entry.count = static_cast<std::uint64_t>(problem.types[fluent.range_type].object_count);
@@ -242,4 +241,4 @@ void RandomPolicy::draw(const Entry& entry, const Draws& draws, std::size_t numb
     store(action, entry.offset, static_cast<std::int64_t>(std::clamp(inside, -0x1p62, 0x1p62)));
 }
 
-}  // namespace rddlc::cli
+}  // namespace rddlc::solvers

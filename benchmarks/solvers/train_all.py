@@ -1,0 +1,120 @@
+"""Trains PPO and CGP on the problems of rddlrepository and compares them with no-op and random actions.
+
+    benchmarks/solvers/train_all.py --out results.jsonl                     all problems, smallest instance
+    benchmarks/solvers/train_all.py --out ippc2023.jsonl --context ippc2023 --instances 5
+    benchmarks/solvers/train_all.py --out results.jsonl --table             the table of what is there
+
+It can be interrupted at any time: what is in the file already is not done again. --seconds is the time
+that each solver may train, after the problem was compiled.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def run(words, seconds):
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=seconds)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed")
+    return done.stdout
+
+
+def train(rddl, problem, instance, solver, folder, arguments):
+    begin = time.time()
+    run([rddl, "train", solver, problem, instance, "--out", folder / solver, "--seed", arguments.seed,
+         "--time", arguments.seconds, "--quiet", *(["--steps", "1e12"] if arguments.long and solver == "ppo" else []),
+         *(["--gens", "100000000"] if solver == "cgp" else [])], 10 * arguments.seconds + 600)
+    return time.time() - begin
+
+
+def solve(rddl, problem, instance, arguments):
+    result = {"problem": problem, "instance": instance, "seconds": arguments.seconds, "seed": arguments.seed}
+    with tempfile.TemporaryDirectory() as name:
+        folder, policies = Path(name), ["noop", "random"]
+        for solver in "ppo", "cgp":
+            try:
+                result[solver + "_seconds"] = train(rddl, problem, instance, solver, folder, arguments)
+                policies.append(folder / solver)
+            except (RuntimeError, subprocess.TimeoutExpired) as failure:
+                result[solver + "_failure"] = str(failure)
+        compared = json.loads(run([rddl, "compare", problem, instance, "--json", "--policies",
+                                   ",".join(map(str, policies)), "--seed", arguments.seed + 1000,
+                                   "--episodes", arguments.episodes], 600))
+        for policy in compared["policies"]:
+            key = Path(policy["policy"]).name
+            result[key] = [policy["return"]["mean"], policy["return"]["half_width_95"], policy["length"]["mean"]]
+            result[key + "_illegal"] = policy["illegal_actions"]
+    return result
+
+
+def table(results):
+    def cell(result, key):
+        if key not in result:
+            return "-"
+        mean, half_width, _ = result[key]
+        if not isinstance(mean, (int, float)):
+            return str(mean)
+        return f"{mean:.4g} ± {half_width:.2g}" if half_width else f"{mean:.4g}"
+
+    lines = ["| problem | | no-op | random | PPO | CGP |", "|---|---|---|---|---|---|"]
+    good = 0
+    for result in results:
+        if "failure" in result:
+            lines.append(f"| {result['problem']} | {result['instance']} | {result['failure']} | | | |")
+            continue
+        lines.append(f"| {result['problem']} | {result['instance']} | " + " | ".join(
+            cell(result, key) for key in ("noop", "random", "ppo", "cgp")) + " |")
+        floor = max(result[k][0] for k in ("noop", "random") if isinstance(result[k][0], (int, float)))
+        best = max((result[k][0] for k in ("ppo", "cgp") if k in result), default=float("-inf"))
+        good += best >= floor - 1e-9 - 1e-3 * abs(floor)
+    lines.append(f"\n{good} of {len(results)} at least as good as the better of no-op and random.")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--context", help="only problems of this context, such as ippc2023")
+    parser.add_argument("--only", help="only problems whose names contain this")
+    parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--episodes", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--long", action="store_true", help="PPO uses all of the time, with a constant plan")
+    parser.add_argument("--table", action="store_true", help="print what is there")
+    arguments = parser.parse_args()
+    lines = arguments.out.read_text().splitlines() if arguments.out.exists() else []
+    results = [json.loads(line) for line in lines]
+    if arguments.table:
+        print(table(results))
+        return 0
+    done = {(result["problem"], result["instance"]) for result in results}
+    problems = json.loads(run([arguments.rddl, "list", "--json"], 600))
+    for problem in problems:
+        if arguments.context and problem["context"] != arguments.context:
+            continue
+        if arguments.only and arguments.only not in problem["name"]:
+            continue
+        for instance in problem["instances"][:arguments.instances]:
+            if (problem["name"], instance) in done:
+                continue
+            try:
+                result = solve(arguments.rddl, problem["name"], instance, arguments)
+            except (RuntimeError, subprocess.TimeoutExpired) as failure:
+                result = {"problem": problem["name"], "instance": instance, "failure": str(failure)}
+            with arguments.out.open("a") as file:
+                file.write(json.dumps(result) + "\n")
+            print(json.dumps(result), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,206 @@
+// rddl evaluate and rddl compare: what policies earn, with confidence intervals, on the same seeds.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "formats/json_text.hpp"
+#include "formats/records_json.hpp"
+#include "formats/statistics.hpp"
+#include "formats/table.hpp"
+#include "learning/learned_policy.hpp"
+#include "solvers/evaluation/summary.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/progress.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct EvaluationOptions {
+    ProblemArguments problem;
+    LoadOptions load;
+    std::vector<std::string> policies;
+    std::optional<std::filesystem::path> policy_block;
+    solvers::EpisodeOptions episodes;
+    bool random = false;  // learned policies act at random, as they do while they learn
+    bool json = false;
+};
+
+struct Evaluation {
+    std::string policy;
+    solvers::Summary summary;
+    double seconds = 0;
+    std::int64_t steps = 0;
+};
+
+Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
+                    const EvaluationOptions& options) {
+    const solvers::Policy policy =
+        policy_named(simulator, name, options.random, options.episodes.seed);
+    const std::int64_t steps = solvers::steps_at_most(simulator, options.episodes);
+    Progress bar(name, options.episodes.episodes * std::max<std::int64_t>(steps, 1), !options.json);
+    const solvers::Watch watch{is_interrupted, [&](std::int64_t done) { bar.advance(done); }, {}};
+    const solvers::Rollouts rollouts =
+        solvers::run_episodes(simulator, policy, options.episodes, watch);
+    return {name, solvers::summary_of(rollouts), rollouts.seconds, rollouts.steps};
+}
+
+std::string interval_text(const solvers::Estimate& estimate) {
+    const std::string mean = number_text(estimate.mean);
+    return estimate.half_width > 0 ? fmt::format("{} ± {:.3g}", mean, estimate.half_width) : mean;
+}
+
+std::string share_text(std::int64_t part, std::int64_t all) {
+    return all == 0 ? ""
+                    : fmt::format("{:.0f} %",
+                                  100.0 * static_cast<double>(part) / static_cast<double>(all));
+}
+
+void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all,
+                 const EvaluationOptions& options) {
+    fmt::print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
+               options.episodes.episodes, options.episodes.seed);
+    Table table({{"policy"},
+                 {"return", Align::Right},
+                 {"discounted", Align::Right},
+                 {"std", Align::Right},
+                 {"min", Align::Right},
+                 {"max", Align::Right},
+                 {"length", Align::Right},
+                 {"ended", Align::Right},
+                 {"illegal", Align::Right},
+                 {"faults", Align::Right},
+                 {"steps/s", Align::Right}});
+    for (const Evaluation& one : all) {
+        const solvers::Summary& s = one.summary;
+        table.add_row(
+            {one.policy, interval_text(s.undiscounted_return), interval_text(s.discounted_return),
+             number_text(s.undiscounted_return.deviation),
+             number_text(s.undiscounted_return.minimum), number_text(s.undiscounted_return.maximum),
+             number_text(s.length.mean), share_text(s.terminated, s.episodes),
+             grouped(s.illegal_actions), grouped(s.faulted),
+             rate_text(one.seconds > 0 ? static_cast<double>(one.steps) / one.seconds : 0)});
+    }
+    fmt::print(
+        "{}\n± is the half of a 95 % confidence interval; 'ended' are episodes that a "
+        "termination ended\n",
+        table.text());
+}
+
+nlohmann::ordered_json to_json(const solvers::Estimate& e) {
+    return {{"mean", json_number(e.mean)},
+            {"half_width_95", json_number(e.half_width)},
+            {"std", json_number(e.deviation)},
+            {"min", json_number(e.minimum)},
+            {"max", json_number(e.maximum)}};
+}
+
+void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
+                const EvaluationOptions& options) {
+    nlohmann::ordered_json policies = nlohmann::ordered_json::array();
+    for (const Evaluation& one : all) {
+        const solvers::Summary& s = one.summary;
+        policies.push_back({{"policy", one.policy},
+                            {"episodes", s.episodes},
+                            {"return", to_json(s.undiscounted_return)},
+                            {"discounted_return", to_json(s.discounted_return)},
+                            {"length", to_json(s.length)},
+                            {"terminated", s.terminated},
+                            {"truncated_horizon", s.horizon},
+                            {"truncated_invariant", s.invariant},
+                            {"faulted", s.faulted},
+                            {"illegal_actions", s.illegal_actions},
+                            {"steps", one.steps},
+                            {"seconds", one.seconds}});
+    }
+    fmt::print("{}", json_document({{"problem", files.name},
+                                    {"episodes", options.episodes.episodes},
+                                    {"seed", options.episodes.seed},
+                                    {"policies", policies}}));
+}
+
+ExitStatus evaluate_all(const EvaluationOptions& options) {
+    ProblemFiles files = options.problem.files();
+    files.policy = options.policy_block;
+    const LoadedProblem problem = load_problem(files, options.load);
+    const rddl_simulator& simulator = *problem.simulator;
+    EvaluationOptions chosen = options;
+    chosen.episodes.preconditions = Preconditions::Warn;  // so that they are counted
+    chosen.episodes.memory_limit = files.memory_limit;
+    std::vector<Evaluation> all;
+    for (const std::string& name : options.policies)
+        if (!is_interrupted()) all.push_back(evaluate(simulator, name, chosen));
+    options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
+    if (!is_interrupted()) return success;
+    tell("rddl: interrupted before all was evaluated\n");
+    return interrupted;
+}
+
+void add_common_options(Command& command, EvaluationOptions& options) {
+    options.episodes.episodes = 100;
+    add_number_option<std::int64_t>(command, "--episodes", "N", "How many of each (100)",
+                                    options.episodes.episodes, 1, 100'000'000);
+    add_seed_option(command, options.episodes.seed, "Seed of all random numbers (0)");
+    add_horizon_option(command, options.episodes.horizon,
+                       "Steps an episode; 0: no horizon (the instance's)");
+    add_number_option(command, "--threads", "T", "Threads (one per core)", options.episodes.threads,
+                      1, most_threads);
+    add_option(command, "--policy-block", "FILE", "File with the policy block that 'rddl' means",
+               [&options](const std::string& file) { options.policy_block = file; });
+    add_flag(command, "--stochastic", "Learned policies act at random, as while they learned",
+             options.random);
+    add_engine_options(command, options.load);
+    add_flag(command, "--json", "Print the results as JSON", options.json);
+}
+
+}  // namespace
+
+Command evaluate_command() {
+    const auto options = std::make_shared<EvaluationOptions>();
+    Command command;
+    command.name = "evaluate";
+    command.summary = "Run episodes of a policy and tell what it earns";
+    command.details =
+        "Examples:\n"
+        "  rddl evaluate MountainCar_ippc2023 1 --policy runs/a\n"
+        "  rddl evaluate domain.rddl instance.rddl --policy random --episodes 1000 --json";
+    add_problem_arguments(command, options->problem);
+    add_option(command, "--policy", "POLICY",
+               "random, noop, rddl (the policy block), a policy file or the folder of a run",
+               [options](const std::string& name) { options->policies = {name}; })
+        .suggestions = {"random", "noop", "rddl"};
+    add_common_options(command, *options);
+    command.run = [options] {
+        if (options->policies.empty()) options->policies = {"random"};
+        return evaluate_all(*options);
+    };
+    return command;
+}
+
+Command compare_command() {
+    const auto options = std::make_shared<EvaluationOptions>();
+    Command command;
+    command.name = "compare";
+    command.summary = "Put several policies into one table, on the same seeds";
+    command.details =
+        "Examples:\n"
+        "  rddl compare MountainCar_ippc2023 1 --policies random,noop,runs/ppo,runs/cgp";
+    add_problem_arguments(command, options->problem);
+    add_list_option(command, "--policies", "POLICY,...",
+                    "random, noop, rddl (the policy block), policy files, folders of runs",
+                    [options](const std::string& name) { options->policies.push_back(name); })
+        .suggestions = {"random", "noop", "rddl"};
+    add_common_options(command, *options);
+    command.run = [options] {
+        if (options->policies.empty()) options->policies = {"noop", "random"};
+        return evaluate_all(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

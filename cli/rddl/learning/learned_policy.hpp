@@ -1,0 +1,25 @@
+// Policies by the names that users give them.
+#pragma once
+
+#include "solvers/policies/policy.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace rddlc::cli {
+
+// The file that holds the policy: the best one of a run's folder.
+std::filesystem::path policy_file(const std::filesystem::path& path);
+
+// A policy file of a solver, or the folder of a run, whose best policy it is.
+bool is_learned_policy(const std::filesystem::path& path);
+// Throws a Failure that names the file. The simulator must outlive the policy.
+solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
+                               bool random, std::uint64_t seed);
+
+// "random", "noop", "rddl" (the policy block) or a learned policy.
+solvers::Policy policy_named(const rddl_simulator& simulator, const std::string& name, bool random,
+                             std::uint64_t seed);
+
+}  // namespace rddlc::cli

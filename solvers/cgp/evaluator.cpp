@@ -1,0 +1,146 @@
+#include "solvers/cgp/evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::solvers {
+
+namespace {
+
+// Where a problem has no horizon.
+constexpr std::int64_t longest_episode = 1000;
+
+rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t count) {
+    rddl_batch_options options{};
+    options.environment_count = count;
+    options.thread_count = 1;
+    if (simulator.problem->horizon == 0) options.horizon = longest_episode;
+    return options;
+}
+
+}  // namespace
+
+ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& scope,
+                           std::int64_t programs, std::int64_t episodes)
+    : scope_(scope),
+      programs_(programs),
+      episodes_(episodes),
+      chooser_(simulator, scope.actions, Noise::White, 0, programs * episodes) {
+    const auto environments = static_cast<std::size_t>(programs * episodes);
+    const auto rows = [&](int row) {
+        return environments * static_cast<std::size_t>(row);
+    };
+    features_.resize(static_cast<std::size_t>(scope.observations.feature_count()));
+    outputs_.resize(rows(scope.actions.output_count()));
+    numbers_.resize(rows(scope.actions.real_count()));
+    shifts_.resize(numbers_.size());
+    spreads_.resize(environments);
+    log_probabilities_.resize(environments);
+    indices_.resize(rows(scope.actions.index_count()));
+    masks_.resize(rows(scope.actions.mask_size()));
+    const std::size_t lanes = scope.units.size() * static_cast<std::size_t>(episodes);
+    inputs_.resize(scope.inputs.size() * lanes);
+    results_.resize(scope.outputs.size() * lanes);
+}
+
+void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> programs,
+                       std::span<const std::uint8_t> running, const float* observations,
+                       std::int64_t steps, float* actions) {
+    const int columns = scope_.observations.column_count();
+    const int outputs = scope_.actions.output_count();
+    const auto units = static_cast<std::ptrdiff_t>(scope_.units.size());
+    const auto lanes = static_cast<int>(units * episodes_);
+    const bool copies = scope_.observations.has_objects || scope_.observations.time;
+    for (std::int64_t p = 0; p < programs_; ++p) {
+        const auto at = static_cast<std::size_t>(p);
+        if (!running[at]) continue;
+        const Program& program = *programs[at];
+        for (std::int64_t e = 0; e < episodes_; ++e) {
+            const float* features = observations + (p * episodes_ + e) * columns;
+            if (copies) {
+                write_features(scope_.observations, features, steps, true, features_.data());
+                features = features_.data();
+            }
+            read_inputs(scope_, features, program.used_inputs(), inputs_.data() + e, episodes_);
+        }
+        values_.resize(std::max(values_.size(), static_cast<std::size_t>(program.slots() * lanes)));
+        program.run(lanes, inputs_.data(), lanes, values_.data(), results_.data());
+        for (std::int64_t e = 0; e < episodes_; ++e)
+            write_outputs(scope_, results_.data() + e, episodes_,
+                          outputs_.data() + (p * episodes_ + e) * outputs);
+    }
+    const Chosen chosen{numbers_.data(), shifts_.data(), spreads_.data(),
+                        indices_.data(), masks_.data(),  log_probabilities_.data()};
+    chooser_.choose(
+        batch, outputs_.data(), outputs, nullptr,
+        [](std::int64_t) {
+            return ChoiceKey{0, 0, 0};
+        },
+        chosen, actions);
+}
+
+Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
+                     std::int64_t programs, std::int64_t episodes)
+    : simulator_(simulator),
+      room_(programs),
+      episodes_(episodes),
+      batch_(create_batch(simulator, batch_options(simulator, programs * episodes))),
+      actor_(simulator, scope, programs, episodes) {
+    const auto environments = static_cast<std::size_t>(programs * episodes);
+    observations_.resize(environments *
+                         static_cast<std::size_t>(scope.observations.column_count()));
+    actions_.resize(environments * static_cast<std::size_t>(scope.actions.column_count));
+    rewards_.resize(environments);
+    for (auto* each : {&causes_, &ended_}) each->resize(environments);
+    running_.resize(static_cast<std::size_t>(programs));
+    seeds_.resize(environments);
+}
+
+void Evaluator::evaluate(std::span<const Program* const> programs,
+                         std::span<const std::uint64_t> seeds, double* returns, double* lengths) {
+    const auto count = static_cast<std::int64_t>(programs.size());
+    const std::int64_t environments = count * episodes_;
+    // Those that are not needed do what the first one does, and nobody looks.
+    programs_.assign(programs.begin(), programs.end());
+    programs_.resize(static_cast<std::size_t>(room_), programs.front());
+    for (std::size_t i = 0; i < seeds_.size(); ++i)
+        seeds_[i] = seeds[i % static_cast<std::size_t>(episodes_)];
+    const auto all = static_cast<std::int64_t>(seeds_.size());
+    if (simulator_.problem->stochastic) simulator_.set_seeds(batch_.get(), 0, all, seeds_.data());
+    simulator_.reset(batch_.get(), nullptr, nullptr);
+    simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data());
+    std::fill_n(returns, environments, 0.0);
+    std::fill_n(lengths, environments, 0.0);
+    std::fill(ended_.begin(), ended_.end(), 0);
+    simulator_.get_causes(batch_.get(), 0, all, causes_.data());
+    for (std::int64_t i = 0; i < all; ++i)
+        ended_[static_cast<std::size_t>(i)] =
+            i >= environments || causes_[static_cast<std::size_t>(i)] != RDDL_RUNNING;
+    rddl_transition out{};
+    out.struct_size = sizeof out;
+    out.rewards = rewards_.data();
+    out.causes = causes_.data();
+    for (std::int64_t step = 0;; ++step) {
+        bool any = false;
+        for (std::int64_t p = 0; p < room_; ++p) {
+            const auto begin = ended_.begin() + p * episodes_;
+            const bool runs = !std::all_of(begin, begin + episodes_, [](auto e) { return e; });
+            running_[static_cast<std::size_t>(p)] = runs;
+            any |= runs;
+        }
+        if (!any) return;
+        actor_.act(batch_.get(), programs_, running_, observations_.data(), step, actions_.data());
+        simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(), observations_.data(),
+                               &out);
+        for (std::int64_t i = 0; i < environments; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            if (ended_[at]) continue;
+            ended_[at] = causes_[at] != RDDL_RUNNING;
+            if (causes_[at] & RDDL_FAULTED) continue;  // a step that faults is not made
+            returns[i] += std::isfinite(rewards_[at]) ? rewards_[at] : -1e300;
+            lengths[i] += 1;
+        }
+    }
+}
+
+}  // namespace rddlc::solvers

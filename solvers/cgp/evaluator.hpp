@@ -1,0 +1,63 @@
+// Episodes of several programs, side by side in one batch.
+#pragma once
+
+#include "solvers/batches/batch.hpp"
+#include "solvers/cgp/genome.hpp"
+#include "solvers/cgp/scope.hpp"
+#include "solvers/choosing/choosing.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// The programs' actions for batches in which each has `episodes` environments, one behind the
+// other.
+class ProgramActor {
+  public:
+    // All that is referred to must outlive this.
+    ProgramActor(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
+                 std::int64_t episodes);
+
+    // Reads rows of the simulator's observed values, writes rows of action values. Programs whose
+    // `running` is 0 are left out, their actions are what they were. steps: made by all.
+    void act(rddl_batch* batch, std::span<const Program* const> programs,
+             std::span<const std::uint8_t> running, const float* observations, std::int64_t steps,
+             float* actions);
+
+  private:
+    const ProgramScope& scope_;
+    std::int64_t programs_, episodes_;
+    Chooser chooser_;
+    std::vector<float> features_, outputs_, numbers_, shifts_, spreads_, log_probabilities_;
+    std::vector<std::int32_t> indices_;
+    std::vector<std::uint8_t> masks_;
+    std::vector<double> inputs_, values_, results_;
+};
+
+class Evaluator {
+  public:
+    Evaluator(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
+              std::int64_t episodes);
+
+    // At most as many programs as there is room for. Episode e of each begins with seeds[e].
+    // Returns and lengths are program by program.
+    void evaluate(std::span<const Program* const> programs, std::span<const std::uint64_t> seeds,
+                  double* returns, double* lengths);
+    std::int64_t episodes() const { return episodes_; }
+    std::int64_t room() const { return room_; }
+
+  private:
+    const rddl_simulator& simulator_;
+    std::int64_t room_, episodes_;
+    Batch batch_;
+    ProgramActor actor_;
+    std::vector<float> observations_, actions_;
+    std::vector<double> rewards_;
+    std::vector<std::uint8_t> causes_, ended_, running_;
+    std::vector<std::uint64_t> seeds_;
+    std::vector<const Program*> programs_;
+};
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,424 @@
+#include "solvers/cgp/formula.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rddlc::solvers {
+
+namespace {
+
+using Term = Formula::Term;
+
+// How a language writes things.
+struct Language {
+    // Of the input as the program reads it, from its number.
+    std::function<std::string(int)> input;
+    std::function<std::string(double)> constant;
+    // Of a function and its arguments, which are bracketed where they need it.
+    std::function<std::string(Function, const std::string&, const std::string&, const std::string&)>
+        call;
+    std::string shared = "v{}";  // names of parts that occur several times
+};
+
+std::string number(double value) {
+    return fmt::format("{:.6g}", value);
+}
+
+bool is_atom(const Term& term) {
+    return term.kind != Term::Kind::Function || info_of(term.function).arity == 0;
+}
+
+// Infix operators, whose arguments need brackets.
+bool is_infix(Function function) {
+    switch (function) {
+        case Function::Add:
+        case Function::Subtract:
+        case Function::Multiply:
+        case Function::Divide:
+        case Function::Greater:
+        case Function::And:
+        case Function::Or:
+        case Function::Negate:
+        case Function::Not:
+        case Function::Square:
+        case Function::Half:
+            return true;
+        default:
+            return false;
+    }
+}
+
+struct Written {
+    std::vector<std::pair<std::string, std::string>> parts;  // name, text
+    std::vector<std::string> outputs;
+};
+
+Written write(const Formula& formula, const Language& language) {
+    std::vector<int> uses(formula.terms.size());
+    for (const Term& term : formula.terms)
+        for (const int argument : term.arguments)
+            if (argument >= 0) uses[static_cast<std::size_t>(argument)] += 1;
+    for (const int output : formula.outputs) uses[static_cast<std::size_t>(output)] += 1;
+
+    Written written;
+    std::vector<std::string> texts;
+    std::vector<bool> needs_brackets;
+    for (std::size_t t = 0; t < formula.terms.size(); ++t) {
+        const Term& term = formula.terms[t];
+        std::string text;
+        bool brackets = false;
+        if (term.kind == Term::Kind::Input) {
+            text = language.input(term.input);
+            brackets = text.find(' ') != std::string::npos && text.back() != ')';
+        } else if (term.kind == Term::Kind::Constant) {
+            text = language.constant(term.constant);
+            brackets = term.constant < 0;
+        } else {
+            const bool infix = is_infix(term.function);
+            const auto argument = [&](std::size_t k) -> std::string {
+                if (term.arguments[k] < 0) return "";
+                const auto at = static_cast<std::size_t>(term.arguments[k]);
+                return infix && needs_brackets[at] ? "(" + texts[at] + ")" : texts[at];
+            };
+            text = language.call(term.function, argument(0), argument(1), argument(2));
+            brackets = infix;
+        }
+        if (uses[t] > 1 && !is_atom(term)) {
+            const std::string name =
+                fmt::format(fmt::runtime(language.shared), written.parts.size() + 1);
+            written.parts.emplace_back(name, text);
+            text = name;
+            brackets = false;
+        }
+        texts.push_back(text);
+        needs_brackets.push_back(brackets);
+    }
+    for (const int output : formula.outputs)
+        written.outputs.push_back(texts[static_cast<std::size_t>(output)]);
+    return written;
+}
+
+// (x - shift) * scale, without what changes nothing.
+std::string scaled(const ProgramInput& input, const std::string& name) {
+    std::string text = name;
+    if (input.shift > 0) text = fmt::format("{} - {}", name, number(input.shift));
+    if (input.shift < 0) text = fmt::format("{} + {}", name, number(-input.shift));
+    if (input.scale == 1) return input.shift == 0 ? text : "(" + text + ")";
+    if (input.shift != 0) text = "(" + text + ")";
+    return fmt::format("({} * {})", text, number(input.scale));
+}
+
+Language for_people(const ProgramScope& scope) {
+    Language language;
+    language.input = [&scope](int i) {
+        const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
+        return scaled(input, input.name);
+    };
+    language.constant = number;
+    language.call = [](Function function, const std::string& a, const std::string& b,
+                       const std::string& c) -> std::string {
+        switch (function) {
+            case Function::Add:
+                return a + " + " + b;
+            case Function::Subtract:
+                return a + " - " + b;
+            case Function::Multiply:
+                return a + " * " + b;
+            case Function::Divide:
+                return a + " / " + b;
+            case Function::Negate:
+                return "-" + a;
+            case Function::Square:
+                return a + "^2";
+            case Function::Half:
+                return a + " / 2";
+            case Function::Greater:
+                return a + " > " + b;
+            case Function::And:
+                return a + " and " + b;
+            case Function::Or:
+                return a + " or " + b;
+            case Function::Not:
+                return "not " + a;
+            case Function::If:
+                return "if " + a + " > 0 then " + b + " else " + c;
+            default:
+                break;
+        }
+        const FunctionInfo& info = info_of(function);
+        return info.arity == 1 ? fmt::format("{}({})", info.name, a)
+                               : fmt::format("{}({}, {})", info.name, a, b);
+    };
+    return language;
+}
+
+// What becomes of an output, where it is not clear.
+std::string meaning_of(const ProgramScope& scope, std::size_t output) {
+    const ActionSpace& space = scope.actions;
+    int column = static_cast<int>(output);
+    if (scope.lifted)
+        for (const ProgramScope::Unit& unit : scope.units)
+            if (unit.output == static_cast<int>(output)) {
+                column = unit.column;
+                break;
+            }
+    for (const RealHead& head : space.reals) {
+        if (head.column != column) continue;
+        switch (head.range) {
+            case RealHead::Range::Bounded:
+                if (head.lower == -1 && head.upper == 1) return "";
+                return fmt::format("   [-1 is {}, 1 is {}]", number(head.lower),
+                                   number(head.upper));
+            case RealHead::Range::AboveLower:
+                return fmt::format("   [x is {} + {} * ln(1 + e^x)]", number(head.lower),
+                                   number(head.scale));
+            case RealHead::Range::BelowUpper:
+                return fmt::format("   [x is {} - {} * ln(1 + e^x)]", number(head.upper),
+                                   number(head.scale));
+            case RealHead::Range::Free:
+                return fmt::format("   [x is {} + {} * x]", number(head.centre),
+                                   number(head.scale));
+        }
+    }
+    if (space.picks > 0)
+        return space.picks == 1
+                   ? "   [the greatest above 0 is done]"
+                   : fmt::format("   [the greatest above 0 are done, at most {}]", space.picks);
+    return "   [above 0 is true]";
+}
+
+std::string identifier(const std::string& name) {
+    std::string result;
+    for (const char c : name) result += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    return result;
+}
+
+Language for_cpp() {
+    Language language;
+    language.input = [](int i) {
+        return fmt::format("x[{}]", i);
+    };
+    language.constant = [](double value) {
+        return fmt::format("{:.17g}", value) +
+               (value == std::floor(value) && std::abs(value) < 1e15 ? ".0" : "");
+    };
+    language.call = [](Function function, const std::string& a, const std::string& b,
+                       const std::string& c) {
+        const FunctionInfo& info = info_of(function);
+        return info.arity == 0   ? std::string(function == Function::One ? "1.0" : "0.0")
+               : info.arity == 1 ? fmt::format("f::{}({})", identifier(info.name) + "_", a)
+               : info.arity == 2
+                   ? fmt::format("f::{}({}, {})", identifier(info.name) + "_", a, b)
+                   : fmt::format("f::{}({}, {}, {})", identifier(info.name) + "_", a, b, c);
+    };
+    return language;
+}
+
+}  // namespace
+
+std::string formula_text(const Formula& formula, const ProgramScope& scope) {
+    const Written written = write(formula, for_people(scope));
+    std::string text;
+    for (const auto& [name, part] : written.parts) text += fmt::format("{} = {}\n", name, part);
+    for (std::size_t o = 0; o < written.outputs.size(); ++o)
+        text +=
+            fmt::format("{} = {}{}\n", scope.outputs[o], written.outputs[o], meaning_of(scope, o));
+    return text;
+}
+
+std::string short_formula(const Formula& formula, const ProgramScope& scope, std::size_t width) {
+    const Written written = write(formula, for_people(scope));
+    std::string text;
+    for (std::size_t o = 0; o < written.outputs.size(); ++o)
+        text += (o > 0 ? "; " : "") + scope.outputs[o] + " = " + written.outputs[o];
+    for (const auto& [name, part] : written.parts) text += fmt::format("; {} = {}", name, part);
+    return text.size() > width ? text.substr(0, width - 3) + "..." : text;
+}
+
+std::string formula_cpp(const Formula& formula, const ProgramScope& scope) {
+    const Written written = write(formula, for_cpp());
+    std::string text =
+        "// A policy that rddl train cgp has found; rddl export wrote it.\n"
+        "// Inputs are values of fluents as the simulator observes them; outputs what the comments "
+        "say.\n"
+        "#pragma once\n\n#include <cmath>\n\nnamespace policy {\n\nnamespace f {\n"
+        "inline double in_range(double x) {\n"
+        "    return x != x ? 0 : x > 1e6 ? 1e6 : x < -1e6 ? -1e6 : x;\n}\n"
+        "inline double add_(double a, double b) { return in_range(a + b); }\n"
+        "inline double sub_(double a, double b) { return in_range(a - b); }\n"
+        "inline double mul_(double a, double b) { return in_range(a * b); }\n"
+        "inline double div_(double a, double b) { return std::abs(b) < 1e-9 ? 1 : in_range(a / b); "
+        "}\n"
+        "inline double neg_(double a) { return -a; }\n"
+        "inline double abs_(double a) { return std::abs(a); }\n"
+        "inline double min_(double a, double b) { return b < a ? b : a; }\n"
+        "inline double max_(double a, double b) { return a < b ? b : a; }\n"
+        "inline double square_(double a) { return in_range(a * a); }\n"
+        "inline double sqrt_(double a) { return std::sqrt(std::abs(a)); }\n"
+        "inline double sin_(double a) { return std::sin(a); }\n"
+        "inline double cos_(double a) { return std::cos(a); }\n"
+        "inline double tanh_(double a) { return std::tanh(a); }\n"
+        "inline double exp_(double a) { return in_range(std::exp(a)); }\n"
+        "inline double gt_(double a, double b) { return a > b; }\n"
+        "inline double if_(double a, double b, double c) { return a > 0 ? b : c; }\n"
+        "inline double and_(double a, double b) { return a > 0 && b > 0; }\n"
+        "inline double or_(double a, double b) { return a > 0 || b > 0; }\n"
+        "inline double not_(double a) { return !(a > 0); }\n"
+        "inline double sign_(double a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }\n"
+        "inline double half_(double a) { return a * 0.5; }\n"
+        "inline double floor_(double a) { return std::floor(a); }\n"
+        "inline double ceil_(double a) { return std::ceil(a); }\n"
+        "inline double round_(double a) { return std::nearbyint(a); }\n"
+        "}  // namespace f\n\n";
+    text += fmt::format("constexpr int input_count = {}, output_count = {};\n\n",
+                        scope.input_count(), scope.output_count());
+    text += "inline void act(const double* inputs, double* outputs) {\n";
+    text += fmt::format("    double x[{}];\n", std::max(scope.input_count(), 1));
+    for (int i = 0; i < scope.input_count(); ++i) {
+        const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
+        text += fmt::format("    x[{0}] = (inputs[{0}] - {1:.17g}) * {2:.17g};  // {3}\n", i,
+                            input.shift, input.scale, input.name);
+    }
+    for (const auto& [name, part] : written.parts)
+        text += fmt::format("    const double {} = {};\n", name, part);
+    for (std::size_t o = 0; o < written.outputs.size(); ++o)
+        text += fmt::format("    outputs[{}] = {};  // {}{}\n", o, written.outputs[o],
+                            scope.outputs[o], meaning_of(scope, o));
+    return text + "}\n\n}  // namespace policy\n";
+}
+
+std::string formula_python(const Formula& formula, const ProgramScope& scope) {
+    Language language = for_cpp();
+    language.call = [](Function function, const std::string& a, const std::string& b,
+                       const std::string& c) {
+        const FunctionInfo& info = info_of(function);
+        return info.arity == 0   ? std::string(function == Function::One ? "1.0" : "0.0")
+               : info.arity == 1 ? fmt::format("_{}({})", info.name, a)
+               : info.arity == 2 ? fmt::format("_{}({}, {})", info.name, a, b)
+                                 : fmt::format("_{}({}, {}, {})", info.name, a, b, c);
+    };
+    const Written written = write(formula, language);
+    std::string text =
+        "\"\"\"A policy that rddl train cgp has found; rddl export wrote it.\"\"\"\n"
+        "import math\n\n\n"
+        "def _in_range(x): return 0.0 if x != x else max(-1e6, min(1e6, x))\n"
+        "def _add(a, b): return _in_range(a + b)\n"
+        "def _sub(a, b): return _in_range(a - b)\n"
+        "def _mul(a, b): return _in_range(a * b)\n"
+        "def _div(a, b): return 1.0 if abs(b) < 1e-9 else _in_range(a / b)\n"
+        "def _neg(a): return -a\n"
+        "def _abs(a): return abs(a)\n"
+        "def _min(a, b): return min(a, b)\n"
+        "def _max(a, b): return max(a, b)\n"
+        "def _square(a): return _in_range(a * a)\n"
+        "def _sqrt(a): return math.sqrt(abs(a))\n"
+        "def _sin(a): return math.sin(a)\n"
+        "def _cos(a): return math.cos(a)\n"
+        "def _tanh(a): return math.tanh(a)\n"
+        "def _exp(a): return 1e6 if a > 14 else _in_range(math.exp(a))\n"
+        "def _gt(a, b): return float(a > b)\n"
+        "def _if(a, b, c): return b if a > 0 else c\n"
+        "def _and(a, b): return float(a > 0 and b > 0)\n"
+        "def _or(a, b): return float(a > 0 or b > 0)\n"
+        "def _not(a): return float(not a > 0)\n"
+        "def _sign(a): return float((a > 0) - (a < 0))\n"
+        "def _half(a): return a * 0.5\n"
+        "def _floor(a): return float(math.floor(a))\n"
+        "def _ceil(a): return float(math.ceil(a))\n"
+        "def _round(a): return float(round(a))\n\n\n";
+    text += "INPUTS = [";
+    for (const ProgramInput& input : scope.inputs) text += fmt::format("\"{}\", ", input.name);
+    text += "]\nOUTPUTS = [";
+    for (const std::string& output : scope.outputs) text += fmt::format("\"{}\", ", output);
+    text +=
+        "]\n\n\ndef act(inputs):\n    \"\"\"Outputs in their order, from inputs in theirs.\"\"\"\n "
+        "   x = [";
+    for (int i = 0; i < scope.input_count(); ++i) {
+        const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
+        text += fmt::format("(inputs[{}] - {:.17g}) * {:.17g}, ", i, input.shift, input.scale);
+    }
+    text += "]\n";
+    for (const auto& [name, part] : written.parts) text += fmt::format("    {} = {}\n", name, part);
+    text += "    return [";
+    for (const std::string& output : written.outputs) text += output + ", ";
+    return text + "]\n";
+}
+
+std::string formula_latex(const Formula& formula, const ProgramScope& scope) {
+    const auto escaped = [](const std::string& name) {
+        std::string text;
+        for (const char c : name)
+            text += (c == '_' || c == '%' || c == '&' || c == '#' ? "\\" : "") + std::string(1, c);
+        return "\\text{" + text + "}";
+    };
+    Language language = for_people(scope);
+    language.shared = "v_{{{}}}";
+    language.input = [&](int i) {
+        const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
+        return scaled(input, escaped(input.name));
+    };
+    const auto people = language.call;
+    language.call = [people](Function function, const std::string& a, const std::string& b,
+                             const std::string& c) -> std::string {
+        switch (function) {
+            case Function::Multiply:
+                return a + " \\cdot " + b;
+            case Function::Divide:
+                return "\\frac{" + a + "}{" + b + "}";
+            case Function::Absolute:
+                return "\\left|" + a + "\\right|";
+            case Function::Root:
+                return "\\sqrt{\\left|" + a + "\\right|}";
+            case Function::And:
+                return a + " \\wedge " + b;
+            case Function::Or:
+                return a + " \\vee " + b;
+            case Function::Not:
+                return "\\neg " + a;
+            case Function::Greater:
+                return "[" + a + " > " + b + "]";
+            case Function::If:
+                return "\\begin{cases} " + b + " & " + a + " > 0 \\\\ " + c +
+                       " & \\text{else} \\end{cases}";
+            case Function::Sine:
+            case Function::Cosine:
+            case Function::Tanh:
+            case Function::Exponential:
+            case Function::Minimum:
+            case Function::Maximum:
+                return "\\" + people(function, a, b, c);
+            default:
+                return people(function, a, b, c);
+        }
+    };
+    const Written written = write(formula, language);
+    std::string text = "\\begin{align*}\n";
+    for (const auto& [name, part] : written.parts) text += name + " &= " + part + " \\\\\n";
+    for (std::size_t o = 0; o < written.outputs.size(); ++o)
+        text += escaped(scope.outputs[o]) + " &= " + written.outputs[o] + " \\\\\n";
+    return text + "\\end{align*}\n";
+}
+
+std::string formula_dot(const Formula& formula, const ProgramScope& scope) {
+    std::string text = "digraph policy {\n    rankdir=LR;\n    node [fontname=\"sans-serif\"];\n";
+    for (std::size_t t = 0; t < formula.terms.size(); ++t) {
+        const Term& term = formula.terms[t];
+        const std::string label =
+            term.kind == Term::Kind::Input ? scope.inputs[static_cast<std::size_t>(term.input)].name
+            : term.kind == Term::Kind::Constant ? number(term.constant)
+                                                : std::string(info_of(term.function).name);
+        const char* const shape = term.kind == Term::Kind::Function ? "ellipse" : "box";
+        text += fmt::format("    t{} [label=\"{}\", shape={}];\n", t, label, shape);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (term.arguments[k] >= 0)
+                text += fmt::format("    t{} -> t{} [label=\"{}\"];\n", term.arguments[k], t,
+                                    info_of(term.function).arity > 1 ? std::to_string(k + 1) : "");
+    }
+    for (std::size_t o = 0; o < formula.outputs.size(); ++o)
+        text += fmt::format("    o{0} [label=\"{1}\", shape=box, style=bold];\n    t{2} -> o{0};\n",
+                            o, scope.outputs[o], formula.outputs[o]);
+    return text + "}\n";
+}
+
+}  // namespace rddlc::solvers

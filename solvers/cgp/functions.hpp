@@ -1,0 +1,63 @@
+// What nodes of a program compute. All functions are total: no result is nan, or beyond +-1e6.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddlc::solvers {
+
+enum class Function : std::uint8_t {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Negate,
+    Absolute,
+    Minimum,
+    Maximum,
+    Square,
+    Root,
+    Sine,
+    Cosine,
+    Tanh,
+    Exponential,
+    Greater,
+    If,
+    And,
+    Or,
+    Not,
+    Sign,
+    One,
+    Zero,
+    Half,
+    Floor,
+    Ceiling,
+    Round
+};
+inline constexpr int function_count = static_cast<int>(Function::Round) + 1;
+inline constexpr double largest_result = 1e6;
+
+struct FunctionInfo {
+    Function function;
+    const char* name;   // in files and options
+    const char* group;  // arith, trig, logic, round
+    int arity;          // 0 .. 3
+};
+const FunctionInfo& info_of(Function function);
+std::optional<Function> function_named(std::string_view name);
+
+// Names of functions and groups: "arith,logic,sin". Throws a Failure at a word that is neither.
+std::vector<Function> functions_named(const std::vector<std::string>& words);
+// arith, trig and logic.
+std::vector<Function> default_functions();
+
+// Arguments beyond the arity are not looked at.
+double apply(Function function, double a, double b, double c);
+// The same of rows of `count` numbers.
+void apply(Function function, int count, const double* a, const double* b, const double* c,
+           double* result);
+
+}  // namespace rddlc::solvers

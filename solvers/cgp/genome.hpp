@@ -1,0 +1,92 @@
+// Programs as genomes: J. Miller, P. Thomson, "Cartesian genetic programming", 2000. A row of
+// nodes, each of which computes a function of inputs, constants and earlier nodes.
+//
+// Addresses count inputs first, then constants, then nodes.
+#pragma once
+
+#include "solvers/cgp/functions.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::solvers {
+
+struct Node {
+    Function function = Function::Zero;
+    std::array<int, 3> arguments{};  // addresses; those beyond the arity mean nothing
+    bool operator==(const Node&) const = default;
+};
+
+struct Genome {
+    int inputs = 0;
+    std::vector<double> constants;
+    std::vector<Node> nodes;
+    std::vector<int> outputs;  // addresses
+
+    int first_node() const { return inputs + static_cast<int>(constants.size()); }
+};
+
+// Random numbers, all of them a function of seed and stream.
+class Random {
+  public:
+    Random(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
+    std::uint64_t below(std::uint64_t count);
+    double unit();    // in (0, 1)
+    double normal();  // standard
+    std::uint64_t bits();
+
+  private:
+    std::uint64_t seed_, stream_, counter_ = 0;
+};
+
+enum class Mutation {
+    Single,  // genes at random until one that counts is another (B. Goldman, W. Punch, 2013)
+    Gene     // each gene of a node with a probability of 0.1, each output with 0.3
+};
+
+struct GenomeShape {
+    int inputs = 0, constants = 0, nodes = 0, outputs = 0;
+    int levels_back = 0;  // how many nodes before it a node reads at most; 0: all
+    std::vector<Function> functions;
+};
+
+Genome random_genome(const GenomeShape& shape, Random& random);
+void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, Random& random);
+
+// Which nodes have a part in the outputs; `used` tells which inputs and constants do, too.
+struct Activity {
+    std::vector<std::uint8_t> used;  // by address
+    int nodes = 0;
+};
+Activity activity_of(const Genome& genome);
+
+// Of all that has a part in the outputs: equal programs have equal numbers.
+std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity);
+
+// What is left of a genome, ready to run: for any number of lanes at once.
+class Program {
+  public:
+    Program() = default;
+    explicit Program(const Genome& genome);
+
+    const std::vector<int>& used_inputs() const { return used_inputs_; }
+    int slots() const { return slots_; }
+    // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
+    // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
+    void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
+             double* outputs) const;
+
+  private:
+    struct Instruction {
+        Function function;
+        std::array<int, 3> arguments;  // slots; negative: input -1 - argument
+    };
+    std::vector<Instruction> instructions_;  // the k-th writes slot constants + k
+    std::vector<double> constants_;
+    std::vector<int> outputs_;  // as arguments
+    std::vector<int> used_inputs_;
+    int slots_ = 0;
+};
+
+}  // namespace rddlc::solvers

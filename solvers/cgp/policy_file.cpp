@@ -1,0 +1,193 @@
+#include "solvers/cgp/policy_file.hpp"
+
+#include "solvers/cgp/evaluator.hpp"
+#include "solvers/cgp/formula.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace rddlc::solvers {
+
+namespace {
+
+constexpr int file_version = 1;
+
+// Lines of the file, each of which begins with a word that tells what it is.
+class Lines {
+  public:
+    explicit Lines(std::string_view text) : stream_(std::string(text)) {}
+
+    // The rest of the next line, which begins with this word.
+    std::istringstream next(const std::string& word) {
+        std::string line;
+        do {
+            if (!std::getline(stream_, line))
+                throw Failure(fmt::format("it is not complete: '{}' is missing", word));
+        } while (line.empty() || line.front() == '#');
+        std::istringstream rest(line);
+        std::string found;
+        rest >> found;
+        if (found != word) throw Failure(fmt::format("'{}' stands where '{}' should", found, word));
+        return rest;
+    }
+    std::string text(const std::string& word) {
+        std::istringstream rest = next(word);
+        std::string all;
+        std::getline(rest >> std::ws, all);
+        return all;
+    }
+    std::int64_t number(const std::string& word, std::int64_t least, std::int64_t most) {
+        std::istringstream rest = next(word);
+        return number(rest, word, least, most);
+    }
+    static std::int64_t number(std::istream& rest, const std::string& word, std::int64_t least,
+                               std::int64_t most) {
+        std::int64_t value = 0;
+        if (!(rest >> value) || value < least || value > most)
+            throw Failure(fmt::format("the number behind '{}' is none, or too large", word));
+        return value;
+    }
+    static double real(std::istream& rest, const std::string& word) {
+        double value = 0;
+        if (!(rest >> value)) throw Failure(fmt::format("the number behind '{}' is none", word));
+        return value;
+    }
+
+  private:
+    std::istringstream stream_;
+};
+
+struct FoundActor {
+    FoundActor(const rddl_simulator& its_simulator, std::shared_ptr<const FoundProgram> its_found,
+               std::int64_t environments)
+        : simulator(its_simulator),
+          found(std::move(its_found)),
+          program(found->genome),
+          programs(static_cast<std::size_t>(environments), &program),
+          running(programs.size(), 1),
+          records(simulator),
+          actor(simulator, found->scope, environments, 1),
+          observations(programs.size() *
+                       static_cast<std::size_t>(found->scope.observations.column_count())),
+          actions(programs.size() * static_cast<std::size_t>(found->scope.actions.column_count)) {}
+
+    void act(Decision& decision) {
+        simulator.get_observation_values(decision.batch, RDDL_FLOAT, observations.data());
+        std::int64_t steps = 0;  // of all that run: their episodes have begun together
+        for (std::size_t i = 0; i < running.size(); ++i) {
+            running[i] = decision.running[i];
+            if (running[i]) steps = decision.steps[i];
+        }
+        actor.act(decision.batch, programs, running, observations.data(), steps, actions.data());
+        const auto columns = static_cast<std::size_t>(found->scope.actions.column_count);
+        for (std::size_t i = 0; i < running.size(); ++i)
+            records.write(actions.data() + i * columns,
+                          decision.actions + i * records.record_size());
+    }
+
+    const rddl_simulator& simulator;
+    std::shared_ptr<const FoundProgram> found;
+    Program program;
+    std::vector<const Program*> programs;
+    std::vector<std::uint8_t> running;
+    ActionRecords records;
+    ProgramActor actor;
+    std::vector<float> observations, actions;
+};
+
+}  // namespace
+
+std::string program_text(const rddl_simulator& simulator, const ProgramScope& scope,
+                         const Genome& genome) {
+    const rddl_problem& problem = *simulator.problem;
+    std::string text = fmt::format("rddl-cgp {}\ndomain {}\ninstance {}\nlifted {}\ntime {}\n",
+                                   file_version, problem.domain, problem.instance,
+                                   scope.lifted ? 1 : 0, scope.observations.time ? 1 : 0);
+    std::istringstream formula(formula_text(simplified(genome), scope));
+    for (std::string line; std::getline(formula, line);) text += "# " + line + "\n";
+    text += fmt::format("inputs {}\n", scope.inputs.size());
+    for (const ProgramInput& input : scope.inputs)
+        text += fmt::format("input {:.17g} {:.17g} {}\n", input.shift, input.scale, input.name);
+    text += fmt::format("constants {}\n", genome.constants.size());
+    for (const double constant : genome.constants)
+        text += fmt::format("constant {:.17g}\n", constant);
+    text += fmt::format("nodes {}\n", genome.nodes.size());
+    for (const Node& node : genome.nodes)
+        text += fmt::format("node {} {} {} {}\n", info_of(node.function).name, node.arguments[0],
+                            node.arguments[1], node.arguments[2]);
+    text += fmt::format("outputs {}\n", genome.outputs.size());
+    for (std::size_t o = 0; o < genome.outputs.size(); ++o)
+        text += fmt::format("output {} {}\n", genome.outputs[o], scope.outputs[o]);
+    return text + "end\n";
+}
+
+std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator,
+                                                 std::string_view text) {
+    const rddl_problem& problem = *simulator.problem;
+    if (!text.starts_with("rddl-cgp ")) throw Failure("it is no program of CGP");
+    Lines lines(text);
+    constexpr std::int64_t many = 1 << 24;
+    const std::int64_t version = lines.number("rddl-cgp", 0, many);
+    if (version > file_version)
+        throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
+                                  version, file_version));
+    const std::string domain = lines.text("domain"), instance = lines.text("instance");
+    const bool lifted = lines.number("lifted", 0, 1) != 0, time = lines.number("time", 0, 1) != 0;
+    if (domain != problem.domain || (!lifted && instance != problem.instance))
+        throw Failure(fmt::format("it is of the problem {} ({}), not of {} ({})", instance, domain,
+                                  problem.instance, problem.domain));
+    const auto found = std::make_shared<FoundProgram>();
+    found->scope = program_scope(simulator, lifted ? Lifting::On : Lifting::Off, time, 0);
+    ProgramScope& scope = found->scope;
+    Genome& genome = found->genome;
+    const auto other = [] {
+        return Failure("it is of another version of the problem: what is seen or done has changed");
+    };
+    if (lines.number("inputs", 0, many) != scope.input_count()) throw other();
+    for (ProgramInput& input : scope.inputs) {
+        std::istringstream rest = lines.next("input");
+        input.shift = Lines::real(rest, "input");
+        input.scale = Lines::real(rest, "input");
+        std::string name;
+        std::getline(rest >> std::ws, name);
+        if (name != input.name) throw other();
+    }
+    genome.inputs = scope.input_count();
+    genome.constants.resize(static_cast<std::size_t>(lines.number("constants", 0, many)));
+    for (double& constant : genome.constants) {
+        std::istringstream rest = lines.next("constant");
+        constant = Lines::real(rest, "constant");
+    }
+    genome.nodes.resize(static_cast<std::size_t>(lines.number("nodes", 0, many)));
+    for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
+        std::istringstream rest = lines.next("node");
+        std::string name;
+        rest >> name;
+        const auto function = function_named(name);
+        if (!function) throw Failure(fmt::format("'{}' is no function of CGP", name));
+        genome.nodes[n].function = *function;
+        for (int& argument : genome.nodes[n].arguments)
+            argument = static_cast<int>(
+                Lines::number(rest, "node", 0, genome.first_node() + static_cast<int>(n) - 1));
+    }
+    if (lines.number("outputs", 0, many) != scope.output_count()) throw other();
+    for (int o = 0; o < scope.output_count(); ++o)
+        genome.outputs.push_back(static_cast<int>(lines.number(
+            "output", 0, genome.first_node() + static_cast<int>(genome.nodes.size()) - 1)));
+    lines.next("end");
+    return found;
+}
+
+Policy program_policy(const rddl_simulator& simulator, std::shared_ptr<const FoundProgram> program,
+                      std::string name) {
+    return {std::move(name), [&simulator, program](std::int64_t environments) -> Actor {
+                const auto actor = std::make_shared<FoundActor>(simulator, program, environments);
+                return [actor](Decision& decision) {
+                    actor->act(decision);
+                };
+            }};
+}
+
+}  // namespace rddlc::solvers

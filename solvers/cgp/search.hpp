@@ -1,0 +1,80 @@
+// CGP: programs change a little, and what acts as well or better stays.
+//
+// (1 + lambda) with neutral drift: a child that is as good as its father takes its place. Episodes
+// of a generation begin with the same random numbers for father and children, new ones in each
+// generation; of several episodes, all candidates play a few and the best of them the others.
+// Islands do this side by side, and at times the best program of an island goes to the next one.
+#pragma once
+
+#include "solvers/cgp/genome.hpp"
+#include "solvers/cgp/scope.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddlc::solvers {
+
+enum class Measure { Mean, Median, Minimum, WorstFifth };  // of the returns of episodes
+
+struct CgpOptions {
+    std::int64_t generations = 1000;
+    int children = 0;  // lambda; 0: 32, or 8 where anything is drawn at random
+    int nodes = 100;
+    int constants = 4;
+    int levels_back = 0;
+    Mutation mutation = Mutation::Single;
+    std::vector<Function> functions = default_functions();
+    int episodes = 0;  // of each candidate; 0: 1, or 16 where anything is drawn at random
+    Measure measure = Measure::Mean;
+    std::int64_t restart_after = 300;  // generations without a better program; 0: never
+    std::int64_t tune_every = 50;     // generations between searches for better constants; 0: never
+    std::int64_t migrate_every = 50;  // generations
+    int islands = 1;
+    int threads = 1;
+    Lifting lifting = Lifting::Auto;
+    bool parsimony = true;  // of programs that are as good, a smaller one is better
+    bool time = false;  // programs read how much of the episode is over
+    std::uint64_t seed = 0;
+};
+
+// Of a program. More is better, then fewer steps, then fewer nodes.
+struct Fitness {
+    double value = 0;
+    double steps = 0;  // of an episode
+    int nodes = 0;
+};
+
+struct CgpProgress {
+    std::int64_t generations = 0, evaluations = 0, episodes = 0, restarts = 0;
+    Fitness best;
+    double mean_of_children = 0;  // of the last generation
+    bool replaced = false;        // the father, in the last generation of the first island
+    double seconds = 0;
+};
+
+class CgpSearch {
+  public:
+    // The simulator must outlive this.
+    CgpSearch(const rddl_simulator& simulator, const CgpOptions& options);
+    ~CgpSearch();
+
+    void run(std::int64_t generations);
+
+    const ProgramScope& scope() const;
+    const Genome& best() const;
+    const CgpProgress& progress() const;
+
+    std::string save() const;
+    void load(std::string_view bytes);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,256 @@
+#include "solvers/choosing/choosing.hpp"
+
+#include "solvers/choosing/probabilities.hpp"
+#include "solvers/spaces/mending.hpp"
+
+#include <rddl/philox.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rddlc::solvers {
+
+namespace {
+
+// Four words for the coordinates; `what` keeps draws for different things apart.
+rddl::philox::Block<std::uint64_t> words_of(const ChoiceKey& key, std::uint32_t what) {
+    using namespace rddl::philox;
+    return generate<draw_rounds>(
+        Block<std::uint64_t>{key.environment & 0xFFFFFFFF, what, key.step & 0xFFFFFFFF,
+                             key.environment >> 32 ^ key.step >> 32 << 16},
+        Key<std::uint64_t>{key.seed & 0xFFFFFFFF, (key.seed >> 32) ^ 0x50504F});
+}
+
+// In (0, 1).
+float unit(std::uint64_t word) {
+    return (static_cast<float>((word & 0xFFFFFFFF) >> 8) + 0.5f) * 0x1p-24f;
+}
+
+constexpr std::uint32_t of_categories = 1u << 24;
+
+// Standard normal numbers r and r + 1, for an even r (Box and Muller, 1958).
+struct TwoNormals {
+    float first, second;
+};
+TwoNormals normals(const ChoiceKey& key, std::uint32_t r) {
+    const auto words = words_of(key, r / 2);
+    const float radius = std::sqrt(-2 * std::log(unit(words[0])));
+    const float angle = 2 * std::numbers::pi_v<float> * unit(words[1]);
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+int likeliest(int count, const float* logits, const std::uint8_t* mask) {
+    int best = -1;
+    for (int l = 0; l < count; ++l)
+        if ((!mask || mask[l]) && (best < 0 || logits[l] > logits[best])) best = l;
+    return best;
+}
+
+int draw(int count, const float* logits, const std::uint8_t* mask, float u) {
+    const float most = logits[likeliest(count, logits, mask)];
+    float sum = 0;
+    for (int l = 0; l < count; ++l)
+        if (!mask || mask[l]) sum += std::exp(logits[l] - most);
+    float left = u * sum;
+    int last = -1;
+    for (int l = 0; l < count; ++l) {
+        if (mask && !mask[l]) continue;
+        last = l;
+        left -= std::exp(logits[l] - most);
+        if (left < 0) break;
+    }
+    return last;
+}
+
+}  // namespace
+
+Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
+                 double correlation, std::int64_t environments)
+    : simulator_(simulator),
+      space_(space),
+      records_(simulator),
+      environments_(environments),
+      correlated_(noise == Noise::Ar1 && space.real_count() > 0),
+      correlation_(static_cast<float>(correlation)),
+      fresh_(static_cast<float>(std::sqrt(1 - correlation * correlation))),
+      keys_(static_cast<std::size_t>(environments)),
+      noise_(keys_.size() * static_cast<std::size_t>(space.real_count())),
+      has_noise_(keys_.size()) {
+    const auto count = static_cast<std::size_t>(environments);
+    const auto columns = static_cast<std::size_t>(space.column_count);
+    if (space.masked || space.may_be_illegal) actions_.resize(count * records_.record_size());
+    if (space.masked)
+        choice_masks_.resize(count *
+                             static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
+    if (space.may_be_illegal) {
+        violated_.resize(count);
+        saved_.resize(count * columns);
+    }
+}
+
+void Chooser::begin_episode(std::int64_t environment) {
+    has_noise_[static_cast<std::size_t>(environment)] = 0;
+}
+
+void Chooser::write_records(const float* actions) {
+    for (std::int64_t i = 0; i < environments_; ++i)
+        records_.write(actions + i * space_.column_count,
+                       actions_.data() + static_cast<std::size_t>(i) * records_.record_size());
+}
+
+void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row,
+                         const float* log_deviations, const Chosen& chosen, float* actions) {
+    const bool random = log_deviations != nullptr;
+    for (std::int64_t i = 0; i < environments_; ++i)
+        choose_reals(static_cast<std::size_t>(i), outputs + i * output_row, log_deviations, chosen);
+    if (space_.picks > 0)
+        choose_picks(batch, outputs, output_row, random, chosen, actions);
+    else if (!space_.categories.empty())
+        choose_categories(batch, outputs, output_row, random, chosen);
+
+    const int reals = space_.real_count(), indices = space_.index_count();
+    const int mask = space_.mask_size();
+    for (std::int64_t i = 0; i < environments_; ++i) {
+        const float* const numbers = chosen.numbers + i * reals;
+        const std::int32_t* const index = chosen.indices + i * indices;
+        write_action(space_, numbers, index, actions + i * space_.column_count);
+        if (!random) continue;
+        chosen.log_probabilities[i] =
+            look_at_choice(space_, outputs + i * output_row, log_deviations, numbers,
+                           chosen.shifts + i * reals, chosen.spreads[i], index,
+                           mask > 0 ? chosen.masks + i * mask : nullptr)
+                .log_probability;
+    }
+    if (space_.may_be_illegal) mend(batch, actions);
+}
+
+void Chooser::choose_reals(std::size_t i, const float* means, const float* log_deviations,
+                           const Chosen& chosen) {
+    const auto reals = static_cast<std::size_t>(space_.real_count());
+    float* const numbers = chosen.numbers + i * reals;
+    float* const shifts = chosen.shifts + i * reals;
+    if (!log_deviations) {
+        std::copy_n(means, reals, numbers);
+        return;
+    }
+    const bool goes_on = correlated_ && has_noise_[i];
+    const float spread = goes_on ? fresh_ : 1.0f;
+    chosen.spreads[i] = spread;
+    TwoNormals two{};
+    for (std::size_t r = 0; r < reals; ++r) {
+        if (r % 2 == 0) two = normals(keys_[i], static_cast<std::uint32_t>(r));
+        float& noise = noise_[i * reals + r];
+        shifts[r] = goes_on ? correlation_ * noise : 0.0f;
+        noise = shifts[r] +
+                std::exp(log_deviations[r]) * spread * (r % 2 == 0 ? two.first : two.second);
+        numbers[r] = means[r] + noise;
+    }
+    has_noise_[i] = 1;
+}
+
+// A value that its precondition forbids, alone, is not chosen; where the default is forbidden, this
+// says nothing.
+void Chooser::choose_categories(rddl_batch* batch, const float* outputs, int output_row,
+                                bool random, const Chosen& chosen) {
+    const auto logits = static_cast<std::size_t>(space_.logit_count);
+    const std::size_t choices = space_.logit_of_mask.size();
+    if (space_.masked) {
+        simulator_.action_mask(batch, nullptr, choice_masks_.data());
+        for (std::size_t i = 0; i < keys_.size(); ++i) {
+            std::uint8_t* const mask = chosen.masks + i * logits;
+            std::fill_n(mask, logits, std::uint8_t{1});
+            const std::uint8_t* const allowed = choice_masks_.data() + i * choices;
+            if (!allowed[0]) continue;
+            for (std::size_t c = 1; c < choices; ++c)
+                if (space_.logit_of_mask[c] >= 0) mask[space_.logit_of_mask[c]] = allowed[c];
+        }
+    }
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const float* const row =
+            outputs + static_cast<std::ptrdiff_t>(i) * output_row + space_.real_count();
+        rddl::philox::Block<std::uint64_t> words{};
+        for (std::size_t h = 0; h < space_.categories.size(); ++h) {
+            const CategoryHead& head = space_.categories[h];
+            const std::uint8_t* const mask =
+                space_.masked ? chosen.masks + i * logits + head.first_logit : nullptr;
+            if (random && h % 4 == 0)
+                words = words_of(keys_[i], of_categories + static_cast<std::uint32_t>(h / 4));
+            chosen.indices[i * space_.categories.size() + h] =
+                random ? draw(head.count, row + head.first_logit, mask, unit(words[h % 4]))
+                       : likeliest(head.count, row + head.first_logit, mask);
+        }
+    }
+}
+
+void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_row, bool random,
+                           const Chosen& chosen, float* actions) {
+    const auto picks = static_cast<std::size_t>(space_.picks);
+    const auto logits = static_cast<std::size_t>(space_.logit_count);
+    std::fill_n(chosen.indices, keys_.size() * picks, -1);
+    bool picking = true;
+    for (int p = 0; p < space_.picks && picking; ++p) {
+        if (p > 0) {
+            for (std::size_t i = 0; i < keys_.size(); ++i)
+                write_action(space_,
+                             chosen.numbers + i * static_cast<std::size_t>(space_.real_count()),
+                             chosen.indices + i * picks,
+                             actions + i * static_cast<std::size_t>(space_.column_count));
+            write_records(actions);
+        }
+        simulator_.action_mask(batch, p > 0 ? actions_.data() : nullptr, choice_masks_.data());
+        picking = false;
+        for (std::size_t i = 0; i < keys_.size(); ++i) {
+            std::int32_t* const index = chosen.indices + i * picks;
+            if (p > 0 && index[p - 1] <= 0) continue;  // has stopped
+            mask_pick(i, p, chosen);
+            const std::uint8_t* const mask =
+                chosen.masks + (i * picks + static_cast<std::size_t>(p)) * logits;
+            const float* const row =
+                outputs + static_cast<std::ptrdiff_t>(i) * output_row + space_.real_count();
+            const auto words = words_of(keys_[i], of_categories + static_cast<std::uint32_t>(p));
+            index[p] = random ? draw(space_.logit_count, row, mask, unit(words[0]))
+                              : likeliest(space_.logit_count, row, mask);
+            picking |= index[p] > 0;
+        }
+    }
+}
+
+// What may be picked next: what is legal then; where nothing is, all that is not picked yet, since
+// more changes may mend it.
+void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
+    const auto picks = static_cast<std::size_t>(space_.picks);
+    const std::size_t logits = space_.choices.size();
+    const std::uint8_t* const allowed =
+        choice_masks_.data() +
+        i * static_cast<std::size_t>(simulator_.action_choice_count(&simulator_));
+    const std::int32_t* const index = chosen.indices + i * picks;
+    std::uint8_t* const mask = chosen.masks + (i * picks + static_cast<std::size_t>(pick)) * logits;
+    bool any = false;
+    for (std::size_t c = 0; c < logits; ++c) {
+        const Choice& choice = space_.choices[c];
+        mask[c] = choice.of_mask < 0 || allowed[choice.of_mask];
+        for (int p = 0; p < pick && c > 0; ++p)
+            if (space_.choices[static_cast<std::size_t>(index[p])].column == choice.column)
+                mask[c] = 0;
+        any |= mask[c] != 0;
+    }
+    if (any) return;
+    for (std::size_t c = 0; c < logits; ++c) {
+        bool picked = false;
+        for (int p = 0; p < pick && c > 0; ++p)
+            picked |= space_.choices[static_cast<std::size_t>(index[p])].column ==
+                      space_.choices[c].column;
+        mask[c] = !picked && (c > 0 || pick > 0);
+        any |= mask[c] != 0;
+    }
+    if (!any) mask[0] = 1;
+}
+
+void Chooser::mend(rddl_batch* batch, float* actions) {
+    write_records(actions);
+    mended_ += mend_actions(simulator_, space_, records_, batch, environments_, actions,
+                            actions_.data(), violated_.data(), saved_.data());
+}
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,89 @@
+// From the outputs of a policy's network to actions: at random as it says, or the likeliest.
+#pragma once
+
+#include "solvers/spaces/actions.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::solvers {
+
+enum class Noise { White, Ar1 };  // of reals; Ar1: correlated in time
+
+// Where what was chosen for n environments goes: rows of the action space's
+// real_count numbers and shifts (by how much noise of the step before moved the mean), a spread
+// (the part of the deviation that is noise of this step), index_count indices and mask_size bytes.
+struct Chosen {
+    float* numbers;
+    float* shifts;
+    float* spreads;
+    std::int32_t* indices;
+    std::uint8_t* masks;
+    float* log_probabilities;
+};
+
+// Random numbers that a choice is made with, a function of these alone.
+struct ChoiceKey {
+    std::uint64_t seed;
+    std::uint64_t environment;
+    std::uint64_t step;
+};
+
+class Chooser {
+  public:
+    // All that is referred to must outlive this.
+    Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
+            double correlation, std::int64_t environments);
+
+    // For each environment i: reads a row of outputs, writes what was chosen and the row of action
+    // values. Without log_deviations the likeliest is chosen. key_of(i) is asked for a ChoiceKey.
+    template <class KeyOf>
+    void choose(rddl_batch* batch, const float* outputs, int output_row,
+                const float* log_deviations, KeyOf key_of, const Chosen& chosen, float* actions) {
+        for (std::int64_t i = 0; i < environments_; ++i)
+            keys_[static_cast<std::size_t>(i)] = key_of(i);
+        choose_all(batch, outputs, output_row, log_deviations, chosen, actions);
+    }
+
+    // The next choice of the environment is the first of an episode.
+    void begin_episode(std::int64_t environment);
+
+    // Noise of the last step, real by real, and whether there was one; for a checkpoint.
+    std::vector<float>& noise() { return noise_; }
+    std::vector<std::uint8_t>& has_noise() { return has_noise_; }
+    // Actions that violated a precondition and were mended, since the start.
+    std::int64_t mended() const { return mended_; }
+
+  private:
+    void choose_all(rddl_batch* batch, const float* outputs, int output_row,
+                    const float* log_deviations, const Chosen& chosen, float* actions);
+    void choose_reals(std::size_t i, const float* means, const float* log_deviations,
+                      const Chosen& chosen);
+    void choose_categories(rddl_batch* batch, const float* outputs, int output_row, bool random,
+                           const Chosen& chosen);
+    void choose_picks(rddl_batch* batch, const float* outputs, int output_row, bool random,
+                      const Chosen& chosen, float* actions);
+    void mask_pick(std::size_t i, int pick, const Chosen& chosen);
+    void mend(rddl_batch* batch, float* actions);
+    void write_records(const float* actions);
+
+    const rddl_simulator& simulator_;
+    const ActionSpace& space_;
+    ActionRecords records_;
+    std::int64_t environments_;
+    bool correlated_;
+    float correlation_, fresh_;  // fresh_: sqrt(1 - correlation^2)
+    std::vector<ChoiceKey> keys_;
+    std::vector<float> noise_;
+    std::vector<std::uint8_t> has_noise_;
+    std::vector<std::byte> actions_;          // records
+    std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
+    std::vector<std::int32_t> violated_;
+    std::vector<float> saved_;  // of mending
+    std::int64_t mended_ = 0;
+};
+
+}  // namespace rddlc::solvers

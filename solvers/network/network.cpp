@@ -1,0 +1,69 @@
+#include "solvers/network/network.hpp"
+
+#include <rddl/processor.hpp>
+
+#include <cstddef>
+
+namespace rddlc::solvers {
+
+// The same text for each instruction set. What is included above is compiled for any processor.
+namespace portable {
+#define RDDL_VECTOR_BYTES 16
+#include "solvers/network/variant.hpp"
+#undef RDDL_VECTOR_BYTES
+}  // namespace portable
+
+#ifdef __x86_64__
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#endif
+namespace avx2 {
+#define RDDL_VECTOR_BYTES 32
+#include "solvers/network/variant.hpp"
+#undef RDDL_VECTOR_BYTES
+}  // namespace avx2
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+
+const NetworkFunctions<float>& network_functions() {
+#ifdef __x86_64__
+    static const bool has_avx2 = rddl::allowed_instruction_set() != rddl::InstructionSet::Sse2;
+    if (has_avx2) return avx2::functions<float>;
+#endif
+    return portable::functions<float>;
+}
+
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs) {
+    Network network;
+    std::vector<int> widths = hidden;
+    widths.push_back(outputs);
+    for (const int width : widths) {
+        Layer layer;
+        layer.inputs = inputs;
+        layer.outputs = width;
+        layer.padded_inputs = padded(inputs);
+        layer.padded_outputs = padded(width);
+        layer.weights = network.parameters;
+        layer.bias = layer.weights + static_cast<std::size_t>(inputs) *
+                                         static_cast<std::size_t>(layer.padded_outputs);
+        network.parameters = layer.bias + static_cast<std::size_t>(layer.padded_outputs);
+        layer.rows = network.rows;
+        if (!network.layers.empty())
+            network.rows +=
+                static_cast<std::size_t>(width) * static_cast<std::size_t>(layer.padded_inputs);
+        layer.values = network.activations;
+        network.activations += static_cast<std::size_t>(layer.padded_outputs);
+        network.layers.push_back(layer);
+        inputs = width;
+    }
+    return network;
+}
+
+}  // namespace rddlc::solvers

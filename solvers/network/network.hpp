@@ -1,0 +1,68 @@
+// Networks of tanh layers, of any width and depth, on rows of samples.
+//
+// Parameters of a network are one array of numbers, in the order of the layers: the transposed
+// weights, a row of padded_outputs numbers for each input, and then the bias. What pads rows is 0
+// and stays so.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// Rows of results have a multiple of so many numbers.
+inline constexpr int padding = 8;
+constexpr int padded(int count) {
+    return (count + padding - 1) / padding * padding;
+}
+
+struct Layer {
+    int inputs = 0, outputs = 0;
+    int padded_inputs = 0, padded_outputs = 0;
+    std::size_t weights = 0, bias = 0;  // where they begin in the array of parameters
+    std::size_t rows = 0;               // where the weights' rows begin in that of rows
+    std::size_t values = 0;             // where its results begin in a sample's activations
+};
+
+// All hidden layers end with tanh, the last one with nothing.
+struct Network {
+    std::vector<Layer> layers;
+    std::size_t parameters = 0;   // numbers
+    std::size_t rows = 0;         // numbers: weights as [output][padded input], for backward()
+    std::size_t activations = 0;  // numbers of a sample: results of all layers
+    int inputs() const { return layers.front().inputs; }
+    int outputs() const { return layers.back().outputs; }
+    int padded_outputs() const { return layers.back().padded_outputs; }
+};
+
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs);
+
+// Samples that go through all layers together, so that what they need stays in a processor's cache.
+inline constexpr int tile = 64;
+
+// For one instruction set. `x` has rows of `x_row` numbers, all other rows are padded; `count` is
+// at most a tile. Activations are layer by layer, in each `count` rows.
+template <class Real>
+struct NetworkFunctions {
+    // Results of the last layer stand at layers.back().values * count.
+    void (*forward)(const Network&, const Real* parameters, int count, const Real* x, int x_row,
+                    Real* activations);
+    // Adds the gradient by the parameters to `gradient`, given that by the last layer's results in
+    // `d_outputs`, whose padding is 0. `rows` is what transpose() has made; `scratch` has as many
+    // numbers as the activations.
+    void (*backward)(const Network&, const Real* rows, int count, const Real* x, int x_row,
+                     const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient);
+    // The weights of all layers but the first, as rows.
+    void (*transpose)(const Network&, const Real* parameters, Real* rows);
+    // to += from; sizes are multiples of the padding.
+    void (*add)(std::size_t count, const Real* from, Real* to);
+    // A step of Adam (Kingma and Ba, 2015, algorithm 1), with the bias corrections in `rate` and
+    // `root`: p -= rate * m / (sqrt(v) / root + epsilon), after g *= factor.
+    void (*adam)(std::size_t count, const Real* gradient, Real factor, Real rate, Real root,
+                 Real epsilon, Real* first, Real* second, Real* parameters);
+};
+
+// Those of this processor; RDDL_INSTRUCTION_SET=sse2 in the environment asks for those of any.
+const NetworkFunctions<float>& network_functions();
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,62 @@
+#include "solvers/policies/policy.hpp"
+
+#include "solvers/policies/random_actions.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace rddlc::solvers {
+
+namespace {
+
+struct RandomActor {
+    RandomActor(const rddl_simulator& simulator, std::uint64_t seed, std::int64_t environments)
+        : policy(*simulator.problem, seed), actions(simulator, policy, environments) {}
+
+    void act(Decision& decision) {
+        actions.draw(
+            decision.batch, decision.actions, [&](std::size_t i) { return decision.running[i]; },
+            [&](std::size_t i) { return decision.episodes[i]; },
+            [&](std::size_t i) { return decision.steps[i]; });
+        for (std::size_t i = 0; i < decision.violated.size(); ++i)
+            decision.violated[i] = actions.violated(i);
+        decision.knows_violated = true;
+    }
+
+    RandomPolicy policy;
+    RandomActions actions;
+};
+
+}  // namespace
+
+Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed) {
+    return {"random", [&simulator, seed](std::int64_t environments) -> Actor {
+                const auto actor = std::make_shared<RandomActor>(simulator, seed, environments);
+                return [actor](Decision& decision) {
+                    actor->act(decision);
+                };
+            }};
+}
+
+Policy noop_policy(const rddl_simulator& simulator) {
+    return {"noop", [problem = simulator.problem](std::int64_t) -> Actor {
+                return [problem](Decision& decision) {
+                    const auto* const action =
+                        static_cast<const std::byte*>(problem->default_action);
+                    for (std::size_t i = 0; i < decision.running.size(); ++i)
+                        std::copy_n(
+                            action, problem->action_size,
+                            decision.actions + i * static_cast<std::size_t>(problem->action_size));
+                };
+            }};
+}
+
+Policy block_policy(const rddl_simulator& simulator) {
+    return {"rddl", [&simulator](std::int64_t) -> Actor {
+                return [&simulator](Decision& decision) {
+                    simulator.policy_act(decision.batch, decision.actions);
+                };
+            }};
+}
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,44 @@
+// The one interface of all policies: random, no-op, a policy block, what PPO and CGP have learned,
+// a recorded plan. Batch in, batch out.
+#pragma once
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace rddlc::solvers {
+
+// What a policy is asked: a batch of n environments before its next step.
+struct Decision {
+    rddl_batch* batch;
+    std::span<const std::uint8_t> running;   // n; 0: the episode is over, any action will do
+    std::span<const std::int64_t> episodes;  // n; which episode each is, for random numbers
+    std::span<const std::int64_t> steps;     // n; steps made in each episode
+    std::byte* actions;                      // n records to write
+    // n; the first precondition that each action violates, or -1. Who has asked for it anyway
+    // writes it and says so.
+    std::span<std::int32_t> violated;
+    bool knows_violated = false;
+};
+
+// Acts in one batch, whose episodes have just begun, once for each step; remembers what it needs of
+// them.
+using Actor = std::function<void(Decision&)>;
+
+struct Policy {
+    std::string name;
+    // An actor for so many environments. Several may be at work in different threads.
+    std::function<Actor(std::int64_t environments)> start;
+};
+
+// `simulator` must outlive these policies.
+Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed);
+Policy noop_policy(const rddl_simulator& simulator);
+// The simulator's policy block, which must be there.
+Policy block_policy(const rddl_simulator& simulator);
+
+}  // namespace rddlc::solvers

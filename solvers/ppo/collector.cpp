@@ -1,0 +1,249 @@
+#include "solvers/ppo/collector.hpp"
+
+#include <rddl/random.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace rddlc::solvers {
+
+namespace {
+
+rddl_batch_options batch_options(std::int64_t count) {
+    rddl_batch_options options{};
+    options.environment_count = count;
+    options.thread_count = 1;
+    options.autoreset = RDDL_AUTORESET_SAME_STEP;
+    return options;
+}
+
+// Different for each environment and update.
+std::uint64_t seed_of(std::uint64_t seed, std::int64_t environment, std::int64_t update) {
+    const rddl::StreamKey key = rddl::stream_key(seed, static_cast<std::uint64_t>(environment),
+                                                 static_cast<std::uint64_t>(update));
+    return static_cast<std::uint64_t>(key.high) << 32 | key.low;
+}
+
+}  // namespace
+
+Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
+                     const PpoOptions& options, std::int64_t first, std::int64_t count)
+    : simulator_(simulator),
+      model_(model),
+      options_(options),
+      gamma_(std::min(options.gamma, simulator.problem->discount)),
+      bootstraps_(options.bootstraps.value_or(!model.observations.time)),
+      first_(first),
+      count_(count),
+      batch_(create_batch(simulator, batch_options(count))),
+      chooser_(simulator, model.actions, options.noise, options.correlation, count) {
+    const auto environments = static_cast<std::size_t>(count);
+    const auto features = static_cast<std::size_t>(model.features());
+    const auto columns = static_cast<std::size_t>(model.observations.column_count());
+    features_.resize(environments * features);
+    observations_.resize(environments * columns);
+    final_observations_.resize(environments * columns);
+    final_features_.resize(features);
+    normalised_.resize(features);
+    actions_.resize(environments * static_cast<std::size_t>(model.actions.column_count));
+    activations_.resize(tile * std::max(model.policy.activations, model.value.activations));
+    outputs_.resize(environments * static_cast<std::size_t>(model.policy.padded_outputs()));
+    rewards_.resize(environments);
+    for (auto* each : {&terminated_, &truncated_, &causes_}) each->resize(environments);
+    steps_.resize(environments);
+    for (auto* each : {&running_returns_, &sums_, &discounted_sums_}) each->resize(environments);
+    discounts_.assign(environments, 1.0);
+    feature_moments_.resize(environments * features);
+    return_moments_.resize(environments);
+}
+
+void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
+    std::vector<std::uint64_t> seeds;
+    for (std::int64_t e = 0; e < count_; ++e) seeds.push_back(seed_of(seed, first_ + e, update));
+    simulator_.set_seeds(batch_.get(), 0, count_, seeds.data());
+    std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
+    std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
+    finished_.clear();
+    simulator_seconds_ = 0;
+    if (update > 0) return;
+    // The first episodes begin with these numbers.
+    simulator_.reset(batch_.get(), nullptr, nullptr);
+    simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data());
+    for (std::int64_t e = 0; e < count_; ++e) {
+        write_features(model_.observations,
+                       observations_.data() + e * model_.observations.column_count(), 0, true,
+                       features_.data() + e * model_.features());
+        chooser_.begin_episode(e);
+        const auto at = static_cast<std::size_t>(e);
+        steps_[at] = 0;
+        running_returns_[at] = sums_[at] = discounted_sums_[at] = 0;
+        discounts_[at] = 1;
+    }
+}
+
+void Collector::collect(Experience& experience, std::uint64_t seed, std::int64_t update) {
+    for (int t = 0; t < experience.rollout; ++t) {
+        act(experience, t, seed, update);
+        step(experience, t);
+    }
+    estimate_values(experience);
+}
+
+void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
+                    std::int64_t update) {
+    const std::size_t begin = static_cast<std::size_t>(t * experience.environments + first_);
+    const int width = model_.features();
+    const int output_row = model_.policy.padded_outputs();
+    float* const rows = experience.features.data() + begin * static_cast<std::size_t>(width);
+    for (std::int64_t e = 0; e < count_; ++e)
+        model_.normaliser.write(features_.data() + e * width, rows + e * width);
+    const NetworkFunctions<float>& functions = network_functions();
+    for (std::int64_t e = 0; e < count_; e += tile) {
+        const int some = static_cast<int>(std::min<std::int64_t>(tile, count_ - e));
+        functions.forward(model_.policy, model_.parameters.data(), some, rows + e * width, width,
+                          activations_.data());
+        std::copy_n(activations_.data() +
+                        model_.policy.layers.back().values * static_cast<std::size_t>(some),
+                    some * output_row, outputs_.data() + e * output_row);
+    }
+    const auto at = [&](auto& values, int row) {
+        return values.data() + begin * static_cast<std::size_t>(row);
+    };
+    const ActionSpace& actions = model_.actions;
+    const Chosen chosen{at(experience.numbers, actions.real_count()),
+                        at(experience.shifts, actions.real_count()),
+                        at(experience.spreads, 1),
+                        at(experience.indices, actions.index_count()),
+                        at(experience.masks, actions.mask_size()),
+                        at(experience.log_probabilities, 1)};
+    const auto key_of = [&](std::int64_t e) {
+        return ChoiceKey{seed, static_cast<std::uint64_t>(first_ + e),
+                         static_cast<std::uint64_t>(update * experience.rollout + t)};
+    };
+    chooser_.choose(batch_.get(), outputs_.data(), output_row, model_.log_deviations(), key_of,
+                    chosen, actions_.data());
+}
+
+void Collector::count_features(std::size_t e) {
+    const auto width = static_cast<std::size_t>(model_.features());
+    for (std::size_t f = 0; f < width; ++f)
+        feature_moments_[e * width + f].add(static_cast<double>(features_[e * width + f]) -
+                                            static_cast<double>(model_.normaliser.means[f]));
+}
+
+void Collector::step(Experience& experience, std::int64_t t) {
+    const int columns = model_.observations.column_count(), width = model_.features();
+    if (options_.normalises_observations)
+        for (std::size_t e = 0; e < steps_.size(); ++e) count_features(e);
+    rddl_transition out{};
+    out.struct_size = sizeof out;
+    out.rewards = rewards_.data();
+    out.terminated = terminated_.data();
+    out.truncated = truncated_.data();
+    out.causes = causes_.data();
+    out.final_observation_values = final_observations_.data();
+    const auto begin = std::chrono::steady_clock::now();
+    simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(), observations_.data(), &out);
+    simulator_seconds_ +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+    for (std::size_t e = 0; e < steps_.size(); ++e) {
+        const std::size_t sample =
+            static_cast<std::size_t>(t * experience.environments + first_) + e;
+        float* const features = features_.data() + e * static_cast<std::size_t>(width);
+        const float* const values = observations_.data() + e * static_cast<std::size_t>(columns);
+        const bool faulted = causes_[e] & RDDL_FAULTED;  // a step that faults is not made
+        const double reward = faulted || !std::isfinite(rewards_[e]) ? 0 : rewards_[e];
+        experience.rewards[sample] = static_cast<float>(reward);
+        running_returns_[e] = running_returns_[e] * gamma_ + reward;
+        return_moments_[e].add(running_returns_[e] - return_origin);
+        sums_[e] += reward;
+        discounted_sums_[e] += discounts_[e] * reward;
+        discounts_[e] *= simulator_.problem->discount;
+        if (!faulted) ++steps_[e];
+        const bool ends = terminated_[e] || truncated_[e];
+        experience.ends[sample] = ends;
+        if (!ends) {
+            write_features(model_.observations, values, steps_[e], false, features);
+            continue;
+        }
+        const bool by_horizon_alone = causes_[e] == RDDL_TRUNCATED_HORIZON;
+        const bool goes_on = !terminated_[e] && (bootstraps_ || !by_horizon_alone);
+        if (goes_on) {
+            std::copy_n(features, width, final_features_.data());
+            write_features(model_.observations,
+                           final_observations_.data() + e * static_cast<std::size_t>(columns),
+                           steps_[e], false, final_features_.data());
+            experience.next_values[sample] = value_of(final_features_.data());
+        } else {
+            experience.next_values[sample] = 0;
+        }
+        finished_.push_back({sums_[e], discounted_sums_[e], steps_[e], causes_[e]});
+        sums_[e] = discounted_sums_[e] = running_returns_[e] = 0;
+        discounts_[e] = 1;
+        steps_[e] = 0;
+        chooser_.begin_episode(static_cast<std::int64_t>(e));
+        write_features(model_.observations, values, 0, true, features);
+    }
+}
+
+float Collector::value_of(const float* features) {
+    model_.normaliser.write(features, normalised_.data());
+    network_functions().forward(model_.value, model_.value_parameters(), 1, normalised_.data(),
+                                model_.features(), activations_.data());
+    return activations_[model_.value.layers.back().values];
+}
+
+// Of all samples of its environments, and of the states that they are in now.
+void Collector::estimate_values(Experience& experience) {
+    const int width = model_.features();
+    const std::size_t result = model_.value.layers.back().values;
+    const NetworkFunctions<float>& functions = network_functions();
+    const auto write = [&](std::int64_t sample, int count) {
+        functions.forward(model_.value, model_.value_parameters(), count,
+                          experience.features.data() + sample * width, width, activations_.data());
+        for (int i = 0; i < count; ++i)
+            experience.values[static_cast<std::size_t>(sample + i)] =
+                activations_[result * static_cast<std::size_t>(count) +
+                             static_cast<std::size_t>(i * padding)];
+    };
+    const std::int64_t samples = static_cast<std::int64_t>(experience.count());
+    if (count_ == experience.environments)
+        for (std::int64_t s = 0; s < samples; s += tile)
+            write(s, static_cast<int>(std::min<std::int64_t>(tile, samples - s)));
+    else
+        for (std::int64_t t = 0; t < experience.rollout; ++t)
+            for (std::int64_t e = 0; e < count_; e += tile)
+                write(t * experience.environments + first_ + e,
+                      static_cast<int>(std::min<std::int64_t>(tile, count_ - e)));
+
+    const std::int64_t last =
+        (experience.rollout - 1) * static_cast<std::int64_t>(experience.environments) + first_;
+    for (std::int64_t e = 0; e < count_; ++e) {
+        const auto sample = static_cast<std::size_t>(last + e);
+        if (!experience.ends[sample])
+            experience.next_values[sample] = value_of(features_.data() + e * width);
+    }
+}
+
+template <class Archive>
+void Collector::archive(Archive& archive) {
+    std::vector<std::byte> states(static_cast<std::size_t>(count_) *
+                                  static_cast<std::size_t>(simulator_.problem->state_size));
+    if constexpr (!Archive::is_loading)
+        simulator_.get_state(batch_.get(), 0, count_, states.data());
+    archive(states);
+    archive(features_);
+    archive(chooser_.noise());
+    archive(chooser_.has_noise());
+    archive(steps_);
+    for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);
+    if constexpr (Archive::is_loading)
+        simulator_.set_state(batch_.get(), 0, count_, states.data(), steps_.data());
+}
+
+template void Collector::archive(SavingArchive&);
+template void Collector::archive(LoadingArchive&);
+
+}  // namespace rddlc::solvers

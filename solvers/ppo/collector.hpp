@@ -1,0 +1,74 @@
+// Some of the environments, stepped by one thread with the policy as it is.
+#pragma once
+
+#include "solvers/batches/batch.hpp"
+#include "solvers/files/archive.hpp"
+#include "solvers/ppo/experience.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::solvers {
+
+struct FinishedEpisode {
+    double undiscounted_return, discounted_return;
+    std::int64_t length;
+    std::uint8_t causes;
+};
+
+class Collector {
+  public:
+    // Environments [first, first + count) of those of `options`. All that is referred to must
+    // outlive this.
+    Collector(const rddl_simulator& simulator, const PpoModel& model, const PpoOptions& options,
+              std::int64_t first, std::int64_t count);
+
+    // New random numbers for what follows, which depend on seed, update and environment only.
+    void begin_update(std::uint64_t seed, std::int64_t update);
+    // `rollout` steps of its environments, into their places.
+    void collect(Experience& experience, std::uint64_t seed, std::int64_t update);
+
+    // Since begin_update(), environment by environment: features about the normaliser's means as
+    // they are, and discounted returns about `return_origin`.
+    double return_origin = 0;
+    const std::vector<Moments>& feature_moments() const { return feature_moments_; }
+    const std::vector<Moments>& return_moments() const { return return_moments_; }
+    const std::vector<FinishedEpisode>& finished() const { return finished_; }
+    std::int64_t mended() const { return chooser_.mended(); }
+    double simulator_seconds() const { return simulator_seconds_; }
+
+    // All that a run needs to go on as if it had not stopped.
+    template <class Archive>
+    void archive(Archive& archive);
+
+  private:
+    void act(Experience& experience, std::int64_t step, std::uint64_t seed, std::int64_t update);
+    void step(Experience& experience, std::int64_t step);
+    void estimate_values(Experience& experience);
+    float value_of(const float* features);
+    void count_features(std::size_t e);
+
+    const rddl_simulator& simulator_;
+    const PpoModel& model_;
+    const PpoOptions& options_;
+    double gamma_;
+    bool bootstraps_;
+    std::int64_t first_, count_;
+    Batch batch_;
+    Chooser chooser_;
+    std::vector<float> features_;      // rows as they are, of each environment
+    std::vector<float> observations_;  // rows of the simulator's values
+    std::vector<float> final_observations_, final_features_, normalised_;
+    std::vector<float> actions_, activations_, outputs_;
+    std::vector<double> rewards_;
+    std::vector<std::uint8_t> terminated_, truncated_, causes_;
+    std::vector<std::int64_t> steps_;  // of the episode
+    std::vector<double> running_returns_, sums_, discounted_sums_, discounts_;
+    std::vector<Moments> feature_moments_, return_moments_;
+    std::vector<FinishedEpisode> finished_;
+    double simulator_seconds_ = 0;
+};
+
+}  // namespace rddlc::solvers

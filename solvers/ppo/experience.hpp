@@ -1,0 +1,48 @@
+// What an update learns from: all steps of all environments between two updates.
+#pragma once
+
+#include "solvers/choosing/choosing.hpp"
+#include "solvers/ppo/loss.hpp"
+#include "solvers/ppo/model.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// Sample t * environments + e is step t of environment e; rows as in Samples.
+struct Experience {
+    int environments = 0, rollout = 0;
+    std::vector<float> features;  // normalised, rows of feature_count
+    std::vector<float> numbers, shifts, spreads, log_probabilities;
+    std::vector<std::int32_t> indices;
+    std::vector<std::uint8_t> masks;
+    std::vector<float> rewards;  // as they are; scaled by the trainer
+    std::vector<float> values, next_values, advantages, returns;
+    std::vector<std::uint8_t> ends;
+
+    Experience() = default;
+    Experience(const PpoModel& model, int its_environments, int its_rollout)
+        : environments(its_environments), rollout(its_rollout) {
+        const std::size_t samples = count();
+        const auto rows = [&](int size) {
+            return samples * static_cast<std::size_t>(size);
+        };
+        features.resize(rows(model.features()));
+        numbers.resize(rows(model.actions.real_count()));
+        shifts.resize(numbers.size());
+        indices.resize(rows(model.actions.index_count()));
+        masks.resize(rows(model.actions.mask_size()));
+        spreads.assign(samples, 1.0f);
+        for (auto* each :
+             {&log_probabilities, &rewards, &values, &next_values, &advantages, &returns})
+            each->resize(samples);
+        ends.resize(samples);
+    }
+
+    std::size_t count() const {
+        return static_cast<std::size_t>(environments) * static_cast<std::size_t>(rollout);
+    }
+};
+
+}  // namespace rddlc::solvers

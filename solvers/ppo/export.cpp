@@ -1,0 +1,212 @@
+#include "solvers/ppo/export.hpp"
+
+#include "solvers/files/protocol_buffers.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace rddlc::solvers {
+
+namespace {
+
+std::string array_text(const std::string& name, const std::vector<float>& values) {
+    std::string text = fmt::format("inline constexpr float {}[] = {{", name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        text += fmt::format("{}{:.9g}f", i % 8 == 0 ? "\n    " : " ", values[i]) +
+                (i + 1 < values.size() ? "," : "");
+    // A number without a point is no float.
+    return text + "};\n";
+}
+
+// Outputs times inputs, row by row.
+std::vector<float> weights_of(const Layer& layer, const float* parameters) {
+    std::vector<float> weights;
+    for (int o = 0; o < layer.outputs; ++o)
+        for (int i = 0; i < layer.inputs; ++i)
+            weights.push_back(
+                parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)]);
+    return weights;
+}
+std::vector<float> bias_of(const Layer& layer, const float* parameters) {
+    const float* const bias = parameters + layer.bias;
+    return {bias, bias + layer.outputs};
+}
+
+// "1f" is no C++.
+std::string with_points(std::string text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool ends =
+            text[i] == 'f' && i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1]));
+        if (ends) {
+            std::size_t begin = i;
+            while (begin > 0 &&
+                   (std::isalnum(static_cast<unsigned char>(text[begin - 1])) ||
+                    text[begin - 1] == '.' || text[begin - 1] == '-' || text[begin - 1] == '+'))
+                --begin;
+            const std::string number = text.substr(begin, i - begin);
+            if (number.find_first_of(".e") == std::string::npos) result += ".0";
+        }
+        result += text[i];
+    }
+    return result;
+}
+
+// ------------------------------------------------------------------------------------ ONNX
+
+// Numbers of fields in onnx.proto.
+std::string tensor(const std::string& name, const std::vector<std::int64_t>& shape,
+                   const std::vector<float>& values) {
+    std::string out;
+    for (const std::int64_t size : shape) append_number(out, 1, static_cast<std::uint64_t>(size));
+    append_number(out, 2, 1);  // FLOAT
+    append_bytes(out, 8, name);
+    std::string raw;
+    for (const float value : values)
+        append_little_endian(raw, std::bit_cast<std::uint32_t>(value), 4);
+    append_bytes(out, 9, raw);
+    return out;
+}
+
+std::string node(const std::string& operation, const std::vector<std::string>& inputs,
+                 const std::string& output, bool transposes = false) {
+    std::string out;
+    for (const std::string& input : inputs) append_bytes(out, 1, input);
+    append_bytes(out, 2, output);
+    append_bytes(out, 4, operation);
+    if (transposes) {
+        std::string attribute;
+        append_bytes(attribute, 1, "transB");
+        append_number(attribute, 3, 1);
+        append_number(attribute, 20, 2);  // INT
+        append_bytes(out, 5, attribute);
+    }
+    return out;
+}
+
+std::string value_info(const std::string& name, int columns) {
+    std::string batch, width, shape, type, info, outer;
+    append_bytes(batch, 2, "batch");
+    append_number(width, 1, static_cast<std::uint64_t>(columns));
+    append_bytes(shape, 1, batch);
+    append_bytes(shape, 1, width);
+    append_number(type, 1, 1);  // FLOAT
+    append_bytes(type, 2, shape);
+    append_bytes(outer, 1, type);
+    append_bytes(info, 1, name);
+    append_bytes(info, 2, outer);
+    return info;
+}
+
+}  // namespace
+
+std::string ppo_policy_cpp(const PpoModel& model) {
+    const Network& network = model.policy;
+    std::string text =
+        "// A policy that rddl train ppo has learned; rddl export wrote it.\n"
+        "// Features:";
+    for (int k = 0; k < model.observations.stack; ++k)
+        for (const std::string& feature : model.observations.features)
+            text +=
+                fmt::format("\n//   {}{}", feature, k > 0 ? fmt::format(", {} steps ago", k) : "");
+    if (model.observations.time) text += "\n//   steps made / horizon";
+    text += "\n// Outputs:";
+    for (const RealHead& head : model.actions.reals)
+        text += fmt::format("\n//   {}: a number in the learner's scale",
+                            model.actions.names[static_cast<std::size_t>(head.column)]);
+    for (const CategoryHead& head : model.actions.categories)
+        text += fmt::format("\n//   {}: logits of {} values",
+                            model.actions.names[static_cast<std::size_t>(head.column)], head.count);
+    for (const Choice& choice : model.actions.choices)
+        text += choice.column < 0
+                    ? "\n//   logit of stopping"
+                    : fmt::format("\n//   logit of {} = {}",
+                                  model.actions.names[static_cast<std::size_t>(choice.column)],
+                                  choice.value);
+    text += fmt::format(
+        "\n#pragma once\n\n#include <cmath>\n\nnamespace policy {{\n\n"
+        "constexpr int feature_count = {}, output_count = {};\n\n",
+        model.features(), network.outputs());
+    text += with_points(array_text("means", model.normaliser.means));
+    text += with_points(array_text("factors", model.normaliser.factors));
+    std::size_t widest = static_cast<std::size_t>(model.features());
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
+        const Layer& layer = network.layers[l];
+        text += with_points(
+            array_text(fmt::format("weights{}", l), weights_of(layer, model.parameters.data())));
+        text += with_points(
+            array_text(fmt::format("bias{}", l), bias_of(layer, model.parameters.data())));
+        widest = std::max(widest, static_cast<std::size_t>(layer.outputs));
+    }
+    text += fmt::format(
+        "\ninline void layer(const float* weights, const float* bias, int inputs, int outputs, "
+        "bool last,\n"
+        "                  const float* from, float* to) {{\n"
+        "    for (int o = 0; o < outputs; ++o) {{\n"
+        "        float sum = bias[o];\n"
+        "        for (int i = 0; i < inputs; ++i) sum += weights[o * inputs + i] * from[i];\n"
+        "        to[o] = last ? sum : std::tanh(sum);\n    }}\n}}\n\n"
+        "inline void act(const float* features, float* outputs) {{\n"
+        "    float a[{0}], b[{0}];\n"
+        "    for (int f = 0; f < feature_count; ++f) {{\n"
+        "        const float x = (features[f] - means[f]) * factors[f];\n"
+        "        a[f] = x > 10 ? 10 : x < -10 ? -10 : x;\n    }}\n",
+        widest);
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
+        const Layer& layer = network.layers[l];
+        const bool last = l + 1 == network.layers.size();
+        text += fmt::format("    layer(weights{0}, bias{0}, {1}, {2}, {3}, {4}, {5});\n", l,
+                            layer.inputs, layer.outputs, last, l % 2 ? "b" : "a",
+                            last    ? "outputs"
+                            : l % 2 ? "a"
+                                    : "b");
+    }
+    return text + "}\n\n}  // namespace policy\n";
+}
+
+std::string ppo_policy_onnx(const PpoModel& model) {
+    const Network& network = model.policy;
+    std::string graph;
+    const auto add_node = [&](const std::string& bytes) {
+        append_bytes(graph, 1, bytes);
+    };
+    add_node(node("Sub", {"features", "means"}, "centred"));
+    add_node(node("Mul", {"centred", "factors"}, "scaled"));
+    add_node(node("Clip", {"scaled", "least", "most"}, "x0"));
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
+        const bool last = l + 1 == network.layers.size();
+        add_node(node(
+            "Gemm", {fmt::format("x{}", l), fmt::format("weights{}", l), fmt::format("bias{}", l)},
+            last ? "outputs" : fmt::format("sum{}", l), true));
+        if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, fmt::format("x{}", l + 1)));
+    }
+    append_bytes(graph, 2, "policy");
+    const auto add_tensor = [&](const std::string& name, const std::vector<std::int64_t>& shape,
+                                const std::vector<float>& values) {
+        append_bytes(graph, 5, tensor(name, shape, values));
+    };
+    add_tensor("means", {model.features()}, model.normaliser.means);
+    add_tensor("factors", {model.features()}, model.normaliser.factors);
+    add_tensor("least", {}, {-10});
+    add_tensor("most", {}, {10});
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
+        const Layer& layer = network.layers[l];
+        add_tensor(fmt::format("weights{}", l), {layer.outputs, layer.inputs},
+                   weights_of(layer, model.parameters.data()));
+        add_tensor(fmt::format("bias{}", l), {layer.outputs},
+                   bias_of(layer, model.parameters.data()));
+    }
+    append_bytes(graph, 11, value_info("features", model.features()));
+    append_bytes(graph, 12, value_info("outputs", network.outputs()));
+    std::string opset, out;
+    append_bytes(opset, 1, "");
+    append_number(opset, 2, 13);
+    append_number(out, 1, 7);  // version of the format
+    append_bytes(out, 2, "rddlc");
+    append_bytes(out, 7, graph);
+    append_bytes(out, 8, opset);
+    return out;
+}
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,186 @@
+#include "solvers/ppo/learner.hpp"
+
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace rddlc::solvers {
+
+namespace {
+
+// So many samples sum up their gradients in one place; then these sums are added in their order. So
+// results do not depend on which thread has done which of them.
+constexpr std::size_t chunk = 4 * tile;
+
+std::size_t parts(std::size_t count, std::size_t size) {
+    return (count + size - 1) / size;
+}
+
+}  // namespace
+
+Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team)
+    : first_moments(model.parameters.size()),
+      second_moments(model.parameters.size()),
+      model_(model),
+      options_(options),
+      team_(team),
+      workplaces_(static_cast<std::size_t>(team.size())),
+      policy_rows_(model.policy.rows),
+      value_rows_(model.value.rows) {
+    const std::size_t chunks = parts(static_cast<std::size_t>(options.minibatch), chunk);
+    gradients_.assign(chunks, std::vector<float>(model.parameters.size()));
+    sums_.resize(chunks);
+    for (Workplace& place : workplaces_) {
+        const auto rows = [](auto& values, int row) {
+            values.resize(static_cast<std::size_t>(tile * row));
+        };
+        rows(place.features, model.features());
+        rows(place.numbers, model.actions.real_count());
+        rows(place.shifts, model.actions.real_count());
+        rows(place.indices, model.actions.index_count());
+        rows(place.masks, model.actions.mask_size());
+        for (auto* each : {&place.spreads, &place.log_probabilities, &place.advantages,
+                           &place.values, &place.returns})
+            rows(*each, 1);
+        rows(place.policy_activations, static_cast<int>(model.policy.activations));
+        rows(place.value_activations, static_cast<int>(model.value.activations));
+        rows(place.scratch,
+             static_cast<int>(std::max(model.policy.activations, model.value.activations)));
+        rows(place.d_outputs, model.policy.padded_outputs());
+        rows(place.d_values, model.value.padded_outputs());
+    }
+}
+
+void Learner::gather(const Experience& experience, std::span<const std::uint32_t> samples,
+                     Workplace& place) const {
+    const auto copy_rows = [&](const auto& from, auto& to, int row) {
+        const auto size = static_cast<std::size_t>(row);
+        for (std::size_t s = 0; s < samples.size(); ++s)
+            std::copy_n(from.data() + samples[s] * size, size, to.data() + s * size);
+    };
+    copy_rows(experience.features, place.features, model_.features());
+    copy_rows(experience.numbers, place.numbers, model_.actions.real_count());
+    copy_rows(experience.shifts, place.shifts, model_.actions.real_count());
+    copy_rows(experience.indices, place.indices, model_.actions.index_count());
+    copy_rows(experience.masks, place.masks, model_.actions.mask_size());
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        const std::size_t sample = samples[s];
+        place.spreads[s] = experience.spreads[sample];
+        place.log_probabilities[s] = experience.log_probabilities[sample];
+        place.advantages[s] = experience.advantages[sample];
+        place.values[s] = experience.values[sample];
+        place.returns[s] = experience.returns[sample];
+    }
+}
+
+void Learner::learn_tile(const Experience& experience, std::span<const std::uint32_t> samples,
+                         const LossWeights& weights, Workplace& place, float* gradient,
+                         LossSums& sums) const {
+    gather(experience, samples, place);
+    const NetworkFunctions<float>& functions = network_functions();
+    const int count = static_cast<int>(samples.size()), width = model_.features();
+    const float* const features = place.features.data();
+    const auto results = [&](const Network& network, const std::vector<float>& activations) {
+        return activations.data() + network.layers.back().values * samples.size();
+    };
+    functions.forward(model_.policy, model_.parameters.data(), count, features, width,
+                      place.policy_activations.data());
+    functions.forward(model_.value, model_.value_parameters(), count, features, width,
+                      place.value_activations.data());
+    const Samples<float> rows{
+        place.numbers.data(),    place.shifts.data(), place.spreads.data(),
+        place.indices.data(),    place.masks.data(),  place.log_probabilities.data(),
+        place.advantages.data(), place.values.data(), place.returns.data()};
+    add_loss(model_.actions, weights, rows, count, results(model_.policy, place.policy_activations),
+             model_.policy.padded_outputs(), model_.log_deviations(),
+             results(model_.value, place.value_activations), model_.value.padded_outputs(),
+             place.d_outputs.data(), place.d_values.data(), gradient + model_.deviations_begin(),
+             sums);
+    functions.backward(model_.policy, policy_rows_.data(), count, features, width,
+                       place.policy_activations.data(), place.d_outputs.data(),
+                       place.scratch.data(), gradient);
+    functions.backward(model_.value, value_rows_.data(), count, features, width,
+                       place.value_activations.data(), place.d_values.data(), place.scratch.data(),
+                       gradient + model_.value_begin());
+}
+
+LossSums Learner::learn(const Experience& experience, std::span<const std::uint32_t> samples,
+                        const Step& step) {
+    LossWeights weights{options_.clip,
+                        options_.value_clip,
+                        options_.value_weight,
+                        step.entropy_weight,
+                        step.kl_penalty,
+                        0,
+                        1,
+                        1 / static_cast<double>(samples.size())};
+    if (options_.normalises_advantages && samples.size() > 1) {
+        double sum = 0, squares = 0;
+        for (const std::uint32_t s : samples) sum += static_cast<double>(experience.advantages[s]);
+        weights.advantage_mean = sum / static_cast<double>(samples.size());
+        for (const std::uint32_t s : samples) {
+            const double d = static_cast<double>(experience.advantages[s]) - weights.advantage_mean;
+            squares += d * d;
+        }
+        weights.advantage_scale =
+            1 / (std::sqrt(squares / static_cast<double>(samples.size() - 1)) + 1e-8);
+    }
+
+    const NetworkFunctions<float>& functions = network_functions();
+    functions.transpose(model_.policy, model_.parameters.data(), policy_rows_.data());
+    functions.transpose(model_.value, model_.value_parameters(), value_rows_.data());
+    const std::size_t chunks = parts(samples.size(), chunk);
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&](int worker) {
+        for (std::size_t c = next++; c < chunks; c = next++) {
+            std::vector<float>& gradient = gradients_[c];
+            std::fill(gradient.begin(), gradient.end(), 0.0f);
+            sums_[c] = {};
+            const auto mine =
+                samples.subspan(c * chunk, std::min(chunk, samples.size() - c * chunk));
+            for (std::size_t s = 0; s < mine.size(); s += tile)
+                learn_tile(experience,
+                           mine.subspan(s, std::min<std::size_t>(tile, mine.size() - s)), weights,
+                           workplaces_[static_cast<std::size_t>(worker)], gradient.data(),
+                           sums_[c]);
+        }
+    };
+    chunks > 1 ? team_.run(work) : work(0);
+
+    LossSums all = sums_[0];
+    std::vector<float>& gradient = gradients_[0];
+    for (std::size_t c = 1; c < chunks; ++c) {
+        functions.add(gradient.size(), gradients_[c].data(), gradient.data());
+        all.policy += sums_[c].policy;
+        all.value += sums_[c].value;
+        all.entropy += sums_[c].entropy;
+        all.kl += sums_[c].kl;
+        all.clipped += sums_[c].clipped;
+    }
+    double squares = 0;
+    for (const float number : gradient)
+        squares += static_cast<double>(number) * static_cast<double>(number);
+    const double norm = std::sqrt(squares);
+    if (!std::isfinite(norm))
+        throw Failure(fmt::format(
+            "the gradient is not finite: the loss of the policy is {}, that of the values {}",
+            all.policy * weights.sample_weight, all.value * weights.sample_weight));
+
+    // https://pytorch.org/docs: clip_grad_norm_ and Adam, to be comparable.
+    const double factor =
+        options_.gradient_norm > 0 ? std::min(1.0, options_.gradient_norm / (norm + 1e-6)) : 1;
+    adam_steps += 1;
+    const auto steps = static_cast<double>(adam_steps);
+    const double rate = step.learning_rate / (1 - std::pow(0.9, steps));
+    const double root = std::sqrt(1 - std::pow(0.999, steps));
+    functions.adam(gradient.size(), gradient.data(), static_cast<float>(factor),
+                   static_cast<float>(rate), static_cast<float>(root), 1e-5f, first_moments.data(),
+                   second_moments.data(), model_.parameters.data());
+    return all;
+}
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,55 @@
+// One pass of gradient descent over minibatches of an experience.
+#pragma once
+
+#include "solvers/ppo/experience.hpp"
+
+#include <rddl/threads.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rddlc::solvers {
+
+class Learner {
+  public:
+    // All that is referred to must outlive this. Changes the model's parameters.
+    Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team);
+
+    struct Step {
+        double learning_rate, entropy_weight, kl_penalty;
+    };
+    // One step down the gradient of the samples' mean loss. Returns sums over the samples; throws a
+    // Failure if the gradient is not finite.
+    LossSums learn(const Experience& experience, std::span<const std::uint32_t> samples,
+                   const Step& step);
+
+    // Moments of Adam, and how many steps it has made.
+    std::vector<float> first_moments, second_moments;
+    std::int64_t adam_steps = 0;
+
+  private:
+    // What one thread needs for a tile of samples.
+    struct Workplace {
+        std::vector<float> features, numbers, shifts, spreads, log_probabilities, advantages,
+            values, returns;
+        std::vector<std::int32_t> indices;
+        std::vector<std::uint8_t> masks;
+        std::vector<float> policy_activations, value_activations, scratch, d_outputs, d_values;
+    };
+    void gather(const Experience& experience, std::span<const std::uint32_t> samples,
+                Workplace& place) const;
+    void learn_tile(const Experience& experience, std::span<const std::uint32_t> samples,
+                    const LossWeights& weights, Workplace& place, float* gradient,
+                    LossSums& sums) const;
+
+    PpoModel& model_;
+    const PpoOptions& options_;
+    rddl::Team& team_;
+    std::vector<Workplace> workplaces_;
+    std::vector<float> policy_rows_, value_rows_;  // transposed weights
+    std::vector<std::vector<float>> gradients_;    // of each chunk of a minibatch
+    std::vector<LossSums> sums_;
+};
+
+}  // namespace rddlc::solvers

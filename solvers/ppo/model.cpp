@@ -1,0 +1,100 @@
+#include "solvers/ppo/model.hpp"
+
+#include <rddl/philox.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rddlc::solvers {
+
+namespace {
+
+class Normals {
+  public:
+    explicit Normals(std::uint64_t seed) : seed_(seed) {}
+    double next() {
+        using namespace rddl::philox;
+        const auto words =
+            generate<key_rounds>(Block<std::uint64_t>{counter_++, 0x696E6974, 0, 0},
+                                 Key<std::uint64_t>{seed_ & 0xFFFFFFFF, seed_ >> 32});
+        const auto unit = [](std::uint64_t word) {
+            return (static_cast<double>(word & 0xFFFFFFFF) + 0.5) * 0x1p-32;
+        };
+        return std::sqrt(-2 * std::log(unit(words[0]))) *
+               std::cos(2 * std::numbers::pi * unit(words[1]));
+    }
+
+  private:
+    std::uint64_t seed_, counter_ = 0;
+};
+
+// Rows of normal numbers, each made orthogonal to those before it (Gram and Schmidt), with length
+// `gain`: `rows` of them are at most `columns`.
+std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals& normals) {
+    std::vector<double> all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    for (int r = 0; r < rows; ++r) {
+        double* const row = all.data() + r * columns;
+        for (int c = 0; c < columns; ++c) row[c] = normals.next();
+        for (int twice = 0; twice < 2; ++twice)
+            for (int other = 0; other < r; ++other) {
+                const double* const before = all.data() + other * columns;
+                double product = 0;
+                for (int c = 0; c < columns; ++c) product += row[c] * before[c];
+                for (int c = 0; c < columns; ++c) row[c] -= product * before[c];
+            }
+        double length = 0;
+        for (int c = 0; c < columns; ++c) length += row[c] * row[c];
+        for (int c = 0; c < columns; ++c) row[c] /= std::sqrt(length);
+    }
+    for (double& number : all) number *= gain;
+    return all;
+}
+
+void initialise(const Layer& layer, double gain, Normals& normals, float* parameters) {
+    const bool wide = layer.inputs >= layer.outputs;
+    const int rows = std::min(layer.inputs, layer.outputs);
+    const int columns = std::max(layer.inputs, layer.outputs);
+    const std::vector<double> weights = orthogonal_rows(rows, columns, gain, normals);
+    for (int o = 0; o < layer.outputs; ++o)
+        for (int i = 0; i < layer.inputs; ++i)
+            parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)] =
+                static_cast<float>(
+                    weights[static_cast<std::size_t>(wide ? o * columns + i : i * columns + o)]);
+}
+
+void initialise(const Network& network, double last_gain, Normals& normals, float* parameters) {
+    for (const Layer& layer : network.layers)
+        initialise(layer, &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2,
+                   normals, parameters);
+}
+
+}  // namespace
+
+void make_networks(PpoModel& model) {
+    model.policy = make_network(model.features(), model.hidden, model.actions.output_count());
+    model.value = make_network(model.features(), model.hidden, 1);
+    const int deviations = std::max(model.actions.real_count(), 1);
+    model.parameters.assign(model.deviations_begin() + static_cast<std::size_t>(padded(deviations)),
+                            0.0f);
+    model.normaliser = Normaliser(model.features());
+}
+
+PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
+                    const PpoOptions& options) {
+    PpoModel model;
+    model.observations = observations;
+    model.actions = actions;
+    model.noise = options.noise;
+    model.correlation = options.correlation;
+    model.hidden = options.hidden;
+    make_networks(model);
+    Normals normals(options.seed);
+    initialise(model.policy, 0.01, normals, model.parameters.data());
+    initialise(model.value, 1, normals, model.parameters.data() + model.value_begin());
+    std::fill_n(model.parameters.data() + model.deviations_begin(), actions.real_count(),
+                static_cast<float>(options.log_deviation));
+    return model;
+}
+
+}  // namespace rddlc::solvers

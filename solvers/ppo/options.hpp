@@ -1,0 +1,54 @@
+// What PPO is told: J. Schulman et al., "Proximal policy optimization algorithms", 2017, with the
+// details of S. Huang et al., "The 37 implementation details of PPO", 2022.
+#pragma once
+
+#include "solvers/choosing/choosing.hpp"
+#include "solvers/spaces/observations.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddlc::solvers {
+
+enum class LearningRate { Constant, Linear, Kl };  // Kl: changed so that the policy moves evenly
+
+struct PpoOptions {
+    std::int64_t steps = 1'000'000;  // of all environments together
+    int environments = 64;
+    int rollout = 128;  // steps of each environment between updates
+    int epochs = 4;
+    int minibatch = 1024;  // samples
+    double learning_rate = 3e-4;
+    LearningRate schedule = LearningRate::Linear;  // Linear: down to 0
+    double gamma = 0.99;        // discount; never above the instance's where that is below 1
+    double lambda = 0.95;       // of generalised advantage estimation
+    double clip = 0.2;          // of the probability ratio
+    double value_clip = 0;      // 0: none
+    double value_weight = 0.5;  // of the squared error of values
+    std::optional<double> entropy_weight;  // absent: 0, or 0.01 with a category or picks
+    double gradient_norm = 0.5;            // at most; 0: any
+    double kl_stop = 0;     // an update ends when the policy has moved by 1.5 times this; 0: never
+    double kl_penalty = 0;  // weight of the divergence in the loss, which adapts itself to
+    double kl_target = 0.01;  // this divergence, as schedule Kl does
+    bool normalises_observations = true, normalises_rewards = true;
+    bool normalises_advantages = true;
+    Noise noise = Noise::Ar1;
+    double correlation = 0.9;            // of Ar1, between a step and the next
+    double log_deviation = 0;            // of noise, at the start
+    std::vector<int> hidden = {64, 64};  // of the policy's network, and of the values'
+    ObservationOptions observations;
+    // Whether what follows the horizon is estimated; absent: unless the policy sees the time, when
+    // the horizon is a fact of the problem and no accident.
+    std::optional<bool> bootstraps;
+    std::uint64_t seed = 0;
+    int threads = 1;
+};
+
+// "fast" (the defaults), "sb3" (Stable-Baselines3's defaults), "rllib" (RLlib's). Nothing if there
+// is no such preset.
+std::optional<PpoOptions> preset(std::string_view name);
+
+}  // namespace rddlc::solvers

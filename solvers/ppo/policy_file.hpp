@@ -1,0 +1,28 @@
+// Policies of PPO as JSON (docs/solvers.md describes it), and as policies.
+#pragma once
+
+#include "solvers/choosing/choosing.hpp"
+#include "solvers/policies/policy.hpp"
+#include "solvers/ppo/model.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace rddlc::solvers {
+
+inline constexpr int policy_file_version = 1;
+
+std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
+
+// Throws a Failure with a sentence where the text is none, incomplete, of a newer version, or of
+// another problem.
+std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
+                                                std::string_view text);
+
+// Chooses what is likeliest, or at random as it has learned. The simulator must outlive it.
+Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
+                  bool random, std::uint64_t seed, std::string name);
+
+}  // namespace rddlc::solvers

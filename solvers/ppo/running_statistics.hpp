@@ -1,0 +1,57 @@
+// Mean and variance of numbers that come in batches: T. Chan, G. Golub, R. LeVeque, "Updating
+// formulae and a pairwise algorithm for computing sample variances", 1979.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// Sums of how far `count` numbers are from a fixed origin, and of the squares.
+struct Moments {
+    double count = 0, sum = 0, squares = 0;
+    void add(double distance) {
+        count += 1;
+        sum += distance;
+        squares += distance * distance;
+    }
+    void add(const Moments& others) {
+        count += others.count;
+        sum += others.sum;
+        squares += others.squares;
+    }
+};
+
+struct RunningStatistics {
+    double count = 0, mean = 0, variance = 1;
+
+    // Moments about the mean as it is.
+    void add(const Moments& batch) {
+        if (batch.count == 0) return;
+        const double all = count + batch.count, moved = batch.sum / batch.count;
+        const double own = batch.squares - batch.sum * moved;  // about the batch's own mean
+        const double old = count > 0 ? variance * count : 0;
+        variance = (old + own + moved * moved * count * batch.count / all) / all;
+        mean += moved * batch.count / all;
+        count = all;
+    }
+    double deviation() const { return std::sqrt(variance + 1e-8); }
+};
+
+// Numbers become (x - mean) / deviation, within +-10.
+struct Normaliser {
+    std::vector<float> means, factors;  // of each feature; 0 and 1 at first
+    explicit Normaliser(int features = 0)
+        : means(static_cast<std::size_t>(features), 0.0f),
+          factors(static_cast<std::size_t>(features), 1.0f) {}
+
+    void write(const float* features, float* normalised) const {
+        for (std::size_t f = 0; f < means.size(); ++f) {
+            const float x = (features[f] - means[f]) * factors[f];
+            normalised[f] = x > 10 ? 10 : x < -10 ? -10 : x;
+        }
+    }
+};
+
+}  // namespace rddlc::solvers

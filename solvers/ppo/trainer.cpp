@@ -1,0 +1,357 @@
+#include "solvers/ppo/trainer.hpp"
+
+#include "solvers/files/fingerprint.hpp"
+#include "solvers/ppo/advantages.hpp"
+#include "solvers/ppo/collector.hpp"
+#include "solvers/ppo/learner.hpp"
+#include "support/failure.hpp"
+
+#include <rddl/philox.hpp>
+#include <rddl/threads.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <numeric>
+
+namespace rddlc::solvers {
+
+namespace {
+
+constexpr std::uint64_t format_version = 1;
+constexpr std::size_t remembered_episodes = 100;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void require(bool holds, const char* sentence) {
+    if (!holds) throw Failure(sentence, {}, usage_error);
+}
+
+void check(const PpoOptions& options) {
+    require(options.environments > 0 && options.rollout > 0, "PPO needs environments and steps");
+    require(options.minibatch <= options.environments * options.rollout,
+            "a minibatch is larger than what is collected for an update: it needs --minibatch at "
+            "most --envs times --rollout");
+    require(options.observations.stack >= 1, "PPO sees at least one observation");
+    for (const int width : options.hidden) require(width > 0, "a layer needs units");
+}
+
+// 0 .. count - 1, shuffled (Fisher and Yates) by numbers of this seed and place alone.
+void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_t update,
+             std::uint64_t epoch) {
+    using namespace rddl::philox;
+    std::iota(order.begin(), order.end(), 0u);
+    Block<std::uint64_t> words{};
+    for (std::size_t i = order.size(); i-- > 1;) {
+        if (i % 4 == 3 || i == order.size() - 1)
+            words = generate<draw_rounds>(
+                Block<std::uint64_t>{i / 4, epoch, update & 0xFFFFFFFF, update >> 32},
+                Key<std::uint64_t>{seed & 0xFFFFFFFF, (seed >> 32) ^ 0x73687566});
+        const std::uint64_t other = (words[i % 4] & 0xFFFFFFFF) * (i + 1) >> 32;
+        std::swap(order[i], order[other]);
+    }
+}
+
+}  // namespace
+
+struct PpoTrainer::State {
+    State(const rddl_simulator& its_simulator, const PpoOptions& its_options)
+        : simulator(its_simulator),
+          options(its_options),
+          model(make_model(observation_space(simulator, options.observations),
+                           action_space(simulator), options)),
+          team(options.threads),
+          learner(model, options, team),
+          experience(model, options.environments, options.rollout),
+          feature_statistics(static_cast<std::size_t>(model.features())),
+          order(experience.count()),
+          gamma(std::min(options.gamma, simulator.problem->discount)),
+          learning_rate(options.learning_rate),
+          kl_penalty(options.kl_penalty) {
+        const int shards = std::min(team.size(), options.environments);
+        for (int s = 0; s < shards; ++s) {
+            const rddl::Range share = rddl::share_of(s, shards, options.environments, 8);
+            collectors.push_back(std::make_unique<Collector>(simulator, model, options, share.begin,
+                                                             share.end - share.begin));
+        }
+        entropy_weight =
+            options.entropy_weight.value_or(model.actions.logit_count > 0 ? 0.01 : 0.0);
+    }
+
+    void for_each_collector(const auto& work) {
+        team.run([&](int worker) {
+            if (static_cast<std::size_t>(worker) < collectors.size())
+                work(*collectors[static_cast<std::size_t>(worker)]);
+        });
+    }
+
+    void collect(std::int64_t number) {
+        for_each_collector([&](Collector& collector) {
+            collector.return_origin = return_statistics.mean;
+            collector.begin_update(options.seed, number);
+            collector.collect(experience, options.seed, number);
+        });
+    }
+
+    // Environment by environment, so that shards do not matter.
+    void learn_scales() {
+        if (options.normalises_observations) {
+            const std::size_t features = feature_statistics.size();
+            std::vector<Moments> all(features);
+            for (const auto& collector : collectors)
+                for (std::size_t i = 0; i < collector->feature_moments().size(); ++i)
+                    all[i % features].add(collector->feature_moments()[i]);
+            for (std::size_t f = 0; f < features; ++f) {
+                feature_statistics[f].mean = static_cast<double>(model.normaliser.means[f]);
+                feature_statistics[f].add(all[f]);
+                model.normaliser.means[f] = static_cast<float>(feature_statistics[f].mean);
+                model.normaliser.factors[f] =
+                    static_cast<float>(1 / feature_statistics[f].deviation());
+            }
+        }
+        Moments returns;
+        for (const auto& collector : collectors)
+            for (const Moments& moments : collector->return_moments()) returns.add(moments);
+        return_statistics.add(returns);
+    }
+
+    void estimate() {
+        if (options.normalises_rewards) {
+            const double factor = 1 / return_statistics.deviation();
+            for (float& reward : experience.rewards)
+                reward = static_cast<float>(
+                    std::clamp(static_cast<double>(reward) * factor, -10.0, 10.0));
+        }
+        for (int e = 0; e < experience.environments; ++e)
+            estimate_advantages({experience.rollout, experience.environments,
+                                 experience.rewards.data() + e, experience.values.data() + e,
+                                 experience.next_values.data() + e, experience.ends.data() + e},
+                                gamma, options.lambda, experience.advantages.data() + e,
+                                experience.returns.data() + e);
+    }
+
+    double scheduled_rate() const {
+        if (options.schedule != LearningRate::Linear) return learning_rate;
+        const double done =
+            static_cast<double>(progress.steps) / static_cast<double>(options.steps);
+        return options.learning_rate * std::max(0.0, 1 - done);
+    }
+
+    void learn(double rate) {
+        LossSums sums;
+        double samples = 0, kl_sum = 0, kl_samples = 0;
+        progress.epochs = 0;
+        bool stops = false;
+        for (int epoch = 0; epoch < options.epochs && !stops; ++epoch) {
+            shuffle(order, options.seed, static_cast<std::uint64_t>(progress.updates),
+                    static_cast<std::uint64_t>(epoch));
+            kl_sum = kl_samples = 0;
+            const auto size = static_cast<std::size_t>(options.minibatch);
+            for (std::size_t s = 0; s < order.size() && !stops; s += size) {
+                const std::span<const std::uint32_t> batch(order.data() + s,
+                                                           std::min(size, order.size() - s));
+                const LossSums some =
+                    learner.learn(experience, batch, {rate, entropy_weight, kl_penalty});
+                const auto count = static_cast<double>(batch.size());
+                sums.policy += some.policy;
+                sums.value += some.value;
+                sums.entropy += some.entropy;
+                sums.clipped += some.clipped;
+                samples += count;
+                kl_sum += some.kl;
+                kl_samples += count;
+                stops = options.kl_stop > 0 && some.kl / count > 1.5 * options.kl_stop;
+            }
+            progress.epochs += 1;
+        }
+        progress.policy_loss = sums.policy / samples;
+        progress.value_loss = sums.value / samples;
+        progress.entropy = sums.entropy / samples;
+        progress.clip_fraction = sums.clipped / samples;
+        progress.kl = kl_sum / kl_samples;
+        progress.learning_rate = rate;
+        adapt();
+    }
+
+    // To how far the policy has moved in the last epoch.
+    void adapt() {
+        if (options.schedule == LearningRate::Kl) {
+            if (progress.kl > 2 * options.kl_target) learning_rate /= 1.5;
+            if (progress.kl < 0.5 * options.kl_target) learning_rate *= 1.5;
+            learning_rate = std::clamp(learning_rate, 1e-6, 1e-2);
+        }
+        if (options.kl_penalty > 0) {
+            if (progress.kl > 2 * options.kl_target) kl_penalty *= 1.5;
+            if (progress.kl < 0.5 * options.kl_target) kl_penalty *= 0.5;
+        }
+    }
+
+    void report() {
+        std::int64_t mended_now = 0;
+        progress.simulator_seconds = 0;
+        progress.episodes = 0;
+        for (const auto& collector : collectors) {
+            mended_now += collector->mended();
+            progress.simulator_seconds += collector->simulator_seconds();
+            for (const FinishedEpisode& episode : collector->finished()) {
+                episodes.push_back(episode);
+                progress.episodes += 1;
+            }
+        }
+        while (episodes.size() > remembered_episodes) episodes.pop_front();
+        progress.mended_rate =
+            static_cast<double>(mended_now - mended) / static_cast<double>(experience.count());
+        mended = mended_now;
+        const auto count = static_cast<double>(std::max<std::size_t>(episodes.size(), 1));
+        progress.mean_return = progress.mean_discounted_return = progress.mean_length =
+            progress.success_rate = 0;
+        for (const FinishedEpisode& episode : episodes) {
+            progress.mean_return += episode.undiscounted_return / count;
+            progress.mean_discounted_return += episode.discounted_return / count;
+            progress.mean_length += static_cast<double>(episode.length) / count;
+            progress.success_rate += (episode.causes & RDDL_TERMINATED ? 1 : 0) / count;
+        }
+        if (episodes.empty())
+            progress.mean_return = progress.mean_discounted_return = progress.mean_length =
+                std::nan("");
+
+        Moments returns, errors;
+        for (std::size_t s = 0; s < experience.count(); ++s) {
+            returns.add(static_cast<double>(experience.returns[s]));
+            errors.add(static_cast<double>(experience.returns[s]) -
+                       static_cast<double>(experience.values[s]));
+        }
+        const auto variance = [](const Moments& m) {
+            return m.squares / m.count - m.sum / m.count * (m.sum / m.count);
+        };
+        progress.explained_variance =
+            variance(returns) > 0 ? 1 - variance(errors) / variance(returns) : std::nan("");
+        double deviation = 0;
+        for (int r = 0; r < model.actions.real_count(); ++r)
+            deviation += std::exp(static_cast<double>(model.log_deviations()[r]));
+        progress.deviation = deviation / std::max(1, model.actions.real_count());
+    }
+
+    // Without a scale, the first update would see features of any size: the untrained policy makes
+    // some steps, from which nothing else is learned.
+    void warm_up() {
+        if (!options.normalises_observations && !options.normalises_rewards) return;
+        collect(0);
+        learn_scales();
+        // Once more, about a mean that is near.
+        collect(0);
+        feature_statistics.assign(feature_statistics.size(), {});
+        return_statistics = {0, return_statistics.mean, 1};
+        learn_scales();
+    }
+
+    void update() {
+        if (progress.updates == 0) warm_up();
+        auto begin = Clock::now();
+        const double rate = scheduled_rate();
+        collect(progress.updates);
+        learn_scales();
+        estimate();
+        progress.collect_seconds = seconds_since(begin);
+        begin = Clock::now();
+        try {
+            learn(rate);
+        } catch (const Failure& failure) {
+            throw Failure(fmt::format("after {} steps {}", progress.steps, failure.what()),
+                          "try a lower --lr, or look for rewards and observations that are huge");
+        }
+        progress.learn_seconds = seconds_since(begin);
+        progress.steps += static_cast<std::int64_t>(experience.count());
+        progress.updates += 1;
+        report();
+    }
+
+    template <class Archive>
+    void archive(Archive& archive) {
+        archive(progress);
+        archive(model.parameters);
+        archive(model.normaliser.means);
+        archive(model.normaliser.factors);
+        archive(learner.first_moments);
+        archive(learner.second_moments);
+        archive(learner.adam_steps);
+        archive(feature_statistics);
+        archive(return_statistics);
+        archive(learning_rate);
+        archive(kl_penalty);
+        std::vector<FinishedEpisode> list(episodes.begin(), episodes.end());
+        archive(list);
+        episodes.assign(list.begin(), list.end());
+        for (const auto& collector : collectors) collector->archive(archive);
+    }
+
+    const rddl_simulator& simulator;
+    PpoOptions options;
+    PpoModel model;
+    rddl::Team team;
+    Learner learner;
+    Experience experience;
+    std::vector<std::unique_ptr<Collector>> collectors;
+    std::vector<RunningStatistics> feature_statistics;
+    RunningStatistics return_statistics;
+    std::vector<std::uint32_t> order;
+    std::deque<FinishedEpisode> episodes;
+    double gamma, learning_rate, kl_penalty, entropy_weight = 0;
+    std::int64_t mended = 0;
+    PpoProgress progress;
+};
+
+PpoTrainer::PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options) {
+    check(options);
+    state_ = std::make_unique<State>(simulator, options);
+}
+PpoTrainer::~PpoTrainer() = default;
+
+void PpoTrainer::update() {
+    state_->update();
+}
+bool PpoTrainer::done() const {
+    return state_->progress.steps >= state_->options.steps;
+}
+const PpoModel& PpoTrainer::model() const {
+    return state_->model;
+}
+const PpoOptions& PpoTrainer::options() const {
+    return state_->options;
+}
+const PpoProgress& PpoTrainer::progress() const {
+    return state_->progress;
+}
+
+std::string PpoTrainer::save() const {
+    SavingArchive archive;
+    archive(std::string("rddl ppo checkpoint"));
+    archive(format_version);
+    archive(fingerprint(state_->simulator));
+    state_->archive(archive);
+    return archive.bytes();
+}
+
+void PpoTrainer::load(std::string_view bytes) {
+    LoadingArchive archive(bytes);
+    std::string magic;
+    std::uint64_t version = 0, problem = 0;
+    archive(magic);
+    if (magic != "rddl ppo checkpoint") throw Failure("it is no checkpoint of PPO");
+    archive(version);
+    if (version != format_version)
+        throw Failure(fmt::format("it is of version {}, and this program reads version {}", version,
+                                  format_version));
+    archive(problem);
+    if (problem != fingerprint(state_->simulator)) throw Failure("it is of another problem");
+    state_->archive(archive);
+}
+
+}  // namespace rddlc::solvers

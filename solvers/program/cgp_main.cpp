@@ -1,0 +1,32 @@
+// main() of a program that rddl_add_solver makes with SOLVER cgp.
+#include "solvers/cgp/policy_file.hpp"
+#include "solvers/cgp/trainee.hpp"
+#include "solvers/program/program.hpp"
+
+extern "C" const rddl_simulator* rddl_solver_simulator(void);
+
+int main(int argc, char** argv) {
+    using namespace rddlc::solvers;
+    CgpOptions options;
+    SolverProgram program;
+    program.solver = "cgp";
+    program.help = "  --gens N  --lambda N  --cols N  --islands N  --threads T\n";
+    const auto take = [&](const char* name, auto& number) {
+        program.options[name] = [name, &number](const std::string& word) {
+            number = static_cast<std::remove_reference_t<decltype(number)>>(number_in(name, word));
+        };
+    };
+    take("--gens", options.generations);
+    take("--lambda", options.children);
+    take("--cols", options.nodes);
+    take("--islands", options.islands);
+    take("--threads", options.threads);
+    program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed) {
+        options.seed = seed;
+        return cgp_trainee(simulator, options);
+    };
+    program.read = [](const rddl_simulator& simulator, std::string_view text) {
+        return program_policy(simulator, read_program(simulator, text), "cgp");
+    };
+    return run_solver_program(*rddl_solver_simulator(), program, argc, argv);
+}

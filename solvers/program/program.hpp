@@ -1,0 +1,36 @@
+// A solver and one problem as a program by itself, without compiler and RDDL files
+// (rddl_add_solver in CMake).
+#pragma once
+
+#include "solvers/policies/policy.hpp"
+#include "solvers/training/training.hpp"
+
+#include <rddl/simulator.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace rddlc::solvers {
+
+// Options that the solver takes beside those of every training: by name, with what takes the word.
+using WordTakers = std::map<std::string, std::function<void(const std::string&)>>;
+
+struct SolverProgram {
+    std::string solver;  // "ppo"
+    std::string help;    // lines about its options
+    WordTakers options;  // "--steps"
+    std::function<Trainee(const rddl_simulator&, std::uint64_t seed)> trainee;
+    std::function<Policy(const rddl_simulator&, std::string_view text)> read;
+};
+
+// The program's exit status: NAME train ..., NAME evaluate POLICY ....
+int run_solver_program(const rddl_simulator& simulator, const SolverProgram& program, int argc,
+                       char** argv);
+
+// The number that a word is; a Failure if it is none.
+double number_in(const std::string& option, const std::string& word);
+
+}  // namespace rddlc::solvers

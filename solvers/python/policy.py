@@ -1,0 +1,88 @@
+"""Reads a policy of `rddl train ppo` (policy.json) and acts by it, with nothing but the standard library.
+
+    policy = Policy("runs/a/policy.json")
+    action = policy.act({"pos": -0.5, "vel": 0.0}, step=0)      # {"action": 0.87}
+
+Names are those of the policy file: "rlevel(t1)". Masks are not known here, so that policies which need them
+(`action["masked"]`) may choose what a precondition forbids; `allowed` says which logits may be chosen.
+"""
+
+import json
+import math
+
+
+class Policy:
+    def __init__(self, path):
+        with open(path) as file:
+            self.file = json.load(file)
+        if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
+            raise ValueError(f"{path} is no policy of PPO")
+        if self.file["version"] > 1:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads version 1")
+        self.frames = []
+
+    def features(self, observation, step):
+        """The row that the network sees, before it is normalised. Values are numbers; objects their index."""
+        space = self.file["observation"]["space"]
+        frame = []
+        for column in space["columns"]:
+            value = float(observation[column["name"]])
+            if column["objects"] > 0:
+                frame += [1.0 if k == value else 0.0 for k in range(column["objects"])]
+            else:
+                frame.append(value)
+        if step == 0:
+            self.frames = [[0.0] * len(frame) for _ in range(space["stack"])]
+        self.frames = [frame] + self.frames[:space["stack"] - 1]
+        row = [value for each in self.frames for value in each]
+        return row + ([step / space["horizon"]] if space["time"] else [])
+
+    def outputs(self, features):
+        """Means of reals, then logits."""
+        seen = self.file["observation"]
+        row = [max(-10.0, min(10.0, (x - mean) * factor))
+               for x, mean, factor in zip(features, seen["means"], seen["factors"])]
+        layers = self.file["policy"]
+        for number, layer in enumerate(layers):
+            row = [bias + sum(w * x for w, x in zip(weights, row))
+                   for weights, bias in zip(layer["weights"], layer["bias"])]
+            if number + 1 < len(layers):
+                row = [math.tanh(x) for x in row]
+        return row
+
+    @staticmethod
+    def _real(head, x):
+        softplus = max(x, 0.0) + math.log1p(math.exp(-abs(x)))
+        lower = -math.inf if head["lower"] is None else head["lower"]
+        upper = math.inf if head["upper"] is None else head["upper"]
+        value = {"bounded": lambda: lower + (max(-1.0, min(1.0, x)) + 1) / 2 * (upper - lower),
+                 "above lower": lambda: lower + head["scale"] * softplus,
+                 "below upper": lambda: upper - head["scale"] * softplus,
+                 "free": lambda: head["centre"] + head["scale"] * x}[head["range"]]()
+        return max(lower, min(upper, round(value) if head["rounds"] else value))
+
+    def act(self, observation, step, allowed=lambda logit: True):
+        """The likeliest action, a value for each name."""
+        action = self.file["action"]
+        outputs = self.outputs(self.features(observation, step))
+        reals, logits = outputs[:len(action["reals"])], outputs[len(action["reals"]):]
+        values = list(action["defaults"])
+        likeliest = lambda places: max((p for p in places if allowed(p)), key=lambda p: (logits[p], -p))
+        if action["picks"] == 0:
+            for head, x in zip(action["reals"], reals):
+                values[head["column"]] = self._real(head, x)
+            for head in action["categories"]:
+                first = head["first_logit"]
+                values[head["column"]] = (likeliest(range(first, first + head["count"])) - first
+                                          + head["first_value"])
+        changed = set()
+        for _ in range(action["picks"]):
+            pick = likeliest([c for c, choice in enumerate(action["choices"])
+                              if c == 0 or choice["column"] not in changed])
+            if pick == 0:
+                break
+            choice = action["choices"][pick]
+            changed.add(choice["column"])
+            values[choice["column"]] = (self._real(action["reals"][choice["real"]], reals[choice["real"]])
+                                        if choice["real"] >= 0 else choice["value"])
+        return dict(zip(action["columns"], values))

@@ -1,0 +1,343 @@
+#include "solvers/spaces/actions.hpp"
+
+#include "solvers/batches/batch.hpp"
+#include "solvers/policies/random_policy.hpp"
+#include "solvers/spaces/observations.hpp"
+#include "support/failure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace rddlc::solvers {
+
+namespace {
+
+// Ints of more values are numbers, not categories.
+constexpr double most_categories = 64;
+
+bool is_category(const rddl_column& column) {
+    if (column.scalar == RDDL_BOOL || column.object_count > 0) return true;
+    return column.scalar == RDDL_INT && column.upper - column.lower < most_categories;
+}
+
+std::vector<rddl_column> action_columns(const rddl_simulator& simulator) {
+    std::vector<rddl_column> columns(
+        static_cast<std::size_t>(simulator.action_value_count(&simulator)));
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        columns[c].struct_size = sizeof(rddl_column);
+        simulator.action_column(&simulator, static_cast<std::int64_t>(c), &columns[c]);
+    }
+    return columns;
+}
+
+// The mean size of the reals in the initial state, at least 1: what an unbounded action, of which
+// nothing else is known, is measured in.
+double typical_size(const rddl_simulator& simulator) {
+    const rddl_problem& problem = *simulator.problem;
+    std::vector<std::byte> state(static_cast<std::size_t>(problem.state_size));
+    if (simulator.initial_state(&simulator, state.data()) != RDDL_OK) return 1;
+    double sum = 0, count = 0;
+    for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
+        const rddl_fluent& fluent = *rddl_fluent_at(&problem, f);
+        if (fluent.role != RDDL_STATE || fluent.scalar != RDDL_REAL) continue;
+        for (std::int64_t g = 0; g < fluent.count; ++g) {
+            double value;
+            std::memcpy(&value, state.data() + fluent.offset + g * 8, sizeof value);
+            if (!std::isfinite(value)) continue;
+            sum += std::abs(value);
+            count += 1;
+        }
+    }
+    return count > 0 ? std::max(1.0, sum / count) : 1;
+}
+
+// The greatest power of two by which a value may be away from where it starts, in `direction`, at
+// the beginning of an episode; `otherwise` if there is no such limit.
+double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
+                  const std::vector<float>& defaults, int column, double start, double direction,
+                  double otherwise) {
+    if (simulator.problem->precondition_count == 0) return otherwise;
+    rddl_batch_options options{};
+    options.thread_count = 1;
+    const Batch batch = create_batch(simulator, options);
+    std::vector<std::byte> action(records.record_size());
+    std::vector<float> values = defaults;
+    double largest = 0;
+    for (int exponent = -10; exponent <= 20; ++exponent) {
+        values[static_cast<std::size_t>(column)] =
+            static_cast<float>(start + direction * std::ldexp(1.0, exponent));
+        records.write(values.data(), action.data());
+        std::int32_t violated = -1;
+        simulator.violated_preconditions(batch.get(), action.data(), &violated);
+        if (violated < 0) largest = std::ldexp(1.0, exponent);
+    }
+    return largest > 0 && largest < 0x1p20 ? largest : otherwise;
+}
+
+RealHead real_head(const rddl_simulator& simulator, const ActionRecords& records,
+                   const ActionSpace& space, const rddl_column& column, int index) {
+    RealHead head;
+    head.column = index;
+    head.rounds = column.scalar == RDDL_INT;
+    head.lower = column.lower;
+    head.upper = column.upper;
+    head.centre = space.defaults[static_cast<std::size_t>(index)];
+    if (std::isfinite(head.lower) && std::isfinite(head.upper)) {
+        head.range = RealHead::Range::Bounded;
+        return head;
+    }
+    const auto size = [&](double start, double direction) {
+        return legal_size(simulator, records, space.defaults, index, start, direction,
+                          typical_size(simulator));
+    };
+    if (std::isfinite(head.lower)) {
+        head.range = RealHead::Range::AboveLower;
+        head.scale = size(head.lower, 1);
+    } else if (std::isfinite(head.upper)) {
+        head.range = RealHead::Range::BelowUpper;
+        head.scale = size(head.upper, -1);
+    } else {
+        head.scale = std::min(size(head.centre, 1), size(head.centre, -1));
+    }
+    return head;
+}
+
+void add_category(ActionSpace& space, const rddl_column& column, int index) {
+    CategoryHead head;
+    head.column = index;
+    head.first_logit = space.logit_count;
+    if (column.object_count > 0) {
+        head.count = column.object_count;
+    } else if (column.scalar == RDDL_BOOL) {
+        head.count = 2;
+    } else {
+        head.first_value = static_cast<std::int64_t>(std::ceil(column.lower));
+        head.count = static_cast<int>(std::floor(column.upper) - std::ceil(column.lower)) + 1;
+    }
+    if (head.count <= 0) return;  // no int fits between the bounds: the default is left
+    space.logit_count += head.count;
+    space.categories.push_back(head);
+}
+
+// Which column each choice of the simulator changes, and to which value.
+std::vector<Choice> simulator_choices(const rddl_simulator& simulator,
+                                      const std::vector<rddl_column>& columns) {
+    std::vector<Choice> choices;
+    const std::int64_t count = simulator.action_choice_count(&simulator);
+    int column = 0;
+    for (std::int64_t c = 0; c < count; ++c) {
+        rddl_choice choice{};
+        simulator.action_choice(&simulator, c, nullptr, &choice);
+        Choice found;
+        found.of_mask = c;
+        if (choice.fluent >= 0) {
+            const auto is_it = [&] {
+                const rddl_column& at = columns[static_cast<std::size_t>(column)];
+                return at.fluent == choice.fluent && at.grounding == choice.grounding;
+            };
+            while (!is_it()) ++column;
+            found.column = column;
+            found.value = choice.value;
+        }
+        choices.push_back(found);
+    }
+    return choices;
+}
+
+void add_picks(ActionSpace& space, const rddl_simulator& simulator,
+               const std::vector<rddl_column>& columns, std::int64_t limit) {
+    for (const Choice& choice : simulator_choices(simulator, columns))
+        if (choice.column < 0 || is_category(columns[static_cast<std::size_t>(choice.column)]))
+            space.choices.push_back(choice);
+    for (std::size_t r = 0; r < space.reals.size(); ++r) {
+        space.reals[r].choice = static_cast<int>(space.choices.size());
+        Choice choice;
+        choice.column = space.reals[r].column;
+        choice.real = static_cast<int>(r);
+        space.choices.push_back(choice);
+    }
+    space.categories.clear();
+    space.logit_count = static_cast<int>(space.choices.size());
+    space.picks = static_cast<int>(std::min<std::int64_t>(limit, space.column_count));
+}
+
+void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator,
+                             const std::vector<rddl_column>& columns) {
+    for (const Choice& choice : simulator_choices(simulator, columns)) {
+        int logit = -1;
+        for (const CategoryHead& head : space.categories)
+            if (head.column == choice.column)
+                logit = head.first_logit + static_cast<int>(choice.value - head.first_value);
+        space.logit_of_mask.push_back(logit);
+    }
+}
+
+// Whether any of some random actions, reals among them of the size that a learner begins with,
+// violates a precondition in the states that they lead to.
+bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
+                        const ActionRecords& records) {
+    constexpr std::int64_t environments = 16, steps = 40;
+    const rddl_problem& problem = *simulator.problem;
+    if (problem.precondition_count == 0) return false;
+    rddl_batch_options options{};
+    options.environment_count = environments;
+    options.thread_count = 1;
+    options.autoreset = RDDL_AUTORESET_SAME_STEP;
+    const Batch batch = create_batch(simulator, options);
+    RandomPolicy policy(problem, 0);
+    std::vector<std::byte> actions(environments * records.record_size());
+    std::vector<float> values(static_cast<std::size_t>(space.column_count));
+    std::vector<std::int32_t> violated(environments);
+    for (std::int64_t step = 0; step < steps; ++step) {
+        for (std::int64_t e = 0; e < environments; ++e) {
+            std::byte* const action =
+                actions.data() + static_cast<std::size_t>(e) * records.record_size();
+            policy.act(e, step, action);
+            records.read(action, values.data());
+            double number = -2 + 4 * static_cast<double>((e * 7 + step * 3) % 16) / 15;
+            for (const RealHead& head : space.reals) {
+                values[static_cast<std::size_t>(head.column)] =
+                    static_cast<float>(real_value(head, number));
+                number = -number + 0.1;
+            }
+            records.write(values.data(), action);
+        }
+        simulator.violated_preconditions(batch.get(), actions.data(), violated.data());
+        if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
+            return true;
+        simulator.step(batch.get(), actions.data(), nullptr);
+    }
+    return false;
+}
+
+double softplus(double x) {
+    return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
+}
+
+}  // namespace
+
+ActionSpace action_space(const rddl_simulator& simulator) {
+    const rddl_problem& problem = *simulator.problem;
+    const std::vector<rddl_column> columns = action_columns(simulator);
+    const ActionRecords records(simulator);
+    ActionSpace space;
+    space.column_count = static_cast<int>(columns.size());
+    space.defaults.resize(columns.size());
+    records.read(static_cast<const std::byte*>(problem.default_action), space.defaults.data());
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto index = static_cast<int>(c);
+        space.names.push_back(grounded_name(simulator, columns[c].fluent, columns[c].grounding));
+        if (is_category(columns[c]))
+            add_category(space, columns[c], index);
+        else
+            space.reals.push_back(real_head(simulator, records, space, columns[c], index));
+    }
+
+    const bool bites = preconditions_bite(simulator, space, records);
+    const std::int64_t limit =
+        problem.max_nondef_actions < 0 ? space.column_count : problem.max_nondef_actions;
+    const bool coupled = bites && space.reals.empty() && space.categories.size() > 1;
+    if (limit < space.column_count || coupled)
+        add_picks(space, simulator, columns, limit);
+    else if (bites && !space.categories.empty())
+        add_masks_of_categories(space, simulator, columns);
+    space.masked = space.picks > 0 || !space.logit_of_mask.empty();
+    space.may_be_illegal = bites;
+    if (space.output_count() == 0 || space.logit_count == 1)
+        throw Failure(
+            "there is nothing to choose in this problem: it has no action but the default");
+    return space;
+}
+
+double real_value(const RealHead& head, double number) {
+    double value = 0;
+    switch (head.range) {
+        case RealHead::Range::Bounded:
+            value =
+                head.lower + (std::clamp(number, -1.0, 1.0) + 1) * 0.5 * (head.upper - head.lower);
+            break;
+        case RealHead::Range::AboveLower:
+            value = head.lower + head.scale * softplus(number);
+            break;
+        case RealHead::Range::BelowUpper:
+            value = head.upper - head.scale * softplus(number);
+            break;
+        case RealHead::Range::Free:
+            value = head.centre + head.scale * number;
+            break;
+    }
+    value = std::clamp(value, -1e9, 1e9);  // noise may be anything, ints may not
+    return std::clamp(head.rounds ? std::nearbyint(value) : value, head.lower, head.upper);
+}
+
+void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
+                  float* values) {
+    std::copy(space.defaults.begin(), space.defaults.end(), values);
+    const auto set_real = [&](std::size_t r) {
+        values[space.reals[r].column] =
+            static_cast<float>(real_value(space.reals[r], static_cast<double>(numbers[r])));
+    };
+    if (space.picks > 0) {
+        for (int p = 0; p < space.picks && indices[p] > 0; ++p) {
+            const Choice& choice = space.choices[static_cast<std::size_t>(indices[p])];
+            if (choice.real >= 0)
+                set_real(static_cast<std::size_t>(choice.real));
+            else
+                values[choice.column] = static_cast<float>(choice.value);
+        }
+        return;
+    }
+    for (std::size_t r = 0; r < space.reals.size(); ++r) set_real(r);
+    for (std::size_t h = 0; h < space.categories.size(); ++h)
+        values[space.categories[h].column] =
+            static_cast<float>(space.categories[h].first_value + indices[h]);
+}
+
+ActionRecords::ActionRecords(const rddl_simulator& simulator)
+    : record_size_(static_cast<std::size_t>(simulator.problem->action_size)) {
+    const auto* const action = static_cast<const std::byte*>(simulator.problem->default_action);
+    blank_.assign(action, action + record_size_);
+    for (const rddl_column& column : action_columns(simulator)) {
+        const rddl_fluent& fluent = *rddl_fluent_at(simulator.problem, column.fluent);
+        const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
+        entries_.push_back(
+            {static_cast<std::size_t>(fluent.offset + column.grounding * size), fluent.scalar});
+    }
+}
+
+void ActionRecords::write(const float* values, std::byte* record) const {
+    std::copy(blank_.begin(), blank_.end(), record);
+    for (std::size_t c = 0; c < entries_.size(); ++c) {
+        const Entry& entry = entries_[c];
+        if (entry.scalar == RDDL_BOOL) {
+            record[entry.offset] = static_cast<std::byte>(values[c] > 0.5f);
+        } else if (entry.scalar == RDDL_INT) {
+            const auto value = static_cast<std::int64_t>(std::nearbyint(values[c]));
+            std::memcpy(record + entry.offset, &value, sizeof value);
+        } else {
+            const auto value = static_cast<double>(values[c]);
+            std::memcpy(record + entry.offset, &value, sizeof value);
+        }
+    }
+}
+
+void ActionRecords::read(const std::byte* record, float* values) const {
+    for (std::size_t c = 0; c < entries_.size(); ++c) {
+        const Entry& entry = entries_[c];
+        if (entry.scalar == RDDL_BOOL) {
+            values[c] = record[entry.offset] != std::byte{0} ? 1.0f : 0.0f;
+        } else if (entry.scalar == RDDL_INT) {
+            std::int64_t value;
+            std::memcpy(&value, record + entry.offset, sizeof value);
+            values[c] = static_cast<float>(value);
+        } else {
+            double value;
+            std::memcpy(&value, record + entry.offset, sizeof value);
+            values[c] = static_cast<float>(value);
+        }
+    }
+}
+
+}  // namespace rddlc::solvers

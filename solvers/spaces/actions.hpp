@@ -1,0 +1,97 @@
+// How a learner acts: what it chooses from, and which action that makes.
+//
+// Reals are numbers of their own scale, in which noise of deviation 1 is a lot and 0 a middle
+// value; bools, objects and ints of few values are categories. Either each value is chosen by
+// itself, or the learner picks one change of the default action after the other until it picks to
+// stop: where max-nondef-actions allows few changes, or preconditions couple them. Then each pick
+// knows, from the simulator, which changes are legal after those that were made.
+#pragma once
+
+#include <rddl/simulator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// A number u of the learner's, and the value of a real (or of an int of many values):
+struct RealHead {
+    enum class Range { Bounded, AboveLower, BelowUpper, Free } range = Range::Free;
+    int column = 0;
+    bool rounds = false;          // an int
+    double lower = 0, upper = 0;  // of Bounded: the middle for u = 0, the bounds for -1 and 1
+    double scale = 1;             // of the others: lower + scale * softplus(u), or
+    double centre = 0;            // centre + scale * u
+    int choice = -1;              // with picks: the choice that sets it
+};
+
+// The values of a bool, an object or an int, each by itself.
+struct CategoryHead {
+    int column = 0;
+    int first_logit = 0;
+    int count = 0;
+    std::int64_t first_value = 0;
+};
+
+// One change of the default action.
+struct Choice {
+    int column = -1;            // -1: none, to stop
+    std::int64_t value = 0;     // of a category
+    int real = -1;              // or the real head whose number it takes
+    std::int64_t of_mask = -1;  // the simulator's number of this choice; -1: always allowed
+};
+
+struct ActionSpace {
+    int column_count = 0;
+    std::vector<float> defaults;     // column_count
+    std::vector<std::string> names;  // column_count, "release(t1)"
+    std::vector<RealHead> reals;
+    std::vector<CategoryHead> categories;  // empty with picks
+    std::vector<Choice> choices;           // of picks; the first one stops
+    int picks = 0;                         // at most; 0: each value by itself
+    int logit_count = 0;
+    bool masked = false;             // the simulator is asked which logits are allowed
+    bool may_be_illegal = false;     // what is chosen may violate a precondition, and is mended
+    std::vector<int> logit_of_mask;  // of categories, by the simulator's choices: a logit, or -1
+
+    int real_count() const { return static_cast<int>(reals.size()); }
+    // Numbers that say what was chosen besides reals: categories, or picks (-1: stopped before).
+    int index_count() const { return picks > 0 ? picks : static_cast<int>(categories.size()); }
+    // The means of reals, then the logits.
+    int output_count() const { return real_count() + logit_count; }
+    // Bytes that say for each logit, and with picks for each pick, whether it was allowed.
+    int mask_size() const { return masked ? logit_count * (picks > 0 ? picks : 1) : 0; }
+};
+
+// Looks at the problem, and by a few random steps at what its preconditions forbid. Throws a
+// Failure where the problem has no actions that differ from each other.
+ActionSpace action_space(const rddl_simulator& simulator);
+
+// The value of a real for the learner's number.
+double real_value(const RealHead& head, double number);
+
+// Writes the row of column_count action values.
+void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
+                  float* values);
+
+// Action rows as records and back. Constant for a problem.
+class ActionRecords {
+  public:
+    explicit ActionRecords(const rddl_simulator& simulator);
+    void write(const float* values, std::byte* record) const;
+    void read(const std::byte* record, float* values) const;
+    std::size_t record_size() const { return record_size_; }
+
+  private:
+    struct Entry {
+        std::size_t offset;
+        rddl_scalar scalar;
+    };
+    std::vector<Entry> entries_;
+    std::vector<std::byte> blank_;
+    std::size_t record_size_;
+};
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,150 @@
+#include "solvers/spaces/mending.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace rddlc::solvers {
+
+namespace {
+
+// How often a real is halved before it takes its default.
+constexpr int most_halves = 3;
+// How many values are mended one by one; after that all others take their default.
+constexpr int most_values = 16;
+
+// One environment's search, by questions whether an action is legal of which the first values are
+// as wanted and the others at their default.
+struct Search {
+    enum class Question {
+        All,     // is it legal now?
+        Middle,  // which value is at fault?
+        Value    // is the value, as it was halved, still at fault?
+    } question = Question::Middle;
+    bool active = false;
+    int legal = 0;  // with so many values it is legal
+    int end = 0;    // with so many it is not
+    int halves = 0, mended = 0;
+
+    int asked(int columns) const {
+        return question == Question::All     ? columns
+               : question == Question::Value ? legal + 1
+                                             : (legal + end) / 2;
+    }
+};
+
+class Mending {
+  public:
+    Mending(const ActionSpace& space) : space_(space), is_real_(space.names.size()) {
+        for (const RealHead& head : space.reals)
+            is_real_[static_cast<std::size_t>(head.column)] = !head.rounds;
+    }
+
+    void start(Search& search, float* wanted) const {
+        search.end = space_.column_count;
+        narrow(search, wanted);
+    }
+
+    void take(Search& search, bool is_legal, float* wanted) const {
+        switch (search.question) {
+            case Search::Question::All:
+                if (is_legal) {
+                    search.active = false;
+                    return;
+                }
+                search.end = space_.column_count;
+                return narrow(search, wanted);
+            case Search::Question::Middle:
+                (is_legal ? search.legal : search.end) = search.asked(space_.column_count);
+                return narrow(search, wanted);
+            case Search::Question::Value:
+                return is_legal ? go_on(search) : mend(search, wanted);
+        }
+    }
+
+  private:
+    void narrow(Search& search, float* wanted) const {
+        if (search.end - search.legal == 1) return mend(search, wanted);
+        search.question = Search::Question::Middle;
+    }
+
+    // The value behind the legal ones is at fault.
+    void mend(Search& search, float* wanted) const {
+        const auto column = static_cast<std::size_t>(search.legal);
+        const float by_default = space_.defaults[column];
+        if (is_real_[column] && search.halves < most_halves && search.mended < most_values) {
+            wanted[column] = by_default + (wanted[column] - by_default) * 0.5f;
+            search.halves += 1;
+            search.question = Search::Question::Value;
+            return;
+        }
+        wanted[column] = by_default;
+        if (search.mended >= most_values)
+            std::copy(space_.defaults.begin() + search.legal, space_.defaults.end(),
+                      wanted + search.legal);
+        go_on(search);
+    }
+
+    void go_on(Search& search) const {
+        search.legal += 1;
+        search.halves = 0;
+        search.mended += 1;
+        search.question = Search::Question::All;
+    }
+
+    const ActionSpace& space_;
+    std::vector<bool> is_real_;
+};
+
+}  // namespace
+
+std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
+                          const ActionRecords& converter, rddl_batch* batch,
+                          std::int64_t environments, float* actions, std::byte* records,
+                          std::int32_t* violated, float* wanted) {
+    simulator.violated_preconditions(batch, records, violated);
+    const std::int64_t illegal =
+        std::count_if(violated, violated + environments, [](std::int32_t v) { return v >= 0; });
+    if (illegal == 0) return 0;
+
+    const int columns = space.column_count;
+    std::copy_n(actions, environments * columns, wanted);
+    // The first `count` values as they are wanted, the others at their default.
+    const auto set_first = [&](std::int64_t i, int count) {
+        float* const row = actions + i * columns;
+        std::copy_n(wanted + i * columns, count, row);
+        std::copy(space.defaults.begin() + count, space.defaults.end(), row + count);
+        converter.write(row, records + static_cast<std::size_t>(i) * converter.record_size());
+    };
+    const Mending mending(space);
+    std::vector<Search> searches(static_cast<std::size_t>(environments));
+    for (std::int64_t i = 0; i < environments; ++i)
+        if (violated[i] >= 0) {
+            searches[static_cast<std::size_t>(i)].active = true;
+            set_first(i, 0);
+        }
+    simulator.violated_preconditions(batch, records, violated);
+    for (std::int64_t i = 0; i < environments; ++i) {
+        Search& search = searches[static_cast<std::size_t>(i)];
+        if (!search.active) continue;
+        search.active = violated[i] < 0;
+        search.active ? mending.start(search, wanted + i * columns) : set_first(i, columns);
+    }
+
+    const auto active = [](const Search& search) {
+        return search.active;
+    };
+    while (std::any_of(searches.begin(), searches.end(), active)) {
+        for (std::int64_t i = 0; i < environments; ++i) {
+            const Search& search = searches[static_cast<std::size_t>(i)];
+            if (search.active) set_first(i, search.asked(columns));
+        }
+        simulator.violated_preconditions(batch, records, violated);
+        for (std::int64_t i = 0; i < environments; ++i) {
+            Search& search = searches[static_cast<std::size_t>(i)];
+            if (search.active) mending.take(search, violated[i] < 0, wanted + i * columns);
+        }
+    }
+    return illegal;
+}
+
+}  // namespace rddlc::solvers

@@ -1,0 +1,220 @@
+#include "solvers/training/training.hpp"
+
+#include "solvers/evaluation/summary.hpp"
+#include "solvers/files/archive.hpp"
+#include "solvers/training/run_log.hpp"
+#include "support/files.hpp"
+#include "support/program.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace rddlc::solvers {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double>(end - begin).count();
+}
+
+constexpr double seconds_between_checkpoints = 10;
+
+// "3.2 s", "4 min 10 s", "2 h 5 min".
+std::string time_text(double seconds) {
+    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(seconds);
+    return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+class Training {
+  public:
+    Training(const rddl_simulator& simulator, const Trainee& trainee,
+             const TrainingOptions& options)
+        : simulator_(simulator), trainee_(trainee), options_(options) {}
+
+    TrainingResult run() {
+        open_folder();
+        begin_ = last_shown_ = last_saved_ = Clock::now();
+        bool stops = false;
+        while (!stops && !trainee_.done()) {
+            trainee_.update();
+            const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
+                                                         static_cast<double>(options_.evaluations);
+            const bool promises = options_.stop_return && trainee_.best_known &&
+                                  trainee_.best_known() >= *options_.stop_return;
+            if (due || promises) evaluate();
+            log();
+            show(false);
+            stops = interrupted() || out_of_time() || result_.reached;
+            if (!stops && seconds_between(last_saved_, Clock::now()) > seconds_between_checkpoints)
+                save();
+        }
+        if (!evaluated_ || evaluated_at_ != trainee_.steps()) evaluate();
+        show(true);
+        save();
+        result_.interrupted = interrupted();
+        result_.seconds = elapsed();
+        result_.best_return = best_return_;
+        result_.best_length = best_length_;
+        return result_;
+    }
+
+  private:
+    std::filesystem::path file(const char* name) const { return options_.folder / name; }
+
+    void open_folder() {
+        const bool exists = std::filesystem::exists(file("checkpoint"));
+        if (options_.resumes) {
+            load();
+            return;
+        }
+        if (exists)
+            throw Failure(
+                fmt::format("the folder '{}' holds a run already", options_.folder.string()),
+                "go on with --resume, or name another one with --out");
+    }
+
+    double elapsed() const { return seconds_before_ + seconds_between(begin_, Clock::now()); }
+    bool interrupted() const { return options_.stops && options_.stops(); }
+    bool out_of_time() const { return options_.seconds > 0 && elapsed() >= options_.seconds; }
+
+    // The likeliest actions, on seeds that are the same for all evaluations.
+    void evaluate() {
+        EpisodeOptions episodes;
+        episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
+        episodes.seed = options_.seed + 0x65766131;
+        if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
+        const Summary summary =
+            summary_of(run_episodes(simulator_, trainee_.policy(), episodes, {}));
+        evaluated_ = true;
+        evaluated_at_ = trainee_.steps();
+        evaluations_ = static_cast<std::int64_t>(trainee_.part_done() *
+                                                 static_cast<double>(options_.evaluations));
+        last_return_ = summary.undiscounted_return.mean;
+        last_length_ = summary.length.mean;
+        // Of episodes with the same return, those that reach their end sooner are better.
+        const bool better =
+            !has_best_ || last_return_ > best_return_ ||
+            (last_return_ == best_return_ && summary.terminated > 0 && last_length_ < best_length_);
+        if (better) {
+            has_best_ = true;
+            best_return_ = last_return_;
+            best_length_ = last_length_;
+            best_policy_ = trainee_.policy_text();
+        }
+        if (options_.stop_return && last_return_ >= *options_.stop_return) result_.reached = true;
+    }
+
+    void log() {
+        Row row = trainee_.row();
+        row.emplace_back("eval/mean_reward", evaluated_ ? last_return_ : std::nan(""));
+        row.emplace_back("eval/mean_ep_length", evaluated_ ? last_length_ : std::nan(""));
+        const double now =
+            std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+                .count();
+        log_.add(trainee_.steps(), elapsed(), now, row);
+    }
+
+    // On a terminal one line, several times a second; elsewhere a line every five seconds.
+    void show(bool last) {
+        if (options_.quiet) return;
+        const auto now = Clock::now();
+        const bool terminal = is_terminal(2);
+        if (!last && seconds_between(last_shown_, now) < (terminal ? 0.2 : 5.0)) return;
+        last_shown_ = now;
+        const double part = trainee_.part_done(), seconds = elapsed();
+        std::string text = fmt::format("{} {} {:3.0f} %  {}", trainee_.solver,
+                                       simulator_.problem->instance, 100 * part, trainee_.status());
+        if (evaluated_) text += fmt::format("  best {:.6g}", best_return_);
+        if (last)
+            text += fmt::format("  in {}", time_text(seconds));
+        else if (part > 0)
+            text += fmt::format("  {} left", time_text(seconds * (1 - part) / part));
+        tell("{}{}{}", terminal ? "\r\x1b[K" : "", text, terminal && !last ? "" : "\n");
+    }
+
+    void write(const char* name, std::string_view text) {
+        UsedFiles used;
+        write_file(file(name), text, used);
+    }
+
+    // The checkpoint is the last, so that it never knows more than the other files.
+    void save() {
+        last_saved_ = Clock::now();
+        std::filesystem::create_directories(options_.folder);
+        const char* const extension = trainee_.solver == "cgp" ? ".cgp" : ".json";
+        write((std::string("policy") + extension).c_str(),
+              best_policy_.empty() ? trainee_.policy_text() : best_policy_);
+        write((std::string("last") + extension).c_str(), trainee_.policy_text());
+        write("progress.csv", log_.csv());
+        write("events.out.tfevents.rddl", log_.events());
+        SavingArchive archive;
+        archive_all(archive);
+        archive(trainee_.save());
+        write("checkpoint", archive.bytes());
+    }
+
+    void load() {
+        const std::filesystem::path path = file("checkpoint");
+        const std::string bytes = read_file(path);
+        try {
+            LoadingArchive archive(bytes);
+            archive_all(archive);
+            std::string learner;
+            archive(learner);
+            trainee_.load(learner);
+        } catch (const Failure& failure) {
+            throw Failure(fmt::format("cannot go on from '{}': {}", path.string(), failure.what()));
+        }
+    }
+
+    template <class Archive>
+    void archive_all(Archive& archive) {
+        double seconds = elapsed();
+        archive(seconds);
+        if constexpr (Archive::is_loading) seconds_before_ = seconds;
+        archive(evaluated_);
+        archive(evaluated_at_);
+        archive(evaluations_);
+        archive(last_return_);
+        archive(last_length_);
+        archive(has_best_);
+        archive(best_return_);
+        archive(best_length_);
+        archive(best_policy_);
+        log_.archive(archive);
+    }
+
+    const rddl_simulator& simulator_;
+    const Trainee& trainee_;
+    const TrainingOptions& options_;
+    TrainingResult result_;
+    RunLog log_;
+    Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;
+    double seconds_before_ = 0;  // of runs that this one goes on with
+    bool evaluated_ = false, has_best_ = false;
+    std::int64_t evaluated_at_ = 0, evaluations_ = 0;
+    double last_return_ = 0, last_length_ = 0, best_return_ = 0, best_length_ = 0;
+    std::string best_policy_;
+};
+
+}  // namespace
+
+std::string count_text(double count) {
+    if (count >= 1e9) return fmt::format("{:.3g} G", count / 1e9);
+    if (count >= 1e6) return fmt::format("{:.3g} M", count / 1e6);
+    if (count >= 1e3) return fmt::format("{:.3g} k", count / 1e3);
+    return fmt::format("{:.3g}", count);
+}
+
+TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
+                     const TrainingOptions& options) {
+    return Training(simulator, trainee, options).run();
+}
+
+}  // namespace rddlc::solvers

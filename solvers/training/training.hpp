@@ -1,0 +1,66 @@
+// Training of any learner: its progress, its files, and when it ends.
+#pragma once
+
+#include "solvers/policies/policy.hpp"
+
+#include <rddl/simulator.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// What is known after an update, under the names that Stable-Baselines3 has for it.
+using Row = std::vector<std::pair<std::string, double>>;
+
+// A solver at work, as the training sees it.
+struct Trainee {
+    std::string solver;                   // "ppo"
+    std::function<void()> update;         // a little more work
+    std::function<bool()> done;           // all that was asked for
+    std::function<std::int64_t()> steps;  // made, or whatever progress is measured in
+    std::function<double()> part_done;    // in [0, 1]
+    std::function<Row()> row;
+    std::function<std::string()> status;  // for the progress line
+    std::function<std::string()> save;    // checkpoints
+    std::function<void(std::string_view)> load;
+    std::function<std::string()> policy_text;  // what a policy file holds,
+    std::function<std::string()> summary;      // lines about what was learned; may be empty
+    std::function<double()> best_known;        // what it takes for the best return; may be empty
+    std::function<Policy()> policy;            // and the policy itself
+};
+
+struct TrainingOptions {
+    std::filesystem::path folder;
+    bool resumes = false;
+    double seconds = 0;                 // 0: no limit
+    std::optional<double> stop_return;  // ends when an evaluation reaches it
+    std::int64_t evaluations = 20;      // in all; the best policy of them is kept
+    std::int64_t evaluation_episodes = 20;
+    std::uint64_t seed = 0;
+    bool quiet = false;
+    std::function<bool()> stops;  // Ctrl-C; may be empty
+};
+
+struct TrainingResult {
+    bool interrupted = false;
+    bool reached = false;  // stop_return
+    double seconds = 0;
+    double best_return = 0, best_length = 0;  // mean of the best evaluation
+};
+
+// Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
+// events.out.tfevents.rddl, checkpoint. All are written whole or not at all. Throws a Failure where
+// the folder holds another run, or nothing to resume.
+// How many digits people read: "1.5 M", "812".
+std::string count_text(double count);
+
+TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
+                     const TrainingOptions& options);
+
+}  // namespace rddlc::solvers

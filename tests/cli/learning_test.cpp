@@ -1,0 +1,122 @@
+// Training, evaluation and export as users run them, on a problem whose actions are bools, objects
+// and reals, of which few may change, and which preconditions couple.
+#include "program.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace rddlc::cli {
+namespace {
+
+using nlohmann::json;
+
+class LearningProgram : public Program {
+  protected:
+    static std::string on_tanks(const std::string& command, const std::string& options) {
+        return command + " domain.rddl instance.rddl " + options + " --engine interpreter";
+    }
+    static constexpr const char* small_ppo =
+        "--envs 16 --rollout 24 --minibatch 192 --epochs 2 --hidden 16,16 --evaluations 4 "
+        "--evaluation-episodes 10 ";
+    static constexpr const char* small_cgp = "--lambda 4 --cols 20 --episodes 4 --evaluations 4 ";
+};
+
+TEST_F(LearningProgram, TrainsEvaluatesAndCompares) {
+    for (const std::string& solver : {"ppo --steps 20000 " + std::string(small_ppo),
+                                      "cgp --gens 40 " + std::string(small_cgp)}) {
+        const std::string name = solver.substr(0, 3);
+        const Outcome trained = run(on_tanks("train " + solver, "--out runs/" + name));
+        ASSERT_EQ(trained.status, 0) << trained.err;
+        EXPECT_NE(trained.out.find("best return"), std::string::npos);
+        const std::string progress = read_file(folder_ / "runs" / name / "progress.csv");
+        EXPECT_EQ(progress.find("time/total_timesteps,time/time_elapsed,"), 0u);
+        EXPECT_GT(std::count(progress.begin(), progress.end(), '\n'), 4);
+    }
+    const json compared = run_json(on_tanks(
+        "compare", "--policies random,noop,runs/ppo,runs/cgp --episodes 200 --json --threads 2"));
+    ASSERT_EQ(compared["policies"].size(), 4u);
+    double best = -1e9;
+    for (const json& each : compared["policies"]) {
+        EXPECT_EQ(each["episodes"], 200);
+        EXPECT_EQ(each["faulted"], 0);
+        EXPECT_EQ(each["illegal_actions"], 0) << each["policy"];
+        const double mean = each["return"]["mean"];
+        EXPECT_GT(each["return"]["half_width_95"].get<double>(), 0);
+        if (each["policy"].get<std::string>().starts_with("runs/"))
+            EXPECT_GT(mean, best) << each["policy"];
+        else
+            best = std::max(best, mean);
+    }
+    // The same by 'rddl run', and of the same file by its name.
+    const json ran = run_json(on_tanks("run", "--policy runs/cgp --episodes 200 --json"));
+    EXPECT_EQ(ran["return"]["mean"], compared["policies"][3]["return"]["mean"]);
+    const json evaluated =
+        run_json(on_tanks("evaluate", "--policy runs/ppo/policy.json --episodes 200 --json"));
+    EXPECT_EQ(evaluated["policies"][0]["return"]["mean"],
+              compared["policies"][2]["return"]["mean"]);
+}
+
+// Killed at any moment, a run goes on as if nothing had happened.
+TEST_F(LearningProgram, GoesOnAfterItWasKilled) {
+    const std::string options = "--steps 40000 --seed 3 " + std::string(small_ppo);
+    ASSERT_EQ(run(on_tanks("train ppo", options + "--out whole")).status, 0);
+    // The first part is ended by its time, the second is killed: it leaves a whole checkpoint.
+    ASSERT_EQ(run(on_tanks("train ppo", options + "--out parts --time 0.02")).status, 0);
+    run(on_tanks("train ppo", options + "--out parts --resume --quiet"), "timeout -s KILL 0.15");
+    const Outcome rest = run(on_tanks("train ppo", options + "--out parts --resume"));
+    ASSERT_EQ(rest.status, 0) << rest.err;
+    EXPECT_EQ(read_file(folder_ / "parts/policy.json"), read_file(folder_ / "whole/policy.json"));
+    EXPECT_EQ(read_file(folder_ / "parts/last.json"), read_file(folder_ / "whole/last.json"));
+}
+
+TEST_F(LearningProgram, CtrlCSavesAndEnds) {
+    const Outcome outcome =
+        run(on_tanks("train ppo", "--steps 1e12 --out run --quiet " + std::string(small_ppo)),
+            "timeout --preserve-status -s INT 2");
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "run/checkpoint"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "run/policy.json"));
+}
+
+TEST_F(LearningProgram, ExportsWhatItLearned) {
+    ASSERT_EQ(
+        run(on_tanks("train cgp", "--gens 5 --quiet --out c " + std::string(small_cgp))).status, 0);
+    for (const char* const form : {"formula", "cpp", "dot", "py", "latex"}) {
+        const Outcome outcome = run(on_tanks("export", "--policy c --as " + std::string(form)));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("pump"), std::string::npos) << form;
+    }
+    ASSERT_EQ(
+        run(on_tanks("train ppo", "--steps 400 --quiet --out p " + std::string(small_ppo))).status,
+        0);
+    for (const char* const form : {"json", "cpp", "onnx"})
+        EXPECT_EQ(
+            run(on_tanks("export", fmt::format("--policy p --as {0} -o out.{0}", form))).status, 0);
+    EXPECT_EQ(read_file(folder_ / "out.json"), read_file(folder_ / "p/policy.json"));
+    EXPECT_GT(read_file(folder_ / "out.onnx").size(), 500u);
+    const Outcome wrong = run(on_tanks("export", "--policy p --as dot"));
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("json, cpp and onnx are"), std::string::npos) << wrong.err;
+}
+
+TEST_F(LearningProgram, RefusesWhatCannotBe) {
+    const auto refuses = [&](const std::string& arguments, const std::string& sentence) {
+        const Outcome outcome = run(arguments);
+        EXPECT_NE(outcome.status, 0) << arguments;
+        EXPECT_NE(outcome.err.find(sentence), std::string::npos) << arguments << "\n"
+                                                                 << outcome.err;
+    };
+    refuses("train", "name a command");
+    refuses("train pso", "no command is called 'pso'");
+    refuses(on_tanks("train ppo", "--envs 2 --rollout 4"), "a minibatch is larger");
+    refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
+    refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
+    refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");
+    write_file(folder_ / "broken.json",
+               R"({"format": "rddl-policy", "solver": "ppo", "version": 1})");
+    refuses(on_tanks("evaluate", "--policy broken.json"), "something in it is missing");
+}
+
+}  // namespace
+}  // namespace rddlc::cli

@@ -1,0 +1,245 @@
+// CGP: programs, their formulas in all forms, and searches that depend on nothing but their
+// options.
+#include "simulators.hpp"
+#include "solvers/cgp/formula.hpp"
+#include "solvers/cgp/policy_file.hpp"
+#include "solvers/cgp/search.hpp"
+#include "solvers/evaluation/summary.hpp"
+#include "support/failure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+namespace rddlc::solvers {
+namespace {
+
+GenomeShape shape_of(int inputs, int outputs, int nodes = 30) {
+    return {inputs, 3, nodes, outputs, 0, functions_named({"arith", "trig", "logic", "round"})};
+}
+
+std::vector<double> run(const Program& program, const std::vector<double>& inputs,
+                        std::size_t outputs) {
+    std::vector<double> values(static_cast<std::size_t>(program.slots()) + 1), results(outputs);
+    program.run(1, inputs.data(), 1, values.data(), results.data());
+    return results;
+}
+
+std::vector<std::vector<double>> random_inputs(int count, int size) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal(0, 2);
+    std::vector<std::vector<double>> all;
+    for (int i = 0; i < count; ++i) {
+        std::vector<double> inputs;
+        for (int k = 0; k < size; ++k) inputs.push_back(random() % 8 ? normal(random) : 0);
+        all.push_back(inputs);
+    }
+    return all;
+}
+
+TEST(Cgp, FunctionsAreTotal) {
+    const double numbers[] = {0, -0.0, 1, -1, 0.5, -2.5, 1e-12, 1e6, -1e6, 700};
+    for (int f = 0; f < function_count; ++f)
+        for (const double a : numbers)
+            for (const double b : numbers)
+                for (const double c : numbers) {
+                    const double x = apply(static_cast<Function>(f), a, b, c);
+                    EXPECT_LE(std::abs(x), largest_result)
+                        << info_of(static_cast<Function>(f)).name;
+                }
+}
+
+TEST(Cgp, LanesComputeWhatOneDoes) {
+    Random random(3, 0);
+    const auto inputs = random_inputs(16, 4);
+    for (int round = 0; round < 200; ++round) {
+        const Program program(random_genome(shape_of(4, 2), random));
+        std::vector<double> rows(4 * 16),
+            values(static_cast<std::size_t>(program.slots() * 16) + 1), results(2 * 16);
+        for (std::size_t lane = 0; lane < 16; ++lane)
+            for (std::size_t i = 0; i < 4; ++i) rows[i * 16 + lane] = inputs[lane][i];
+        program.run(16, rows.data(), 16, values.data(), results.data());
+        for (std::size_t lane = 0; lane < 16; ++lane) {
+            const auto alone = run(program, inputs[lane], 2);
+            EXPECT_EQ(results[lane], alone[0]);
+            EXPECT_EQ(results[16 + lane], alone[1]);
+        }
+    }
+}
+
+TEST(Cgp, SimplifiedFormulasHaveTheSameValues) {
+    Random random(4, 0);
+    int smaller = 0;
+    for (int round = 0; round < 1000; ++round) {
+        const Genome genome = random_genome(shape_of(3, 2), random);
+        const Program program(genome);
+        const Formula formula = simplified(genome);
+        smaller += formula.size() < activity_of(genome).nodes;
+        for (const auto& inputs : random_inputs(20, 3)) {
+            const auto expected = run(program, inputs, 2), found = formula.evaluate(inputs);
+            for (std::size_t o = 0; o < 2; ++o)
+                EXPECT_NEAR(found[o], expected[o], 1e-9 * std::max(1.0, std::abs(expected[o])));
+        }
+    }
+    EXPECT_GT(smaller, 300);
+}
+
+// What rddl export writes, by the C++ compiler.
+TEST(Cgp, CompiledFormulasHaveTheSameValues) {
+    const ProgramScope scope =
+        program_scope(*rddl_simulator_mountain_car_mountain_car_1(), Lifting::Auto, false, 0);
+    Random random(5, 0);
+    const auto folder = std::filesystem::temp_directory_path() / "rddl_cgp_test";
+    std::filesystem::create_directories(folder);
+    std::vector<Genome> genomes;
+    std::ofstream main(folder / "main.cpp");
+    for (int g = 0; g < 10; ++g) {
+        genomes.push_back(
+            random_genome(shape_of(scope.input_count(), scope.output_count()), random));
+        // GCC takes files of the same text for the same file.
+        std::string text = formula_cpp(simplified(genomes.back()), scope);
+        text.erase(text.find("#pragma once"), 12);
+        std::ofstream(folder / ("policy" + std::to_string(g) + ".hpp")) << text;
+        main << "namespace p" << g << " {\n#include \"policy" << g << ".hpp\"\n}\n";
+    }
+    const auto inputs = random_inputs(20, scope.input_count());
+    main << "#include <cstdio>\nint main() {\n    double x[2], y[1];\n";
+    for (int g = 0; g < 10; ++g)
+        for (const auto& x : inputs) {
+            main.precision(17);
+            main << "    x[0] = " << x[0] << "; x[1] = " << x[1] << "; p" << g
+                 << "::policy::act(x, y); std::printf(\"%.17g\\n\", y[0]);\n";
+        }
+    main << "}\n";
+    main.close();
+    // <cmath> comes first, so that it is not within a namespace.
+    const std::string command =
+        std::string(TEST_CXX) + " -std=c++17 -include cmath -O0 -ffp-contract=off -o " +
+        (folder / "program").string() + " " + (folder / "main.cpp").string() + " && " +
+        (folder / "program").string() + " > " + (folder / "out").string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream out(folder / "out");
+    for (const Genome& genome : genomes)
+        for (const auto& x : inputs) {
+            std::vector<double> scaled;
+            for (std::size_t i = 0; i < x.size(); ++i)
+                scaled.push_back((x[i] - scope.inputs[i].shift) * scope.inputs[i].scale);
+            const double expected = run(Program(genome), scaled, 1)[0];
+            double found = 0;
+            ASSERT_TRUE(out >> found);
+            EXPECT_NEAR(found, expected, 1e-9 * std::max(1.0, std::abs(expected)));
+        }
+}
+
+TEST(Cgp, MutationsOfOneGeneChangeThePhenotype) {
+    Random random(6, 0);
+    const GenomeShape shape = shape_of(3, 2, 100);
+    Genome genome = random_genome(shape, random);
+    int same = 0;
+    for (int round = 0; round < 500; ++round) {
+        const std::uint64_t before = phenotype_hash(genome, activity_of(genome));
+        mutate(genome, shape, Mutation::Single, random);
+        same += phenotype_hash(genome, activity_of(genome)) == before;
+    }
+    EXPECT_LT(same, 25);  // an argument may change for one that computes the same
+}
+
+std::vector<const rddl_simulator*> simulators() {
+    return {rddl_simulator_mountain_car_mountain_car_1(), rddl_simulator_reservoir_reservoir_1(),
+            rddl_simulator_network_network_1(), rddl_simulator_delivery_delivery_1()};
+}
+
+CgpOptions small_options() {
+    CgpOptions options;
+    options.children = 6;
+    options.episodes = 4;
+    options.nodes = 30;
+    options.islands = 2;
+    options.migrate_every = 3;
+    options.tune_every = 4;
+    options.seed = 8;
+    return options;
+}
+
+TEST(Cgp, ThreadsDoNotMatter) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        CgpOptions options = small_options();
+        CgpSearch alone(*simulator, options);
+        options.threads = 2;
+        CgpSearch together(*simulator, options);
+        alone.run(8);
+        together.run(8);
+        EXPECT_EQ(alone.progress().evaluations, together.progress().evaluations);
+        EXPECT_EQ(program_text(*simulator, alone.scope(), alone.best()),
+                  program_text(*simulator, together.scope(), together.best()));
+    }
+}
+
+TEST(Cgp, GoesOnAsIfItHadNotStopped) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        CgpSearch whole(*simulator, small_options()), first(*simulator, small_options()),
+            second(*simulator, small_options());
+        whole.run(10);
+        first.run(5);
+        second.load(first.save());
+        second.run(5);
+        EXPECT_EQ(program_text(*simulator, whole.scope(), whole.best()),
+                  program_text(*simulator, second.scope(), second.best()));
+    }
+}
+
+TEST(Cgp, FindsFormulasThatDriveUphill) {
+    const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        CgpOptions options;
+        options.seed = seed;
+        CgpSearch search(simulator, options);
+        search.run(60);
+        const auto found =
+            std::make_shared<FoundProgram>(FoundProgram{search.scope(), search.best()});
+        const Summary summary =
+            summary_of(run_episodes(simulator, program_policy(simulator, found, "cgp"), {}, {}));
+        EXPECT_EQ(summary.undiscounted_return.mean, search.progress().best.value);
+        EXPECT_EQ(summary.length.mean, search.progress().best.steps);
+        EXPECT_GT(summary.undiscounted_return.mean, 80) << seed;
+    }
+}
+
+// One program for all objects acts in every instance of its domain.
+TEST(Cgp, LiftedProgramsAreReadForOtherInstances) {
+    const rddl_simulator& network = *rddl_simulator_network_network_1();
+    CgpSearch search(network, small_options());
+    EXPECT_TRUE(search.scope().lifted);
+    const std::string text = program_text(network, search.scope(), search.best());
+    EXPECT_EQ(program_text(network, read_program(network, text)->scope,
+                           read_program(network, text)->genome),
+              text);
+    std::string other = text;
+    other.replace(other.find("network_1"), 9, "network_2");
+    EXPECT_NO_THROW(read_program(network, other));
+    EXPECT_THROW(read_program(*rddl_simulator_reservoir_reservoir_1(), text), Failure);
+}
+
+TEST(Cgp, RefusesWhatIsNoProgram) {
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    CgpSearch search(car, small_options());
+    const std::string text = program_text(car, search.scope(), search.best());
+    for (const std::size_t size : {std::size_t{0}, text.size() / 3, text.size() - 5})
+        EXPECT_THROW(read_program(car, text.substr(0, size)), Failure) << size;
+    std::string newer = text;
+    newer.replace(0, 10, "rddl-cgp 7");
+    EXPECT_THROW(read_program(car, newer), Failure);
+    std::string forward = text;  // a node that reads a later one
+    const std::size_t node = forward.find("node ") + 5;
+    forward.replace(node, forward.find('\n', node) - node, "add 33 34 35");
+    EXPECT_THROW(read_program(car, forward), Failure);
+}
+
+}  // namespace
+}  // namespace rddlc::solvers

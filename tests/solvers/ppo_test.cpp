@@ -1,0 +1,272 @@
+// PPO as a whole: advantages, one update as Stable-Baselines3 makes it, and bytes that depend on
+// nothing but the options.
+#include "simulators.hpp"
+#include "solvers/evaluation/summary.hpp"
+#include "solvers/ppo/advantages.hpp"
+#include "solvers/ppo/learner.hpp"
+#include "solvers/ppo/policy_file.hpp"
+#include "solvers/ppo/trainer.hpp"
+#include "support/failure.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <random>
+
+namespace rddlc::solvers {
+namespace {
+
+// The sum of equation 11 of the paper, as it stands.
+TEST(Advantages, AgreeWithTheSum) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    constexpr std::size_t steps = 50;
+    constexpr double gamma = 0.97, lambda = 0.9;
+    std::vector<float> rewards(steps), values(steps), next(steps), advantages(steps),
+        returns(steps);
+    std::vector<std::uint8_t> ends(steps);
+    for (std::size_t t = 0; t < steps; ++t) {
+        rewards[t] = normal(random);
+        values[t] = normal(random);
+        next[t] = random() % 2 ? normal(random) : 0.0f;  // truncated, or terminated
+        ends[t] = random() % 7 == 0;
+    }
+    estimate_advantages({steps, 1, rewards.data(), values.data(), next.data(), ends.data()}, gamma,
+                        lambda, advantages.data(), returns.data());
+    for (std::size_t t = 0; t < steps; ++t) {
+        double sum = 0, factor = 1;
+        for (std::size_t k = t; k < steps; ++k) {
+            const bool known = ends[k] || k == steps - 1;
+            const double following = static_cast<double>(known ? next[k] : values[k + 1]);
+            sum += factor * (static_cast<double>(rewards[k]) + gamma * following -
+                             static_cast<double>(values[k]));
+            if (known) break;
+            factor *= gamma * lambda;
+        }
+        EXPECT_NEAR(advantages[t], sum, 1e-5) << t;
+        EXPECT_NEAR(returns[t], sum + static_cast<double>(values[t]), 1e-5) << t;
+    }
+}
+
+// ------------------------------------------------------------------ Stable-Baselines3's update
+
+// record_sb3_updates.py has written the weights before and after, and the batch.
+void set_layers(const nlohmann::json& layers, const Network& network, float* parameters) {
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
+        const Layer& layer = network.layers[l];
+        for (int o = 0; o < layer.outputs; ++o) {
+            for (int i = 0; i < layer.inputs; ++i)
+                parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)] =
+                    layers[l]["weights"][static_cast<std::size_t>(o)][static_cast<std::size_t>(i)];
+            parameters[layer.bias + static_cast<std::size_t>(o)] =
+                layers[l]["bias"][static_cast<std::size_t>(o)];
+        }
+    }
+}
+
+void set_parameters(const nlohmann::json& weights, PpoModel& model) {
+    set_layers(weights["policy"], model.policy, model.parameters.data());
+    set_layers(weights["value"], model.value, model.parameters.data() + model.value_begin());
+    for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
+        model.parameters[model.deviations_begin() + r] = weights["log_std"][r];
+}
+
+TEST(Ppo, UpdatesAsStableBaselines3Does) {
+    const nlohmann::json all = nlohmann::json::parse(std::ifstream(SB3_UPDATES));
+    ASSERT_EQ(all.size(), 2u);
+    for (const nlohmann::json& each : all) {
+        PpoModel model;
+        const std::size_t inputs = each["observations"][0].size();
+        for (std::size_t i = 0; i < inputs; ++i) model.observations.features.push_back("x");
+        model.actions.reals.resize(each["reals"].get<std::size_t>());
+        for (const int count : each["categories"].get<std::vector<int>>()) {
+            CategoryHead head;
+            head.first_logit = model.actions.logit_count;
+            head.count = count;
+            model.actions.categories.push_back(head);
+            model.actions.logit_count += count;
+        }
+        model.hidden = each["hidden"].get<std::vector<int>>();
+        make_networks(model);
+        set_parameters(each["before"], model);
+
+        const int count = static_cast<int>(each["observations"].size());
+        Experience experience(model, count, 1);
+        for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s) {
+            for (std::size_t i = 0; i < inputs; ++i)
+                experience.features[s * inputs + i] = each["observations"][s][i];
+            for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
+                experience.numbers[s * model.actions.reals.size() + r] = each["actions"][s][r];
+            for (std::size_t h = 0; h < model.actions.categories.size(); ++h)
+                experience.indices[s * model.actions.categories.size() + h] =
+                    each["actions"][s][h].get<int>();
+            experience.log_probabilities[s] = each["log_probabilities"][s];
+            experience.advantages[s] = each["advantages"][s];
+            experience.values[s] = each["values"][s];
+            experience.returns[s] = each["returns"][s];
+        }
+        PpoOptions options;
+        options.minibatch = count;
+        rddl::Team team(1);
+        Learner learner(model, options, team);
+        std::vector<std::uint32_t> samples(static_cast<std::size_t>(count));
+        std::iota(samples.begin(), samples.end(), 0u);
+        for (int epoch = 0; epoch < each["epochs"].get<int>(); ++epoch)
+            learner.learn(experience, samples,
+                          {each["learning_rate"].get<double>(), each["entropy"].get<double>(), 0});
+
+        PpoModel expected = model;
+        set_parameters(each["after"], expected);
+        double moved = 0;
+        PpoModel before = model;
+        set_parameters(each["before"], before);
+        for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+            EXPECT_NEAR(model.parameters[p], expected.parameters[p], 1e-5) << p;
+            moved = std::max(moved, static_cast<double>(
+                                        std::abs(expected.parameters[p] - before.parameters[p])));
+        }
+        EXPECT_GT(moved, 1e-3);
+    }
+}
+
+// ---------------------------------------------------------------------------- determinism
+
+PpoOptions small_options() {
+    PpoOptions options;
+    options.steps = 3 * 24 * 32;
+    options.environments = 24;
+    options.rollout = 32;
+    options.minibatch = 512;
+    options.epochs = 2;
+    options.hidden = {16, 16};
+    options.seed = 5;
+    return options;
+}
+
+std::vector<const rddl_simulator*> simulators() {
+    return {rddl_simulator_mountain_car_mountain_car_1(), rddl_simulator_reservoir_reservoir_1(),
+            rddl_simulator_network_network_1(), rddl_simulator_delivery_delivery_1()};
+}
+
+TEST(Ppo, ThreadsDoNotMatter) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        PpoOptions options = small_options();
+        PpoTrainer alone(*simulator, options);
+        options.threads = 3;
+        PpoTrainer together(*simulator, options);
+        while (!alone.done()) {
+            alone.update();
+            together.update();
+        }
+        EXPECT_TRUE(std::isfinite(alone.progress().value_loss));
+        EXPECT_EQ(alone.model().parameters, together.model().parameters);
+        EXPECT_EQ(alone.model().normaliser.means, together.model().normaliser.means);
+    }
+}
+
+TEST(Ppo, GoesOnAsIfItHadNotStopped) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        const PpoOptions options = small_options();
+        PpoTrainer whole(*simulator, options), first(*simulator, options);
+        whole.update();
+        whole.update();
+        first.update();
+        PpoTrainer second(*simulator, options);
+        second.load(first.save());
+        second.update();
+        EXPECT_EQ(whole.model().parameters, second.model().parameters);
+        EXPECT_EQ(ppo_policy_text(*simulator, whole.model()),
+                  ppo_policy_text(*simulator, second.model()));
+    }
+}
+
+std::string complaint(const auto& work) {
+    try {
+        work();
+    } catch (const Failure& failure) {
+        return failure.what();
+    }
+    return "";
+}
+
+TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
+    const PpoOptions options = small_options();
+    PpoTrainer car(*rddl_simulator_mountain_car_mountain_car_1(), options);
+    PpoTrainer reservoir(*rddl_simulator_reservoir_reservoir_1(), options);
+    const std::string bytes = car.save();
+    EXPECT_EQ(complaint([&] { reservoir.load(bytes); }), "it is of another problem");
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{9}, bytes.size() / 2, bytes.size() - 1})
+        EXPECT_NE(complaint([&] { car.load(bytes.substr(0, size)); }), "") << size;
+}
+
+TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        PpoTrainer trainer(*simulator, small_options());
+        trainer.update();
+        const std::string text = ppo_policy_text(*simulator, trainer.model());
+        const auto model = read_ppo_policy(*simulator, text);
+        EXPECT_EQ(model->parameters, trainer.model().parameters);
+        EXPECT_EQ(ppo_policy_text(*simulator, *model), text);
+    }
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    PpoTrainer trainer(car, small_options());
+    const std::string text = ppo_policy_text(car, trainer.model());
+    const auto read = [&](const std::string& other) {
+        return complaint([&] { read_ppo_policy(car, other); });
+    };
+    EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is not complete, or no JSON");
+    EXPECT_EQ(read("{}"), "it is no policy of PPO");
+    std::string newer = text;
+    newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 1");
+    EXPECT_NE(complaint([&] {
+                  read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
+              }).find("it is of the problem mountain_car_1"),
+              std::string::npos);
+}
+
+// A reward that is not finite cannot be learned from; here by a learning rate that breaks
+// everything.
+TEST(Ppo, TellsWhenAGradientIsNotFinite) {
+    PpoOptions options = small_options();
+    options.learning_rate = 1e30;
+    options.schedule = LearningRate::Constant;
+    options.gradient_norm = 0;
+    PpoTrainer trainer(*rddl_simulator_reservoir_reservoir_1(), options);
+    const std::string text = complaint([&] {
+        for (int i = 0; i < 10; ++i) trainer.update();
+    });
+    EXPECT_NE(text.find("the gradient is not finite"), std::string::npos) << text;
+    EXPECT_NE(text.find("after "), std::string::npos) << text;
+}
+
+// Beside what no-op and random actions earn.
+TEST(Ppo, LearnsToDriveUphill) {
+    const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    PpoOptions options;
+    options.steps = 200'000;
+    options.environments = 32;
+    options.rollout = 64;
+    options.minibatch = 256;
+    options.hidden = {32, 32};
+    options.learning_rate = 1e-3;
+    PpoTrainer trainer(simulator, options);
+    while (!trainer.done()) trainer.update();
+    const auto model = std::make_shared<PpoModel>(trainer.model());
+    EpisodeOptions episodes;
+    episodes.episodes = 8;
+    const Summary summary = summary_of(
+        run_episodes(simulator, ppo_policy(simulator, model, false, 0, "ppo"), episodes, {}));
+    EXPECT_GT(summary.undiscounted_return.mean, 80);
+    EXPECT_EQ(summary.terminated, 8);
+}
+
+}  // namespace
+}  // namespace rddlc::solvers

@@ -1,0 +1,21 @@
+#!/bin/sh
+# Both programs of rddl_add_solver: train, evaluate, go on, and refuse.
+#   program.sh PPO_PROGRAM CGP_PROGRAM
+set -e
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+ppo=$1 cgp=$2
+
+"$ppo" train --out "$folder/ppo" --steps 40000 --envs 16 --rollout 64 --minibatch 256 --seed 1
+"$ppo" evaluate "$folder/ppo/policy.json" --episodes 5 | grep "of 5 terminated, 0 faults"
+"$cgp" train --out "$folder/cgp" --gens 60
+"$cgp" evaluate "$folder/cgp/policy.cgp" --episodes 1 | tee "$folder/evaluation"
+grep "^return [89][0-9].* 1 of 1 terminated" "$folder/evaluation"  # it reaches the flag
+"$cgp" train --out "$folder/cgp" --gens 80 --resume
+
+if "$ppo" train --out "$folder/ppo" 2> "$folder/err"; then exit 1; fi
+grep "holds a run already" "$folder/err"
+if "$ppo" evaluate "$folder/cgp/policy.cgp" 2> "$folder/err"; then exit 1; fi
+grep "error" "$folder/err"
+if "$ppo" train --steps many --out "$folder/x" 2> "$folder/err"; then exit 1; fi
+grep "'many' is no number" "$folder/err"

@@ -1,0 +1,84 @@
+"""Policies that rddl exports act as they do in rddl: by the Python reader, as Python and as C++.
+
+    test_exports.py --rddl PROGRAM --examples FOLDER --cxx COMPILER --cache FOLDER
+"""
+
+import argparse
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def load(name, path):
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.dont_write_bytecode = True
+    spec.loader.exec_module(module)
+    return module
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--rddl", required=True)
+    parser.add_argument("--examples", type=Path, required=True)
+    parser.add_argument("--cxx", required=True)
+    parser.add_argument("--cache", required=True)
+    arguments = parser.parse_args()
+    problem = [str(arguments.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
+    environment = {**os.environ, "XDG_CACHE_HOME": arguments.cache}
+
+    def rddl(*words):
+        return subprocess.run([arguments.rddl, words[0], *words[1:2], *problem, *words[2:]] if words[0] == "train"
+                              else [arguments.rddl, words[0], *problem, *words[1:]],
+                              check=True, capture_output=True, text=True, env=environment).stdout
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        rddl("train", "ppo", "--steps", "20000", "--envs", "16", "--rollout", "64", "--minibatch", "256", "--quiet",
+             "--out", str(folder / "ppo"))
+        rddl("train", "cgp", "--gens", "40", "--quiet", "--out", str(folder / "cgp"))
+        network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "ppo/policy.json")
+        rddl("export", "--policy", str(folder / "cgp"), "--as", "py", "-o", str(folder / "formula.py"))
+        formula = load("formula", folder / "formula.py")
+        rddl("export", "--policy", str(folder / "ppo"), "--as", "cpp", "-o", str(folder / "network.hpp"))
+        (folder / "main.cpp").write_text(
+            '#include "network.hpp"\n#include <cstdio>\nint main() {\n    float x[policy::feature_count], y[1];\n'
+            '    while (std::scanf("%f %f %f", x, x + 1, x + 2) == 3) {\n        policy::act(x, y);\n'
+            '        std::printf("%.9g\\n", double(y[0]));\n    }\n}\n')
+        subprocess.run([arguments.cxx, "-std=c++17", "-o", folder / "main", folder / "main.cpp"], check=True)
+
+        rows, expected = [], []
+        steps = 0
+        for solver in "ppo", "cgp":
+            rddl("run", "--policy", str(folder / solver), "--trace", str(folder / "trace.jsonl"), "--quiet")
+            for line in (folder / "trace.jsonl").read_text().splitlines()[1:]:
+                step = json.loads(line)
+                state, action = step["state"], step["action"]["throttle"]
+                if solver == "ppo":
+                    found = network.act(state, step["step"])["throttle"]
+                    rows.append(network.features(state, step["step"]))
+                    expected.append(action)
+                else:
+                    inputs = [state[n] for n in formula.INPUTS]
+                    found = max(-1.0, min(1.0, formula.act(inputs)[0]))
+                # Floats there, doubles here.
+                assert abs(found - action) < 1e-5, (solver, step, found)
+                steps += 1
+        assert steps > 100, steps
+        text = "\n".join(" ".join(f"{x:.9g}" for x in row) for row in rows)
+        out = subprocess.run([folder / "main"], input=text, check=True, capture_output=True, text=True).stdout.split()
+        assert len(out) == len(expected) > 0
+        for found, action in zip(out, expected):
+            assert abs(max(-1.0, min(1.0, float(found))) - action) < 1e-5, (found, action)
+    print(f"{steps} steps agree")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
