@@ -37,8 +37,9 @@ Command rddl_command() {
         fmt::print("{}", *explanation);
         return success;
     };
-    program.commands = {list_command(), info_command(),   check_command(), fmt_command(),
-                        run_command(),  replay_command(), bench_command(), verify_command()};
+    program.commands = {list_command(),   info_command(),  check_command(),
+                        fmt_command(),    run_command(),   render_command(),
+                        replay_command(), bench_command(), verify_command()};
     return program;
 }
 

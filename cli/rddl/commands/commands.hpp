@@ -11,6 +11,7 @@ Command check_command();
 Command fmt_command();
 Command run_command();
 Command replay_command();
+Command render_command();
 Command bench_command();
 Command verify_command();
 

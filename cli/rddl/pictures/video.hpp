@@ -1,0 +1,38 @@
+// Movies in the formats of ffmpeg, which gets the pictures as they are drawn.
+#pragma once
+
+#include "driver/work_folder.hpp"
+#include "support/files.hpp"
+
+#include <render/picture.hpp>
+#include <sys/types.h>
+
+#include <filesystem>
+
+namespace rddlc::cli {
+
+class VideoWriter {
+  public:
+    // The format is told by the file's ending: .mp4, .webm or .webp. A Failure if it is another
+    // one, if the file cannot be written, or if there is no ffmpeg.
+    VideoWriter(std::filesystem::path file, int width, int height, double frames_per_second,
+                const UsedFiles& used);
+    ~VideoWriter();
+    VideoWriter(const VideoWriter&) = delete;
+    VideoWriter& operator=(const VideoWriter&) = delete;
+
+    void add(const rddl::render::Picture& picture);
+    // The file has its name from here on.
+    void finish(UsedFiles& used);
+
+  private:
+    int wait();
+
+    std::filesystem::path file_;
+    TemporaryFolder folder_;
+    std::filesystem::path made_;  // by ffmpeg
+    pid_t process_ = -1;
+    int pictures_ = -1;  // what ffmpeg reads
+};
+
+}  // namespace rddlc::cli
