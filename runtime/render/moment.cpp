@@ -105,6 +105,10 @@ double Moment::number_in(const Step& step, std::string_view name, std::size_t gr
     return values_in(step, *fluent).numbers.at(grounding);
 }
 
+double Moment::default_of(std::string_view name, std::size_t grounding) const {
+    return number_in(Step{}, name, grounding);
+}
+
 const Values& Moment::values(const rddl_fluent& fluent) const {
     if (fluent.role == RDDL_NON_FLUENT) return world_.constant(fluent);
     auto& place = read_[&fluent];

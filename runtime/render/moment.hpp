@@ -109,6 +109,9 @@ class Moment {
     Values values_in(const Step& step, const rddl_fluent& fluent) const;
     double number_in(const Step& step, std::string_view name, std::size_t grounding = 0) const;
 
+    // Of an action-fluent.
+    double default_of(std::string_view name, std::size_t grounding = 0) const;
+
   private:
     const World& world_;
     const std::deque<Step>& steps_;

@@ -118,6 +118,70 @@ Box Grid::cell(int column, int row) const {
     return {box.x + column * width, box.y + row * height, width, height};
 }
 
+void Extent::add(double number) {
+    if (!std::isfinite(number)) return;
+    low = empty ? number : std::min(low, number);
+    high = empty ? number : std::max(high, number);
+    empty = false;
+}
+
+Extent Extent::rounded() const {
+    if (empty) return {0, 1, false};
+    const double span = std::max({high - low, 1e-9, 1e-6 * std::abs(high)});
+    const double step = std::pow(2.0, std::ceil(std::log2(span))) / 8;
+    return {(std::floor(low / step) - 0.5) * step, (std::ceil(high / step) + 0.5) * step, false};
+}
+
+void arc_arrow(Canvas& canvas, Point center, double radius, double from, double to, Color color,
+               double thickness) {
+    if (std::abs(to - from) < 0.02) return;
+    canvas.arc(center, radius, std::min(from, to), std::max(from, to), color, thickness);
+    const double side = to > from ? 1 : -1, size = 3.5 * thickness;
+    const Point end{center.x + radius * std::cos(to), center.y + radius * std::sin(to)};
+    const double ux = -std::sin(to) * side, uy = std::cos(to) * side;  // on along the arc
+    const Point tip[] = {{end.x + ux * size, end.y + uy * size},
+                         {end.x - uy * size * 0.6, end.y + ux * size * 0.6},
+                         {end.x + uy * size * 0.6, end.y - ux * size * 0.6}};
+    canvas.polygon(tip, color);
+}
+
+void person(Canvas& canvas, Point feet, double height, Color color) {
+    const double head = height * 0.17;
+    canvas.disc({feet.x, feet.y - height + head}, head, color);
+    canvas.fill({feet.x - height * 0.2, feet.y - height * 0.62, height * 0.4, height * 0.62}, color,
+                height * 0.15);
+}
+
+std::vector<int> order_of(const Values& follows) {
+    const int count = follows.count(0);
+    std::vector<int> rank(static_cast<std::size_t>(count), 0);
+    const auto at = [&](int i) -> int& {
+        return rank[static_cast<std::size_t>(i)];
+    };
+    bool told = false;
+    for (int round = 0; round < count; ++round)  // a circle ends there, too
+        for (int a = 0; a < count; ++a)
+            for (int b = 0; b < count; ++b)
+                if (a != b && follows.is(a, b)) {
+                    at(b) = std::min(std::max(at(b), at(a) + 1), count - 1);
+                    told = true;
+                }
+    for (int i = 0; i < count && !told; ++i) at(i) = i;
+    return rank;
+}
+
+void trail(Canvas& canvas, std::span<const Point> points, Color color, double thickness) {
+    // In a few pieces of one strength each, so that long ones cost little.
+    constexpr std::size_t pieces = 8;
+    const std::size_t length = std::max<std::size_t>(points.size() / pieces, 1);
+    for (std::size_t begin = 0; begin + 1 < points.size(); begin += length) {
+        const std::size_t end = std::min(begin + length + 1, points.size());
+        const double part = static_cast<double>(end) / static_cast<double>(points.size());
+        canvas.polyline(points.subspan(begin, end - begin), color.with_alpha(0.1 + 0.5 * part),
+                        thickness);
+    }
+}
+
 Point on_circle(Point center, double radius, int number, int count) {
     const double angle = 2 * M_PI * number / std::max(count, 1) - M_PI / 2;
     return {center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)};

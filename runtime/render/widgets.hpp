@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/canvas.hpp"
+#include "render/moment.hpp"
 
 #include <cstddef>
 #include <span>
@@ -65,6 +66,29 @@ struct Grid {
     Box box;
     int columns, rows;
 };
+
+// A range that holds the numbers and ends at round ones, so that it seldom moves as they grow.
+struct Extent {
+    double low = 0, high = 0;
+    bool empty = true;
+
+    void add(double number);
+    Extent rounded() const;
+};
+
+// An arrow along an arc, clockwise where `to` is greater; angles as in Canvas::arc.
+void arc_arrow(Canvas& canvas, Point center, double radius, double from, double to, Color color,
+               double thickness = 2);
+
+// A person, standing with its feet at the place.
+void person(Canvas& canvas, Point feet, double height, Color color);
+
+// The place of each object in an order that a fluent of two of them tells: where it holds of a and
+// b, b comes after a. In declaration order where it tells nothing.
+std::vector<int> order_of(const Values& follows);
+
+// Where something was in the last steps, from long ago to now, fading.
+void trail(Canvas& canvas, std::span<const Point> points, Color color, double thickness = 2);
 
 // Where `count` things stand on a circle, from the top, clockwise.
 Point on_circle(Point center, double radius, int number, int count);

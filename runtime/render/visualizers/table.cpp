@@ -7,8 +7,42 @@
 namespace rddl::render {
 
 std::span<const Visualizer* const> visualizers() {
-    static const Visualizer* const all[] = {&automatic::visualizer, &chart::visualizer,
-                                            &heatmap::visualizer, &text::visualizer};
+    static const Visualizer* const all[] = {&automatic::visualizer,
+                                            &chart::visualizer,
+                                            &heatmap::visualizer,
+                                            &text::visualizer,
+                                            &acrobot::visualizer,
+                                            &cart_pole::visualizer,
+                                            &elevators::visualizer,
+                                            &elevators::visualizer_of_counts,
+                                            &game_of_life::visualizer,
+                                            &hvac::visualizer,
+                                            &hvac::visualizer_of_air,
+                                            &intruders::visualizer,
+                                            &intruders::visualizer_of_grid,
+                                            &mars_rover::visualizer,
+                                            &mountain_car::visualizer,
+                                            &navigation::visualizer,
+                                            &network::visualizer,
+                                            &pendulum::visualizer,
+                                            &pong::visualizer,
+                                            &power_gen::visualizer,
+                                            &quadcopter::visualizer,
+                                            &race_car::visualizer,
+                                            &reacher::visualizer,
+                                            &recommender::visualizer,
+                                            &reservoir::visualizer,
+                                            &robot_grid::visualizer,
+                                            &robot_grid::visualizer_of_crossing,
+                                            &sliding_squares::visualizer,
+                                            &sokoban::visualizer,
+                                            &sudoku::visualizer,
+                                            &tetris::visualizer,
+                                            &tower_of_hanoi::visualizer,
+                                            &traffic::visualizer,
+                                            &traffic_cells::visualizer,
+                                            &uav::visualizer,
+                                            &wildfire::visualizer};
     return all;
 }
 
