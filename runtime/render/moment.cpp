@@ -59,9 +59,14 @@ World::World(const rddl_simulator& simulator) : simulator_(simulator) {
     }
 }
 
-const rddl_fluent* World::find(std::string_view name) const {
-    const auto found = fluent_named_.find(name);
-    return found == fluent_named_.end() ? nullptr : found->second;
+const rddl_fluent* World::find(std::string_view names) const {
+    while (true) {
+        const std::size_t end = names.find('|');
+        const auto found = fluent_named_.find(names.substr(0, end));
+        if (found != fluent_named_.end()) return found->second;
+        if (end == std::string_view::npos) return nullptr;
+        names.remove_prefix(end + 1);
+    }
 }
 
 const Values& World::constant(const rddl_fluent& fluent) const {

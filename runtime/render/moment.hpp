@@ -54,8 +54,9 @@ class World {
 
     const rddl_simulator& simulator() const { return simulator_; }
     const rddl_problem& problem() const { return *simulator_.problem; }
-    // NULL: there is none of that name.
-    const rddl_fluent* find(std::string_view name) const;
+    // Of "pos|position" the first that there is: domains call the same thing differently, and all
+    // that looks for a name does so. NULL: there is none.
+    const rddl_fluent* find(std::string_view names) const;
     // Of a non-fluent, read once.
     const Values& constant(const rddl_fluent& fluent) const;
     // "rlevel(t1)"

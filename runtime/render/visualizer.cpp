@@ -3,6 +3,8 @@
 #include "render/state_text.hpp"
 #include "render/widgets.hpp"
 
+#include <algorithm>
+
 namespace rddl::render {
 
 namespace {
@@ -25,8 +27,9 @@ void draw_footer(Canvas& canvas, const Box& box, const Moment& moment) {
     double x = box.x;
     const auto pair = [&](std::string_view name, const std::string& value, double width) {
         canvas.text({x, y}, name, {.size = 11, .color = colors::muted});
-        canvas.text({x + canvas.text_width(name, 11) + 5, y}, value, {.size = 11});
-        x += width;
+        const double after = x + canvas.text_width(name, 11) + 5;
+        canvas.text({after, y}, value, {.size = 11});
+        x = std::max(x + width, after + canvas.text_width(value, 11) + 12);
     };
     std::string step = std::to_string(now.number);
     if (moment.horizon() > 0) step += " / " + std::to_string(moment.horizon());

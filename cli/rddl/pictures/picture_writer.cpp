@@ -49,7 +49,7 @@ const render::Visualizer& choose_visualizer(const std::string& name, const rende
     }
     if (const auto missing = render::missing_fluent(*found, world); !missing.empty()) {
         tell(
-            "rddl: warning: the visualizer '{}' draws the fluent '{}', which this problem has not; "
+            "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem has not; "
             "it is drawn by 'auto'\n",
             name, missing);
         return *render::find_visualizer("auto");

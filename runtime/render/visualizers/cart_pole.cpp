@@ -13,13 +13,15 @@ namespace {
 // Between -1 and 1, to the right where it is positive.
 double push(const Moment& moment) {
     if (!moment.acts()) return 0;
-    if (moment.has("force-side")) return moment.number("force-side") > 0 ? 1 : -1;
+    if (moment.has("force-side|push-right"))
+        return moment.number("force-side|push-right") > 0 ? 1 : -1;
     const double most = moment.number_or("FORCE-MAX", 10);
     return std::clamp(moment.number("force") / most, -1.0, 1.0);
 }
 
 void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const double limit = moment.number("POS-LIMIT"), length = 2 * moment.number("POLE-LEN");
+    const double limit = moment.number("POS-LIMIT|TRACK-LIMIT");
+    const double length = 2 * moment.number("POLE-LEN|POLE-LENGTH");
     const Plane plane(area.inset(8, 0), -1.12 * limit, -0.45, 1.12 * limit, length * 2.4);
     const double track = plane(0, 0).y;
     canvas.line({area.x, track}, {area.right(), track}, colors::muted, 1.5);
@@ -29,9 +31,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         canvas.text({x, track + 24}, number_text(end),
                     {.size = 11, .color = colors::muted, .align = Align::Center});
     }
-    const double angle = moment.number("ang-pos"), most = moment.number_or("ANG-LIMIT", 0.2);
+    const double angle = moment.number("ang-pos|angle");
+    const double most = moment.number_or("ANG-LIMIT|ANGLE-LIMIT", 0.2);
     const double half_width = 36, height = 30;
-    const Point cart = plane(moment.number("pos"), 0);
+    const Point cart = plane(moment.number("pos|position"), 0);
     const Point joint{cart.x, cart.y - height - 8};
     const double pole = plane.length(length) * 1.9;
     canvas.sector(joint, pole + 14, -M_PI / 2 - most, -M_PI / 2 + most, rgb(0xe5f3ee));
@@ -60,10 +63,11 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 
 }  // namespace
 
-const Visualizer visualizer{"cart_pole",
-                            "the cart with its push, the pole, and the limits of both",
-                            {"cart_pole_discrete", "cart_pole_continuous"},
-                            {"pos", "ang-pos", "POS-LIMIT", "POLE-LEN"},
-                            draw};
+const Visualizer visualizer{
+    "cart_pole",
+    "the cart with its push, the pole, and the limits of both",
+    {"cart_pole_discrete", "cart_pole_continuous", "cart_pole"},
+    {"pos|position", "ang-pos|angle", "POS-LIMIT|TRACK-LIMIT", "POLE-LEN|POLE-LENGTH"},
+    draw};
 
 }  // namespace rddl::render::cart_pole

@@ -1,4 +1,4 @@
-// The values of a state as cells: rows are objects of the first parameter, columns those of the
+// The values of a state as cells: columns are objects of the last parameter, rows those of the
 // others. Unlike the chart it shows one state, so that neighbours of a grid are neighbours.
 #include "render/panels.hpp"
 #include "render/visualizers/visualizers.hpp"
@@ -17,16 +17,15 @@ struct Shape {
 
 Shape shape_of(const Values& values) {
     const rddl_fluent& fluent = *values.fluent;
-    if (fluent.rank == 0) return {1, 1};
-    if (fluent.rank == 1) return {1, static_cast<int>(fluent.count)};
-    const int rows = values.count(0);
-    return {rows, static_cast<int>(fluent.count / rows)};
+    const int columns = fluent.rank == 0 ? 1 : values.count(fluent.rank - 1);
+    return {static_cast<int>(fluent.count) / columns, columns};
 }
 
-std::string column_name(const Moment& moment, const Values& values, int column) {
-    const std::string name = moment.world().name_of(*values.fluent, column);
-    std::size_t begin = values.fluent->rank > 1 ? name.find(", ") + 2 : name.find('(') + 1;
-    return name.substr(begin, name.size() - begin - 1);
+// The objects of all parameters but the last: "r1, c2".
+std::string row_name(const Moment& moment, const Values& values, const Grid& grid, int row) {
+    const std::string name = moment.world().name_of(*values.fluent, row * grid.columns);
+    const std::size_t begin = name.find('(') + 1;
+    return name.substr(begin, name.rfind(", ") - begin);
 }
 
 void draw_names(Canvas& canvas, const Grid& grid, const Moment& moment, const Values& values) {
@@ -38,13 +37,14 @@ void draw_names(Canvas& canvas, const Grid& grid, const Moment& moment, const Va
         TextStyle right = style;
         right.align = Align::Right;
         canvas.text({grid.box.x - 4, grid.cell(0, r).center().y},
-                    shortened(canvas, values.object(0, r), 9, 46), right);
+                    shortened(canvas, row_name(moment, values, grid, r), 9, 46), right);
     }
     for (int c = 0; c < grid.columns && values.fluent->rank > 0; c += every_column) {
         TextStyle center = style;
         center.align = Align::Center;
         canvas.text({grid.cell(c, 0).center().x, grid.box.bottom() + 8},
-                    shortened(canvas, column_name(moment, values, c), 9, every_column * column - 2),
+                    shortened(canvas, values.object(values.fluent->rank - 1, c), 9,
+                              every_column * column - 2),
                     center);
     }
 }
@@ -85,7 +85,7 @@ void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_
     }
     const Shape shape = shape_of(values);
     const Box inside = box.below(20).above(16).after(fluent.rank > 1 ? 50 : 0);
-    const bool square = fluent.rank == 2;
+    const bool square = fluent.rank >= 2;
     const Box used = shape.rows == 1 ? inside.top(std::min(inside.height, 40.0)) : inside;
     const Grid grid(used, shape.columns, shape.rows, square);
     draw_cells(canvas, grid, values, range);

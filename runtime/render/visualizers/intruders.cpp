@@ -42,6 +42,7 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
     const Box body = area.above(20);
     const Plane plane(body, across.low - 0.05, up.low - 0.05, across.high + 0.05, up.high + 0.05);
     canvas.fill(plane.box, rgb(0xf6f9fc), 4);
+    draw_key(canvas, area.lowest(14));
     const Canvas::Saved inside = canvas.clipped(plane.box);
     const Values& left = moment["DANGER-L"];
     for (int z = 0; z < left.count(0); ++z) {
@@ -70,7 +71,6 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
         canvas.text({at.x, at.y - 12}, x.object(0, i),
                     {.size = 10, .color = colors::muted, .align = Align::Center});
     }
-    draw_key(canvas, area.lowest(14));
 }
 
 // Things in one cell stand side by side.

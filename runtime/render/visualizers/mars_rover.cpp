@@ -30,6 +30,11 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     const Box body = area.above(18);
     canvas.fill(body, rgb(0xfbf4ee), 4);
     const Plane plane(body, across.low, up.low, across.high, up.high);
+    const Entry entries[] = {{"mineral, with its value", colors::orange},
+                             {"rover", colors::blue},
+                             {"power", colors::vermilion},
+                             {"harvesting", colors::green}};
+    legend(canvas, area.lowest(13), entries);
     const Canvas::Saved inside = canvas.clipped(body);
     const double most = *std::max_element(value.numbers.begin(), value.numbers.end());
     for (int i = 0; i < mineral_x.count(0); ++i) {
@@ -66,11 +71,6 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         canvas.text({place.x, place.y - 15}, x.object(0, i),
                     {.size = 10, .color = colors::muted, .align = Align::Center});
     }
-    const Entry entries[] = {{"mineral, with its value", colors::orange},
-                             {"rover", colors::blue},
-                             {"power", colors::vermilion},
-                             {"harvesting", colors::green}};
-    legend(canvas, area.lowest(13), entries);
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ namespace {
 
 std::vector<Point> valley(const Moment& moment) {
     std::vector<Point> line;
-    if (moment.has("X-START") && moment.has("Y-END")) {
-        const Values &x0 = moment["X-START"], &y0 = moment["Y-START"];
-        const Values &x1 = moment["X-END"], &y1 = moment["Y-END"];
+    if (moment.has("X-START|LEFT-X")) {
+        const Values &x0 = moment["X-START|LEFT-X"], &y0 = moment["Y-START|LEFT-Y"];
+        const Values &x1 = moment["X-END|RIGHT-X"], &y1 = moment["Y-END|RIGHT-Y"];
         for (int i = 0; i < x0.count(0); ++i) {
             line.push_back({x0(i), y0(i)});
             line.push_back({x1(i), y1(i)});
@@ -101,20 +101,23 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     canvas.polyline(std::span(earth).subspan(1, line.size() + 2), rgb(0xa9b99c), 1.5);
     canvas.polyline(std::span(earth).subspan(2, line.size()), rgb(0x6f8a5f), 2.5);
 
-    const double goal = moment.number("GOAL-MIN"), position = moment.number("pos");
+    const double goal = moment.number("GOAL-MIN|FLAG"), position = moment.number("pos|position");
     draw_flag(canvas, plane(goal, ground_at(line, goal).height));
     const Ground ground = ground_at(line, position);
-    const double push = moment.acts() ? moment.number("action") - moment.default_of("action") : 0;
+    const double push =
+        moment.acts() ? moment.number("action|throttle") - moment.default_of("action|throttle") : 0;
     draw_car(canvas, plane(position, ground.height), ground.slope, push);
-    draw_velocity(canvas, area.lowest(18), moment.number("vel"), moment.number_or("MAX-VEL", 0.07));
+    draw_velocity(canvas, area.lowest(18), moment.number("vel|velocity"),
+                  moment.number_or("MAX-VEL|MAX-SPEED", 0.07));
 }
 
 }  // namespace
 
-const Visualizer visualizer{"mountain_car",
-                            "the valley, the car with its push, and the flag at the goal",
-                            {"mountain_car"},
-                            {"pos", "vel", "action", "MIN-POS", "MAX-POS", "GOAL-MIN"},
-                            draw};
+const Visualizer visualizer{
+    "mountain_car",
+    "the valley, the car with its push, and the flag at the goal",
+    {"mountain_car"},
+    {"pos|position", "vel|velocity", "action|throttle", "X-START|LEFT-X|MIN-POS", "GOAL-MIN|FLAG"},
+    draw};
 
 }  // namespace rddl::render::mountain_car

@@ -26,6 +26,9 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     up = up.rounded();
     const Box body = area.above(20);
     canvas.fill(body, rgb(0xf6f9fc), 4);
+    const Entry entries[] = {
+        {"slow zone", rgb(0xf4cf8a)}, {"goal", colors::green}, {"asked for", colors::vermilion}};
+    legend(canvas, area.lowest(14), entries);
     const Canvas::Saved inside = canvas.clipped(body);
     const Plane plane(body, across.low, up.low, across.high, up.high);
     for (int z = 0; z < center.count(0); ++z) {
@@ -52,9 +55,6 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
               2.5);
     }
     canvas.disc(now, 7, colors::blue);
-    const Entry entries[] = {
-        {"slow zone", rgb(0xf4cf8a)}, {"goal", colors::green}, {"asked for", colors::vermilion}};
-    legend(canvas, area.lowest(14), entries);
 }
 
 }  // namespace

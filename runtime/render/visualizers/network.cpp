@@ -10,7 +10,7 @@ namespace rddl::render::network {
 namespace {
 
 void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &running = moment["running"], &connected = moment["CONNECTED"];
+    const Values &running = moment["running"], &connected = moment["CONNECTED|LINK"];
     const int count = running.count(0);
     const Box body = area.above(20);
     const Point center = body.center();
@@ -51,8 +51,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 
 const Visualizer visualizer{"network",
                             "computers that run or are down, their connections, reboots",
-                            {"sysadmin_mdp", "sysadmin_pomdp", "sysadmin"},
-                            {"running", "CONNECTED", "reboot"},
+                            {"sysadmin_mdp", "sysadmin_pomdp", "sysadmin", "network"},
+                            {"running", "CONNECTED|LINK", "reboot"},
                             draw};
 
 }  // namespace rddl::render::network

@@ -58,11 +58,11 @@ void draw_ground(Canvas& canvas, const Camera& camera) {
     for (const Place& corner :
          {Place{left, back, floor}, Place{right, back, floor}, Place{left, front, floor}}) {
         const Place above{corner[0], corner[1], top};
-        canvas.line(camera(corner), camera(above), colors::faint);
+        canvas.line(camera(corner), camera(above), colors::rule, 0.8);
     }
-    canvas.text(camera({left, front, top}), number_text(top),
+    canvas.text(camera({left, front, top}), number_text(std::round(top * 10) / 10),
                 {.size = 9, .color = colors::muted, .align = Align::Right});
-    canvas.text(camera({left, front, floor}), number_text(floor),
+    canvas.text(camera({left, front, floor}), number_text(std::round(floor * 10) / 10),
                 {.size = 9, .color = colors::muted, .align = Align::Right});
 }
 

@@ -20,13 +20,12 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     across.add(goal_x - radius), across.add(goal_x + radius), across.add(moment.number("X0"));
     up.add(goal_y - radius), up.add(goal_y + radius), up.add(moment.number("Y0"));
     const double margin = 0.04 * std::max(across.high - across.low, up.high - up.low);
-    const Plane plane(area, across.low - margin, up.low - margin, across.high + margin,
+    const Plane plane(area.above(18), across.low - margin, up.low - margin, across.high + margin,
                       up.high + margin);
     canvas.fill(plane.box, rgb(0xf6f7f8), 4);
     const Point goal = plane(goal_x, goal_y);
     canvas.disc(goal, plane.length(radius), rgb(0xbfe3d6));
     canvas.ring(goal, plane.length(radius), colors::green, 1.5);
-    canvas.text(goal, "goal", {.size = 11, .color = colors::green, .align = Align::Center});
     for (int i = 0; i < x1.count(0); ++i)
         canvas.line(plane(x1(i), y1(i)), plane(x2(i), y2(i)), colors::ink, 3);
 
@@ -45,10 +44,9 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         arrow(canvas, car, {car.x + fx * 26, car.y - fy * 26}, colors::vermilion, 2.5);
     }
     canvas.disc(car, 6.5, colors::blue);
-    const Entry entries[] = {{"velocity", colors::sky}, {"force", colors::vermilion}};
-    const Box key = area.lowest(14).left(170);
-    canvas.fill(key.inset(-4, -2), colors::paper.with_alpha(0.8));
-    legend(canvas, key, entries);
+    const Entry entries[] = {
+        {"goal", colors::green}, {"velocity", colors::sky}, {"force", colors::vermilion}};
+    legend(canvas, area.lowest(14), entries);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void draw_providers(Canvas& canvas, const Box& box, const Moment& moment) {
         canvas.fill(bar.left(bar.width * std::clamp(pleased(p) / most, 0.0, 1.0)),
                     colors::vermilion.with_alpha(0.85));
         if (height >= 9)
-            label(canvas, row.rightmost(38), number_text(pleased(p)),
+            label(canvas, row.rightmost(38), number_text(std::round(pleased(p) * 100) / 100),
                   {.size = 9, .align = Align::Right});
     }
 }

@@ -48,7 +48,15 @@ double released_part(const Moment& moment, int i) {
     if (!moment.acts() || !moment.has("release")) return 0;
     const Values& release = moment["release"];
     if (release.fluent->scalar == RDDL_BOOL) return release(i);
-    return std::clamp(release(i) / std::max(moment["rlevel"](i), 1e-9), 0.0, 1.0);
+    return std::clamp(release(i) / std::max(moment["rlevel|water"](i), 1e-9), 0.0, 1.0);
+}
+
+// Where nothing says so, those of which no other gets the water.
+bool flows_to_sea(const Moment& moment, const Values& connected, int i) {
+    if (moment.has("CONNECTED_TO_SEA")) return moment["CONNECTED_TO_SEA"].is(i);
+    for (int to = 0; to < connected.count(1); ++to)
+        if (connected.is(i, to)) return false;
+    return true;
 }
 
 // Thinner where there are many.
@@ -58,9 +66,9 @@ void draw_flow(Canvas& canvas, Point from, Point to, double part, bool many) {
 }
 
 void draw_tank(Canvas& canvas, const Box& box, const Moment& moment, int i) {
-    const Values& levels = moment["rlevel"];
-    const double top = std::max(moment["TOP_RES"](i), 1e-9), level = levels(i);
-    const double low = moment["MIN_LEVEL"](i), high = moment["MAX_LEVEL"](i);
+    const Values& levels = moment["rlevel|water"];
+    const double top = std::max(moment["TOP_RES|CAPACITY"](i), 1e-9), level = levels(i);
+    const double low = moment["MIN_LEVEL|SAFE-LOW"](i), high = moment["MAX_LEVEL|SAFE-HIGH"](i);
     const bool fine = level >= low && level <= high;
     const auto y = [&](double value) {
         return box.bottom() - box.height * std::clamp(value / top, 0.0, 1.0);
@@ -84,7 +92,7 @@ void draw_tank(Canvas& canvas, const Box& box, const Moment& moment, int i) {
 }
 
 void draw(Canvas& canvas, const Box& area, const Moment& moment) {
-    const Values &connected = moment["RES_CONNECT"], &to_sea = moment["CONNECTED_TO_SEA"];
+    const Values& connected = moment["RES_CONNECT|FLOWS-TO"];
     const Box body = area.above(20);
     const Box sea = body.rightmost(40);
     canvas.fill(sea, rgb(0xcfe8f7), 4);
@@ -101,7 +109,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             if (a != b && connected.is(a, b))
                 draw_flow(canvas, mouth, {to.x, to.y + 8}, part, many);
         }
-        if (to_sea.is(a)) draw_flow(canvas, mouth, {sea.x, mouth.y}, part, many);
+        if (flows_to_sea(moment, connected, a))
+            draw_flow(canvas, mouth, {sea.x, mouth.y}, part, many);
     }
     for (int i = 0; i < count; ++i)
         draw_tank(canvas, tanks[static_cast<std::size_t>(i)], moment, i);
@@ -114,11 +123,11 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 
 }  // namespace
 
-const Visualizer visualizer{
-    "reservoir",
-    "levels and their limits, and what flows down to the sea",
-    {"reservoir_control_cont", "reservoir_control_dis"},
-    {"rlevel", "TOP_RES", "MIN_LEVEL", "MAX_LEVEL", "RES_CONNECT", "CONNECTED_TO_SEA"},
-    draw};
+const Visualizer visualizer{"reservoir",
+                            "levels and their limits, and what flows down to the sea",
+                            {"reservoir_control_cont", "reservoir_control_dis", "reservoir"},
+                            {"rlevel|water", "TOP_RES|CAPACITY", "MIN_LEVEL|SAFE-LOW",
+                             "MAX_LEVEL|SAFE-HIGH", "RES_CONNECT|FLOWS-TO"},
+                            draw};
 
 }  // namespace rddl::render::reservoir
