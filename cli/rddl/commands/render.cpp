@@ -64,7 +64,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     require_pictures();
     if (!options.pictures.any())
-        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video or --html",
+        throw Failure("there is nothing to write", "say --gif, --png, --svg or --video",
                       usage_error);
     UsedFiles used;
     LineReader input(options.trace, used);

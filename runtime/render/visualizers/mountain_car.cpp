@@ -88,12 +88,20 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         lowest = std::min(lowest, point.y);
         highest = std::max(highest, point.y);
     }
+    highest = std::max(highest, lowest + 1e-6);
     const double width = line.back().x - line.front().x;
     const Box view = area.above(24);
-    const Plane plane(view, line.front().x - 0.03 * width, lowest - 0.1 * width,
-                      line.back().x + 0.06 * width, highest + 0.22 * width);
-    std::vector<Point> earth{{view.x, view.bottom()}, {view.x, plane(0, line.front().y).y}};
-    for (const Point point : line) earth.push_back(plane(point.x, point.y));
+    // All of the width, and as much of the height as there is, but hills no steeper than they are.
+    const Scale x{line.front().x - 0.03 * width, line.back().x + 0.06 * width, view.x,
+                  view.right()};
+    const double bottom = lowest - 0.15 * (highest - lowest),
+                 top = highest + 0.45 * (highest - lowest);
+    const double factor = std::min(view.height / (top - bottom), view.width / (1.09 * width));
+    const auto place = [&](double at, double height) {
+        return Point{x(at), view.bottom() - (height - bottom) * factor};
+    };
+    std::vector<Point> earth{{view.x, view.bottom()}, {view.x, place(0, line.front().y).y}};
+    for (const Point point : line) earth.push_back(place(point.x, point.y));
     earth.push_back({view.right(), earth.back().y});
     earth.push_back({view.right(), view.bottom()});
     canvas.fill(view, rgb(0xf2f8fd));
@@ -102,11 +110,12 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     canvas.polyline(std::span(earth).subspan(2, line.size()), rgb(0x6f8a5f), 2.5);
 
     const double goal = moment.number("GOAL-MIN|FLAG"), position = moment.number("pos|position");
-    draw_flag(canvas, plane(goal, ground_at(line, goal).height));
+    draw_flag(canvas, place(goal, ground_at(line, goal).height));
     const Ground ground = ground_at(line, position);
     const double push =
         moment.acts() ? moment.number("action|throttle") - moment.default_of("action|throttle") : 0;
-    draw_car(canvas, plane(position, ground.height), ground.slope, push);
+    const double drawn_slope = ground.slope * factor * 1.09 * width / view.width;
+    draw_car(canvas, place(position, ground.height), drawn_slope, push);
     draw_velocity(canvas, area.lowest(18), moment.number("vel|velocity"),
                   moment.number_or("MAX-VEL|MAX-SPEED", 0.07));
 }

@@ -14,8 +14,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     const int count = running.count(0);
     const Box body = area.above(20);
     const Point center = body.center();
-    const double radius = body.height / 2 - 22;
-    const double size = std::clamp(2 * M_PI * radius / count * 0.36, 5.0, 20.0);
+    const double size = std::clamp(2 * M_PI * (body.height / 2 - 22) / count * 0.36, 5.0, 18.0);
+    const double radius = body.height / 2 - size - 18;
     for (int a = 0; a < count; ++a)
         for (int b = 0; b < count; ++b) {
             if (!connected.is(a, b) || a == b || (a > b && connected.is(b, a))) continue;
