@@ -17,11 +17,15 @@ Film::Film(const World& world, const Visualizer& visualizer, int width, int heig
 void Film::add(Step step) {
     steps_.push_back(std::move(step));
     if (steps_.size() > most_steps_remembered) steps_.pop_front();
+    is_drawn_ = false;
 }
 
 const Picture& Film::picture() {
-    draw_picture(canvas_, visualizer_, moment());
-    canvas_.read(picture_);
+    if (!is_drawn_) {
+        draw_picture(canvas_, visualizer_, moment());
+        canvas_.read(picture_);
+        is_drawn_ = true;
+    }
     return picture_;
 }
 

@@ -23,7 +23,7 @@ class Film {
 
     // Of the state that was added last.
     Moment moment() const { return Moment(world_, steps_, episode_, horizon_); }
-    const Picture& picture();
+    const Picture& picture();  // drawn when it is first asked for
     std::string svg() const;
 
   private:
@@ -34,6 +34,7 @@ class Film {
     std::deque<Step> steps_;
     Canvas canvas_;
     Picture picture_;
+    bool is_drawn_ = false;
 };
 
 }  // namespace rddl::render

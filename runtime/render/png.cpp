@@ -66,24 +66,32 @@ bool write(png_structp png, png_infop info, const Picture& picture, const Palett
     return true;
 }
 
-}  // namespace
-
-std::string png_bytes(const Picture& picture) {
-    const Palette palette(picture.pixels, 256);
+std::string encode(const Picture& picture, const Palette* palette) {
     Work work;
-    if (palette.is_exact())
-        for (const std::uint32_t color : palette.colors())
+    if (palette)
+        for (const std::uint32_t color : palette->colors())
             work.colors.push_back({static_cast<png_byte>(color >> 16),
                                    static_cast<png_byte>(color >> 8),
                                    static_cast<png_byte>(color)});
     work.row.reserve(static_cast<std::size_t>(picture.width) * 3);
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
-    const bool written =
-        info && write(png, info, picture, palette.is_exact() ? &palette : nullptr, work);
+    const bool written = info && write(png, info, picture, palette, work);
     png_destroy_write_struct(&png, &info);
     if (!written || work.out_of_memory) throw Error("libpng cannot write the picture");
     return std::move(work.bytes);
+}
+
+}  // namespace
+
+std::string png_bytes(const Picture& picture) {
+    const Palette palette(picture.pixels, 256);
+    return encode(picture, palette.is_exact() ? &palette : nullptr);
+}
+
+std::string small_png_bytes(const Picture& picture) {
+    const Palette palette(picture.pixels, 256);
+    return encode(picture, &palette);
 }
 
 }  // namespace rddl::render

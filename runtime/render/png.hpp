@@ -11,4 +11,7 @@ namespace rddl::render {
 // smaller by half; without time and other text, so that the same picture gives the same bytes.
 std::string png_bytes(const Picture& picture);
 
+// The same with 256 colours at most (palette.hpp), which makes drawings smaller by half.
+std::string small_png_bytes(const Picture& picture);
+
 }  // namespace rddl::render

@@ -46,9 +46,9 @@ class PictureTest(unittest.TestCase):
         self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}\n{done.stderr}")
         return done
 
-    def run_car(self, *words, **options) -> subprocess.CompletedProcess:
+    def run_car(self, *words, horizon=30, **options) -> subprocess.CompletedProcess:
         return self.rddl("run", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
-                         "--engine=interpreter", "--horizon=30", "--quiet", *words, **options)
+                         "--engine=interpreter", f"--horizon={horizon}", "--quiet", *words, **options)
 
     def left_behind(self) -> list[str]:
         return sorted(path.name for path in self.folder.rglob("*"))
@@ -230,7 +230,7 @@ class Errors(PictureTest):
 
     def test_files_that_cannot_be_written(self):
         (self.folder / "file").write_text("")
-        for option in "gif", "png", "svg", "video":
+        for option in "gif", "png", "svg", "video", "html":
             ending = {"video": "mp4"}.get(option, option)
             text = self.run_car(f"--{option}=missing/a.{ending}", status=DIAGNOSED).stderr
             self.assertIn("cannot write", text)

@@ -24,9 +24,18 @@ struct RenderOptions {
     std::string trace;
     ProblemArguments problem;
     LoadOptions load;
+    std::string beside;  // a second trace
     PictureOptions pictures;
     bool quiet = false;
 };
+
+// A page shows two episodes side by side; nothing else does.
+void require_pages_alone(const RenderOptions& options) {
+    const PictureOptions& pictures = options.pictures;
+    if (pictures.html.empty() || !pictures.gif.empty() || !pictures.video.empty() ||
+        !pictures.png.empty() || !pictures.svg.empty())
+        throw Failure("--beside is for --html alone", {}, usage_error);
+}
 
 // The files that the trace was made with, as its header names them.
 ProblemFiles files_of_header(const std::string& line, const RenderOptions& options) {
@@ -64,8 +73,9 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     require_pictures();
     if (!options.pictures.any())
-        throw Failure("there is nothing to write", "say --gif, --png, --svg or --video",
+        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video or --html",
                       usage_error);
+    if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;
     LineReader input(options.trace, used);
     std::optional<std::string> line = input.next();
@@ -75,8 +85,14 @@ ExitStatus render_trace(const RenderOptions& options) {
                                    : options.problem.files();
     LoadedProblem problem = load_problem(files, options.load);
     problem.used.add(options.trace);
+    std::optional<LineReader> second;
+    if (!options.beside.empty()) second.emplace(options.beside, problem.used);
     PictureWriter pictures(problem, options.pictures, options.trace);
     for (; line; line = input.next()) pictures.add_line(*line);
+    if (second) {
+        pictures.begin_second(options.beside);
+        while ((line = second->next())) pictures.add_line(*line);
+    }
     give_up_if_interrupted();
     const std::string what = pictures.finish();
     if (!options.quiet) fmt::print("{}\n", what);
@@ -100,10 +116,14 @@ Command render_command() {
         "  rddl render trace.jsonl --gif movie.gif\n"
         "  rddl render trace.jsonl domain.rddl instance.rddl --png frames/ --size 900x600\n"
         "  rddl render trace.jsonl --svg state.svg --step 12 --visualizer chart\n"
+        "  rddl render trace.jsonl --html replay.html --beside other.jsonl\n"
         "  rddl run MountainCar_ippc2023 1 --gif movie.gif";
     add_argument(command, "TRACE", "Lines of JSON; - is standard input", options->trace)
         .is_required = true;
     add_problem_arguments(command, options->problem, false);
+    add_text_option(command, "--beside", "TRACE",
+                    "With --html: a second trace of the problem, shown in step with the first",
+                    options->beside);
     add_picture_options(command, options->pictures);
     add_flag(command, "--quiet", "Print nothing", options->quiet);
     command.run = [options] {

@@ -220,6 +220,12 @@ void require_drawn_episode(const RunOptions& options) {
                       {}, usage_error);
 }
 
+// Of the episode, for people.
+std::string course_name(const RunOptions& options) {
+    return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
+                       options.rollouts.seed);
+}
+
 // The lines of a text, without their line breaks.
 void for_each_line(std::string_view lines, const auto& take) {
     while (!lines.empty()) {
@@ -247,7 +253,7 @@ ExitStatus run(const RunOptions& options) {
     std::optional<LineWriter> trace;
     std::optional<PictureWriter> pictures;
     if (!options.trace.empty()) trace.emplace(options.trace, problem.used);
-    if (options.pictures.any()) pictures.emplace(problem, options.pictures, "the run");
+    if (options.pictures.any()) pictures.emplace(problem, options.pictures, course_name(options));
     TraceSink sink;
     if (trace || pictures) {
         sink = [&](const std::string& lines) {

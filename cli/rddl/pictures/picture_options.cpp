@@ -27,6 +27,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
     add_text_option(command, "--png", "PATH",
                     "FILE.png: a picture of one state; another path: a folder of all", options.png);
     add_text_option(command, "--svg", "PATH", "The same as vector graphics", options.svg);
+    add_text_option(command, "--html", "FILE", "Write a page that replays the episode, in one file",
+                    options.html);
     add_text_option(command, "--visualizer", "NAME",
                     "How states are drawn: auto, chart, heatmap, text, or that of a domain (the "
                     "one for the problem's domain); 'list' prints all",

@@ -12,6 +12,7 @@ namespace rddlc::cli {
 struct PictureOptions {
     std::string gif, video;         // files of the whole episode; empty: not wanted
     std::string png, svg;           // a file of one state, or a folder of all
+    std::string html;               // replay page
     std::string visualizer;         // empty: the one for the domain
     int width = 600, height = 400;  // pixels
     std::optional<double> frames_per_second;
@@ -21,7 +22,7 @@ struct PictureOptions {
     std::optional<std::int64_t> step;  // of files of one state; the last one if absent
 
     bool any() const {
-        return !(gif.empty() && video.empty() && png.empty() && svg.empty());
+        return !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
     }
 };
 

@@ -1,38 +1,27 @@
 #include "pictures/picture_writer.hpp"
 
-#include "pictures/video.hpp"
+#include "pictures/outputs.hpp"
 #include "support/diagnostic.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <render/film.hpp>
-#include <render/gif.hpp>
-#include <render/png.hpp>
 #include <render/visualizer.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
 namespace rddlc::cli {
 
-namespace fs = std::filesystem;
 namespace render = rddl::render;
-
-// How quickly states are shown, and which of them.
-struct Pace {
-    double frames_per_second;
-    std::int64_t stride;  // every so manyth state
-};
 
 namespace {
 
 constexpr double usual_frames_per_second = 10;
 constexpr std::int64_t usual_most_frames = 1000;
-constexpr double last_frame_seconds = 1.5;     // before a movie begins anew
 constexpr double most_frames_per_second = 50;  // that players of GIFs keep up with
 
 const render::Visualizer& choose_visualizer(const std::string& name, const render::World& world) {
@@ -59,10 +48,9 @@ const render::Visualizer& choose_visualizer(const std::string& name, const rende
 
 // How long a step is in the problem's own time: by the names that problems use for it.
 double seconds_per_step(const render::World& world) {
-    for (const char* const name : {"DT", "DELTA-T", "TIME-DELTA", "TIME-STEP", "TIME_DELTA", "TAU",
-                                   "Ts", "DELTA", "TIMESTEP"}) {
-        const rddl_fluent* const fluent = world.find(name);
-        if (!fluent || fluent->role != RDDL_NON_FLUENT || fluent->rank != 0) continue;
+    const rddl_fluent* const fluent =
+        world.find("DT|DELTA-T|TIME-DELTA|TIME-STEP|TIME_DELTA|TAU|Ts|DELTA|TIMESTEP");
+    if (fluent && fluent->role == RDDL_NON_FLUENT && fluent->rank == 0) {
         const double seconds = world.constant(*fluent).numbers.at(0);
         if (seconds > 0 && std::isfinite(seconds)) return seconds;
     }
@@ -80,128 +68,80 @@ Pace choose_pace(const PictureOptions& options, const render::World& world, std:
     return {std::max(rate / static_cast<double>(stride), 0.01), stride};
 }
 
-bool is_file_of(const std::string& path, const char* ending) {
-    return fs::path(path).extension() == ending;
+std::vector<Output> outputs_of(const PictureOptions& options, UsedFiles& used) {
+    std::vector<Output> outputs;
+    if (!options.gif.empty()) outputs.push_back(gif_output(options, used));
+    if (!options.video.empty()) outputs.push_back(video_output(options, used));
+    if (!options.png.empty()) outputs.push_back(png_output(options, used));
+    if (!options.svg.empty()) outputs.push_back(svg_output(options, used));
+    if (!options.html.empty()) outputs.push_back(page_output(options, used));
+    return outputs;
 }
 
 }  // namespace
 
-// A file of one state, or a folder with one for each.
-class StillWriter {
-  public:
-    using Bytes = std::function<std::string()>;
+// An episode that is being drawn.
+struct Episode {
+    Episode(const rddl_simulator& simulator, std::int64_t number, std::string trace)
+        : name(std::move(trace)), steps(simulator, number, name) {}
 
-    StillWriter(std::string path, const char* ending, std::optional<std::int64_t> step,
-                UsedFiles& used)
-        : path_(std::move(path)),
-          ending_(ending),
-          is_single_(is_file_of(path_, ending)),
-          step_(step),
-          used_(used) {
-        if (is_single_) {
-            require_writable(path_, used_);
-            return;
-        }
-        std::error_code error;
-        fs::create_directories(path_, error);
-        if (error) throw UnwritableFile(path_, error.value());
-    }
-
-    void add(std::int64_t step, const Bytes& bytes) {
-        if (is_single_) {
-            if (step_ && *step_ == step) write(path_, bytes());
-            return;
-        }
-        write(fs::path(path_) / fmt::format("{:06}{}", step, ending_), bytes());
-    }
-    void end(std::int64_t last_step, const Bytes& bytes) {
-        if (is_single_ && !step_) write(path_, bytes());
-        if (is_single_ && step_ && !written_)
-            throw Failure(
-                fmt::format("there is no state {}: the episode has {} steps", *step_, last_step));
-    }
-
-  private:
-    void write(const fs::path& file, const std::string& bytes) {
-        write_file(file, bytes, used_);
-        written_ = true;
-    }
-
-    std::string path_;
-    const char* ending_;
-    bool is_single_;
-    std::optional<std::int64_t> step_;
-    UsedFiles& used_;
-    bool written_ = false;
+    std::string name;
+    TraceSteps steps;
+    std::optional<TraceStep> pending;  // the last one may turn out to be the end
+    std::optional<render::Film> film;
+    std::int64_t stride = 1, states = 0;
 };
 
 struct PictureWriter::State {
-    State(const LoadedProblem& problem, const PictureOptions& wanted, std::string trace_name)
+    State(const LoadedProblem& problem, const PictureOptions& wanted, std::string name)
         : options(wanted),
           used(problem.used),
-          name(std::move(trace_name)),
           world(*problem.simulator),
           visualizer(choose_visualizer(options.visualizer, world)),
-          steps(*problem.simulator, options.episode, name) {
-        if (!options.gif.empty()) gif_file.emplace(options.gif, used);
-        if (!options.png.empty()) png.emplace(options.png, ".png", options.step, used);
-        if (!options.svg.empty()) svg.emplace(options.svg, ".svg", options.step, used);
-        if (!options.video.empty()) require_writable(options.video, used);
+          outputs(outputs_of(options, used)) {
+        episode.emplace(*problem.simulator, options.episode, std::move(name));
     }
 
     // When the first state is there, for the horizon is known then.
     void begin() {
-        const std::int64_t horizon = steps.horizon();
-        pace = choose_pace(options, world, horizon);
-        film.emplace(world, visualizer, options.width, options.height, options.episode, horizon);
-        if (gif_file)
-            gif.emplace(options.width, options.height,
-                        [this](std::string_view bytes) { gif_file->write(bytes); });
-        if (!options.video.empty())
-            video.emplace(options.video, options.width, options.height, pace.frames_per_second,
-                          used);
+        const std::int64_t horizon = episode->steps.horizon();
+        const Show show{world, choose_pace(options, world, horizon), episode->name};
+        episode->stride = show.pace.stride;
+        episode->film.emplace(world, visualizer, options.width, options.height, options.episode,
+                              horizon);
+        for (const Output& output : outputs) output.begin(show);
     }
 
-    void add(TraceStep&& step, bool is_last) {
+    void draw(TraceStep&& step, bool is_last) {
         give_up_if_interrupted();
-        if (!film) begin();
-        const std::int64_t number = step.number;
-        film->add({step.number, std::move(step.state), std::move(step.action), step.reward,
-                   step.total, std::move(step.end)});
-        const bool in_movie = is_last || (film_states++ % pace.stride == 0);
-        const auto png_of_state = [&] {
-            return render::png_bytes(film->picture());
-        };
-        const auto svg_of_state = [&] {
-            return film->svg();
-        };
-        if (in_movie && (gif || video)) {
-            const render::Picture& picture = film->picture();
-            if (gif) gif->add(picture, is_last ? last_frame_seconds : 1 / pace.frames_per_second);
-            if (video) video->add(picture);
-            ++pictures;
-        }
-        if (png && (in_movie || options.step)) png->add(number, png_of_state);
-        if (svg && (in_movie || options.step)) svg->add(number, svg_of_state);
-        if (!is_last) return;
-        if (png) png->end(number, png_of_state);
-        if (svg) svg->end(number, svg_of_state);
+        if (!episode->film) begin();
+        episode->film->add({step.number, std::move(step.state), std::move(step.action), step.reward,
+                            step.total, std::move(step.end)});
+        const bool in_movie = is_last || episode->states % episode->stride == 0;
+        ++episode->states;
+        for (const Output& output : outputs) output.add({*episode->film, in_movie, is_last});
+    }
+
+    void finish_episode() {
+        if (!episode->pending)
+            throw Failure(
+                fmt::format("'{}' has no step of episode {}", episode->name, options.episode));
+        std::optional<TraceStep> end = episode->steps.last();
+        draw(std::move(*episode->pending), !end);
+        if (end) draw(std::move(*end), true);
+        if (!episode->steps.has_ended())
+            tell("rddl: warning: episode {} does not end in '{}'; it is drawn as far as it goes\n",
+                 options.episode, episode->name);
+        states += episode->states;
     }
 
     PictureOptions options;
     UsedFiles used;
-    std::string name;
     render::World world;
     const render::Visualizer& visualizer;
-    TraceSteps steps;
-    std::optional<TraceStep> pending;  // the last one may turn out to be the end
-    Pace pace{};
-    std::optional<render::Film> film;
-    std::int64_t film_states = 0, pictures = 0;
-    std::optional<OutputFile> gif_file;
-    std::optional<render::GifWriter> gif;
-    std::optional<StillWriter> png, svg;
-    std::optional<VideoWriter> video;
+    std::vector<Output> outputs;
+    std::optional<Episode> episode;
+    std::int64_t states = 0;
 };
 
 bool can_draw() {
@@ -224,30 +164,22 @@ PictureWriter::PictureWriter(const LoadedProblem& problem, const PictureOptions&
 PictureWriter::~PictureWriter() = default;
 
 void PictureWriter::add_line(std::string_view line) {
-    State& state = *state_;
-    std::optional<TraceStep> step = state.steps.read(line);
+    std::optional<TraceStep> step = state_->episode->steps.read(line);
     if (!step) return;
-    if (state.pending) state.add(std::move(*state.pending), false);
-    state.pending = std::move(step);
+    std::optional<TraceStep>& pending = state_->episode->pending;
+    if (pending) state_->draw(std::move(*pending), false);
+    pending = std::move(step);
+}
+
+void PictureWriter::begin_second(std::string name) {
+    state_->finish_episode();
+    state_->episode.emplace(state_->world.simulator(), state_->options.episode, std::move(name));
 }
 
 std::string PictureWriter::finish() {
-    State& state = *state_;
-    if (!state.pending)
-        throw Failure(
-            fmt::format("'{}' has no step of episode {}", state.name, state.options.episode));
-    std::optional<TraceStep> end = state.steps.last();
-    state.add(std::move(*state.pending), !end);
-    if (end) state.add(std::move(*end), true);
-    if (!state.steps.has_ended())
-        tell("rddl: warning: episode {} does not end in '{}'; it is drawn as far as it goes\n",
-             state.options.episode, state.name);
-    if (state.gif) {
-        state.gif->finish();
-        state.gif_file->finish();
-    }
-    if (state.video) state.video->finish(state.used);
-    return fmt::format("{} states drawn by '{}'", state.film_states + 1, state.visualizer.name);
+    state_->finish_episode();
+    for (const Output& output : state_->outputs) output.finish();
+    return fmt::format("{} states drawn by '{}'", state_->states, state_->visualizer.name);
 }
 
 }  // namespace rddlc::cli

@@ -30,6 +30,10 @@ class PictureWriter {
 
     // Of the trace, without its line break.
     void add_line(std::string_view line);
+    // The lines that follow are of another trace of the same problem. For pages only, which show
+    // both episodes side by side.
+    void begin_second(std::string name);
+
     // The files have their names from here on. `what` was drawn in words: "201 pictures".
     std::string finish();
 

@@ -55,9 +55,15 @@ int start(const std::vector<std::string>& command, int input, const std::string&
 
 }  // namespace
 
+void require_video(const std::filesystem::path& file, const UsedFiles& used) {
+    format_options(file);
+    require_writable(file, used);
+}
+
 VideoWriter::VideoWriter(std::filesystem::path file, int width, int height,
                          double frames_per_second, const UsedFiles& used)
     : file_(std::move(file)), made_(folder_.path() / ("movie" + file_.extension().string())) {
+    require_video(file_, used);
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-loglevel", "error", "-y",
                                      "-f",     "rawvideo", "-pix_fmt",  "bgr0"};
     for (const std::string& word :
@@ -66,7 +72,6 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height,
         command.push_back(word);
     for (std::string& word : format_options(file_)) command.push_back(std::move(word));
     command.push_back(made_.string());
-    require_writable(file_, used);
 
     // A socket instead of a pipe: a write to it does not end us by a signal if ffmpeg has ended.
     int ends[2];

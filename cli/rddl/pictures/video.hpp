@@ -11,10 +11,13 @@
 
 namespace rddlc::cli {
 
+// A Failure if the file cannot be written, or has none of the endings that tell the format: .mp4,
+// .webm and .webp.
+void require_video(const std::filesystem::path& file, const UsedFiles& used);
+
 class VideoWriter {
   public:
-    // The format is told by the file's ending: .mp4, .webm or .webp. A Failure if it is another
-    // one, if the file cannot be written, or if there is no ffmpeg.
+    // A Failure as that of require_video, or if there is no ffmpeg.
     VideoWriter(std::filesystem::path file, int width, int height, double frames_per_second,
                 const UsedFiles& used);
     ~VideoWriter();

@@ -28,6 +28,8 @@ PictureWriter::~PictureWriter() = default;
 
 void PictureWriter::add_line(std::string_view) {}
 
+void PictureWriter::begin_second(std::string) {}
+
 std::string PictureWriter::finish() {
     return {};
 }
