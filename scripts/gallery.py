@@ -92,6 +92,16 @@ def summaries(rddl: str) -> dict[str, str]:
     return dict(line.split(maxsplit=1) for line in text.splitlines())
 
 
+def draw_scenes(rddl: str) -> None:
+    """Those that are shipped, for docs/scenes.md; their states are those of the visualizers."""
+    for shot in SHOTS:
+        scene = ROOT / f"runtime/render/scenes/{shot.name}.json"
+        if scene.exists():
+            with_scene = Shot(shot.name, shot.problem, shot.instance, shot.step,
+                              options=["--scene", str(scene)])
+            draw(with_scene, rddl, PICTURES.parent / f"scene_{shot.name}.png")
+
+
 INTRODUCTION = """# Gallery
 
 One picture for each visualizer, of episodes of random actions ([pictures](pictures.md) tells how to make them). `scripts/gallery.py`
@@ -122,6 +132,7 @@ def main() -> None:
             draw(shot, arguments.rddl, PICTURES / f"{shot.name}.png")
             print(shot.name)
     (ROOT / "docs/gallery.md").write_text(page(arguments.rddl))
+    draw_scenes(arguments.rddl)
 
 
 if __name__ == "__main__":

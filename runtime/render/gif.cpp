@@ -105,6 +105,9 @@ GifWriter::Changed GifWriter::changed_part(const Picture& picture) const {
     part.top = top;
     part.width = right - left + 1;
     part.height = bottom - top + 1;
+    const auto area = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
+    part.pixels.reserve(area);
+    part.differs.reserve(area);
     for (int y = top; y <= bottom; ++y)
         for (int x = left; x <= right; ++x) {
             const std::uint32_t pixel = picture.row(y)[x];

@@ -12,7 +12,7 @@
 
 namespace rddl::render {
 
-using Draw = void (*)(Canvas&, const Box&, const Moment&);
+using Draw = std::function<void(Canvas&, const Box&, const Moment&)>;
 
 struct Visualizer {
     std::string_view name;

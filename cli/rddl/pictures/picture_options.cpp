@@ -33,6 +33,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
                     "How states are drawn: auto, chart, heatmap, text, or that of a domain (the "
                     "one for the problem's domain); 'list' prints all",
                     options.visualizer);
+    add_text_option(command, "--scene", "FILE.json",
+                    "Draw the shapes that this file describes (docs/scenes.md)", options.scene);
     add_option(command, "--size", "WxH", "Pixels of a picture (600x400)",
                [&options](const std::string& text) { read_size(text, options); });
     add_number_option<double>(command, "--fps", "N", "Steps a second in movies (10)",

@@ -13,6 +13,7 @@ struct PictureOptions {
     std::string gif, video;         // files of the whole episode; empty: not wanted
     std::string png, svg;           // a file of one state, or a folder of all
     std::string html;               // replay page
+    std::string scene;              // a file that says what to draw; empty: none
     std::string visualizer;         // empty: the one for the domain
     int width = 600, height = 400;  // pixels
     std::optional<double> frames_per_second;

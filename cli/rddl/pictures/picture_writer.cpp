@@ -1,6 +1,7 @@
 #include "pictures/picture_writer.hpp"
 
 #include "pictures/outputs.hpp"
+#include "scenes/scene.hpp"
 #include "support/diagnostic.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -24,7 +25,10 @@ constexpr double usual_frames_per_second = 10;
 constexpr std::int64_t usual_most_frames = 1000;
 constexpr double most_frames_per_second = 50;  // that players of GIFs keep up with
 
-const render::Visualizer& choose_visualizer(const std::string& name, const render::World& world) {
+render::Visualizer choose_visualizer(const PictureOptions& options, const ProblemFiles& files,
+                                     const render::World& world) {
+    if (!options.scene.empty()) return scene_visualizer(files, options.scene);
+    const std::string& name = options.visualizer;
     if (name.empty()) return render::visualizer_for(world);
     const render::Visualizer* const found = render::find_visualizer(name);
     if (!found) {
@@ -78,6 +82,13 @@ std::vector<Output> outputs_of(const PictureOptions& options, UsedFiles& used) {
     return outputs;
 }
 
+// A scene is read, so nothing is written over it.
+UsedFiles used_files(const LoadedProblem& problem, const PictureOptions& options) {
+    UsedFiles used = problem.used;
+    if (!options.scene.empty()) used.add(options.scene);
+    return used;
+}
+
 }  // namespace
 
 // An episode that is being drawn.
@@ -95,9 +106,9 @@ struct Episode {
 struct PictureWriter::State {
     State(const LoadedProblem& problem, const PictureOptions& wanted, std::string name)
         : options(wanted),
-          used(problem.used),
+          used(used_files(problem, wanted)),
           world(*problem.simulator),
-          visualizer(choose_visualizer(options.visualizer, world)),
+          visualizer(choose_visualizer(options, problem.files, world)),
           outputs(outputs_of(options, used)) {
         episode.emplace(*problem.simulator, options.episode, std::move(name));
     }
@@ -138,7 +149,7 @@ struct PictureWriter::State {
     PictureOptions options;
     UsedFiles used;
     render::World world;
-    const render::Visualizer& visualizer;
+    render::Visualizer visualizer;
     std::vector<Output> outputs;
     std::optional<Episode> episode;
     std::int64_t states = 0;
