@@ -4,12 +4,19 @@
     test_pictures.py --all         every problem of rddlrepository: PNG and GIF decode, with their sizes
 """
 
+import base64
+import fcntl
+import io
 import json
 import os
+import pty
+import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import unittest
 from pathlib import Path
 
@@ -263,6 +270,65 @@ class Errors(PictureTest):
         self.assertIn("draws a fluent 'running', which this problem has not", done.stderr)
         self.run_car("--png=b.png", "--visualizer=auto")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+
+class Terminal(PictureTest):
+    def watch(self, *words, size=(24, 80), **variables) -> str:
+        """What a terminal of so many rows and columns gets."""
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", *size, 0, 0))
+        process = subprocess.Popen(
+            [RDDL, "run", *map(str, words), "--engine=interpreter", "--horizon=3", "--quiet", "--watch",
+             "--fps=50"], stdout=theirs, stderr=theirs, cwd=self.folder,
+            env={**environment(), "TERM": "xterm", "TERM_PROGRAM": "", **variables})
+        os.close(theirs)
+        text = b""
+        try:
+            while chunk := os.read(ours, 1 << 16):
+                text += chunk
+        except OSError:  # how Linux tells that the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(), SUCCESS, text)
+        return text.decode().replace("\r\n", "\n")
+
+    def test_text_in_place(self):
+        text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl")
+        states = text.split("\x1b[H")[1:]
+        self.assertEqual(len(states), 4)
+        for k, state in enumerate(states):
+            self.assertIn(f"step {k} / 3", state)
+        self.assertIn("action: throttle =", states[0])
+        self.assertIn("  position -0.5", states[0])
+        self.assertIn("* position", states[1])
+        self.assertIn("ended: horizon", states[3])
+
+    def test_small_terminals(self):
+        text = self.watch("CooperativeRecon_MDP_ippc2011", "3", size=(8, 40))
+        for state in text.split("\x1b[H")[1:]:
+            lines = state.split("\x1b[J")[0].rstrip("\n").split("\n")
+            self.assertLessEqual(len(lines), 7)
+            for line in lines:
+                plain = re.sub(r"\x1b\[[0-9]*[mK]", "", line)
+                self.assertLessEqual(len(plain), 40)
+            self.assertIn("more", lines[-1])
+
+    def test_terminals_that_show_pictures(self):
+        kitty = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", TERM="xterm-kitty")
+        chunks = re.findall(r"\x1b_G(?:a=T,f=100,)?m=([01]);([^\x1b]*)\x1b", kitty)
+        pictures = "".join(data + ("\n" if more == "0" else "") for more, data in chunks).split("\n")[:-1]
+        iterm = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", TERM_PROGRAM="iTerm.app")
+        others = re.findall(r"\x1b]1337;File=inline=1;size=\d+:([^\a]*)\a", iterm)
+        self.assertEqual(pictures, others)
+        self.assertEqual(len(pictures), 4)
+        for picture in pictures:
+            with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
+                self.assertEqual(image.size, (600, 400))
+
+    def test_no_terminal(self):
+        text = self.run_car("--watch").stdout
+        self.assertNotIn("\x1b", text)
+        self.assertEqual(len(re.findall(r"^mountain_car_1  step \d+ / 30", text, re.M)), 31)
 
 
 class Scenes(PictureTest):

@@ -73,7 +73,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     require_pictures();
     if (!options.pictures.any())
-        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video or --html",
+        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video, --html or --watch",
                       usage_error);
     if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;

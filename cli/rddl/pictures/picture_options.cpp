@@ -29,6 +29,7 @@ void add_picture_options(Command& command, PictureOptions& options) {
     add_text_option(command, "--svg", "PATH", "The same as vector graphics", options.svg);
     add_text_option(command, "--html", "FILE", "Write a page that replays the episode, in one file",
                     options.html);
+    add_flag(command, "--watch", "Show the episode in the terminal, state by state", options.watch);
     add_text_option(command, "--visualizer", "NAME",
                     "How states are drawn: auto, chart, heatmap, text, or that of a domain (the "
                     "one for the problem's domain); 'list' prints all",

@@ -13,6 +13,7 @@ struct PictureOptions {
     std::string gif, video;         // files of the whole episode; empty: not wanted
     std::string png, svg;           // a file of one state, or a folder of all
     std::string html;               // replay page
+    bool watch = false;             // in the terminal
     std::string scene;              // a file that says what to draw; empty: none
     std::string visualizer;         // empty: the one for the domain
     int width = 600, height = 400;  // pixels
@@ -23,7 +24,8 @@ struct PictureOptions {
     std::optional<std::int64_t> step;  // of files of one state; the last one if absent
 
     bool any() const {
-        return !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
+        return watch ||
+               !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
     }
 };
 

@@ -1,6 +1,7 @@
 #include "pictures/picture_writer.hpp"
 
 #include "pictures/outputs.hpp"
+#include "pictures/watch.hpp"
 #include "scenes/scene.hpp"
 #include "support/diagnostic.hpp"
 #include "support/program.hpp"
@@ -79,6 +80,7 @@ std::vector<Output> outputs_of(const PictureOptions& options, UsedFiles& used) {
     if (!options.png.empty()) outputs.push_back(png_output(options, used));
     if (!options.svg.empty()) outputs.push_back(svg_output(options, used));
     if (!options.html.empty()) outputs.push_back(page_output(options, used));
+    if (options.watch) outputs.push_back(watch_output(options));
     return outputs;
 }
 
