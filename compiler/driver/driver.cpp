@@ -146,6 +146,8 @@ void run_stages(Run& run) {
     if (diagnostics.has_errors()) return;
     if (run.options.policy) take_policy_alone(tree, files.back(), result.sources, diagnostics);
     if (diagnostics.has_errors()) return;
+    if (run.options.extend) run.options.extend(tree, result.sources, diagnostics);
+    if (diagnostics.has_errors()) return;
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;
 

@@ -1,6 +1,7 @@
 // The compiler as one function: the table of contents of everything below compiler/.
 #pragma once
 
+#include "ast/ast.hpp"
 #include "emit/emit.hpp"
 #include "ir/details.hpp"
 #include "ir/ir.hpp"
@@ -14,6 +15,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -58,6 +60,8 @@ struct CompileOptions {
     DiagnosticOptions diagnostics;
     Standard standard = Standard::PyRddlGym;
     PassOptions passes;
+    // Adds to what was written in the files before it is checked, such as the expressions of a scene.
+    std::function<void(ast::Program&, Sources&, Diagnostics&)> extend;
 };
 
 struct StageTime {

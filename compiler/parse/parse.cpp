@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rddlc {
 
 namespace {
@@ -37,25 +39,27 @@ void use_prediction(Parser& parser, antlr4::atn::PredictionMode mode) {
 }
 
 // SLL prediction is fast and, where it succeeds, right.
-Parser::TextContext* parse_fast(Parser& parser) {
+template <class Rule>
+auto parse_fast(Parser& parser, Rule&& rule) -> decltype(rule()) {
     use_prediction(parser, antlr4::atn::PredictionMode::SLL);
     parser.setErrorHandler(std::make_shared<antlr4::BailErrorStrategy>());
     try {
-        return parser.text();
+        return rule();
     } catch (const antlr4::ParseCancellationException&) {
         return nullptr;
     }
 }
 
 // LL prediction decides whether the text is wrong, and reports why.
-Parser::TextContext* parse_thoroughly(Parser& parser, FileId file, TokenizedFile& tokens,
-                                      Diagnostics& diagnostics) {
+template <class Rule>
+auto parse_thoroughly(Parser& parser, FileId file, TokenizedFile& tokens, Diagnostics& diagnostics,
+                      Rule&& rule) -> decltype(rule()) {
     parser.reset();
     use_prediction(parser, antlr4::atn::PredictionMode::LL);
     parser.setErrorHandler(
         std::make_shared<ErrorStrategy>(file, tokens.tokens(), max_errors_per_file, diagnostics));
     try {
-        return parser.text();
+        return rule();
     } catch (const antlr4::ParseCancellationException&) {
         return nullptr;
     }
@@ -78,8 +82,11 @@ void parse_file(FileId file, const Source& source, Standard standard, ast::Progr
 
     Parser parser(&tokens.stream());
     parser.removeErrorListeners();
-    Parser::TextContext* text = parse_fast(parser);
-    if (text == nullptr) text = parse_thoroughly(parser, file, tokens, diagnostics);
+    const auto whole_text = [&] {
+        return parser.text();
+    };
+    Parser::TextContext* text = parse_fast(parser, whole_text);
+    if (text == nullptr) text = parse_thoroughly(parser, file, tokens, diagnostics, whole_text);
     if (diagnostics.error_count() > errors_before) return;
 
     const Conversion conversion{file, diagnostics};
@@ -94,6 +101,46 @@ ast::Program parse(const Sources& sources, std::span<const FileId> files, Diagno
     ast::Program program;
     for (const FileId file : files) parse_file(file, sources[file], standard, program, diagnostics);
     return program;
+}
+
+std::optional<ast::Expr> parse_expression(const Source& source, Span span, Diagnostics& diagnostics,
+                                          Standard standard) {
+    // All else is blank, so that places are those of the file.
+    std::string text(span.end, ' ');
+    std::copy(source.text().begin() + span.begin, source.text().begin() + span.end,
+              text.begin() + span.begin);
+    const Source blank(source.path(), std::move(text));
+    if (!within_limits(span.file, blank, diagnostics)) return std::nullopt;
+    const std::size_t errors_before = diagnostics.error_count();
+    TokenizedFile tokens(span.file, blank, standard, diagnostics);
+    Parser parser(&tokens.stream());
+    parser.removeErrorListeners();
+    // There is nothing around the expression in which the parser could go on after an error.
+    const auto expression = [&]() -> Parser::ExprContext* {
+        try {
+            return parser.expr();
+        } catch (const antlr4::RecognitionException&) {
+            return nullptr;
+        }
+    };
+    const auto is_all = [&] {
+        return parser.getCurrentToken()->getType() == Token::EOF;
+    };
+    Parser::ExprContext* tree = parse_fast(parser, expression);
+    if (tree == nullptr || !is_all())
+        tree = parse_thoroughly(parser, span.file, tokens, diagnostics, expression);
+    if (diagnostics.error_count() > errors_before) return std::nullopt;
+    if (tree == nullptr || !is_all()) {
+        const Token& found = *parser.getCurrentToken();
+        diagnostics.report(
+            {unexpected_token, span_of(span.file, found),
+             fmt::format("expected an operator or the end of the expression, found '{}'",
+                         found.getText())});
+        return std::nullopt;
+    }
+    ast::Expr result = to_expr(Conversion{span.file, diagnostics}, *tree);
+    if (diagnostics.error_count() > errors_before) return std::nullopt;
+    return result;
 }
 
 }  // namespace rddlc

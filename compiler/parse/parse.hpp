@@ -5,6 +5,7 @@
 #include "support/diagnostic.hpp"
 #include "support/standard.hpp"
 
+#include <optional>
 #include <span>
 
 namespace rddlc {
@@ -14,5 +15,9 @@ namespace rddlc {
 // Whether the blocks of a problem are all there is the checker's business.
 ast::Program parse(const Sources& sources, std::span<const FileId> files, Diagnostics& diagnostics,
                    Standard standard = Standard::PyRddlGym);
+
+// The expression in these bytes of a file of another kind, such as a scene; nothing if it is wrong.
+std::optional<ast::Expr> parse_expression(const Source& source, Span span, Diagnostics& diagnostics,
+                                          Standard standard = Standard::PyRddlGym);
 
 }  // namespace rddlc

@@ -110,6 +110,12 @@ class FullDisk(CommandTest):
         self.assertGreater(self.fill_at_each_call(
             ["t.jsonl"], RDDL, "replay", *problem, "--input=steps.jsonl", "--output=t.jsonl"), 2)
 
+    def test_pictures(self):
+        problem = "domain.rddl", "instance.rddl", INTERPRET
+        self.assertGreater(self.fill_at_each_call(
+            ["a.gif", "a.png", "a.svg", "a.html"], RDDL, "run", *problem, "--horizon=3", "--quiet",
+            "--size=60x40", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html"), 10)
+
     def test_compiled_simulators(self):
         for words in ([RDDLC, "domain.rddl", "instance.rddl", "-o", "simulator.cpp"],
                       ["c++", "-std=c++20", "-O0", "-shared", "-fPIC", "-I", ROOT / "runtime",

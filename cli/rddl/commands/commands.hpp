@@ -15,6 +15,7 @@ Command compare_command();
 Command train_command();
 Command export_command();
 Command replay_command();
+Command render_command();
 Command bench_command();
 Command verify_command();
 

@@ -6,6 +6,8 @@
 #include "formats/statistics.hpp"
 #include "formats/table.hpp"
 #include "formats/trace.hpp"
+#include "pictures/picture_options.hpp"
+#include "pictures/picture_writer.hpp"
 #include "rollouts/rollouts.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -29,6 +31,7 @@ struct RunOptions {
     LoadOptions load;
     RolloutOptions rollouts;
     std::string trace;
+    PictureOptions pictures;
     bool json = false;
     bool quiet = false;
 };
@@ -209,7 +212,35 @@ void require_policy_block(const rddl_simulator& simulator) {
                       "name the file that has it: --policy=FILE.rddl");
 }
 
+void require_drawn_episode(const RunOptions& options) {
+    require_pictures();
+    if (options.pictures.episode >= options.rollouts.episodes)
+        throw Failure(fmt::format("there is no episode {} to draw: {} run, counted from 0",
+                                  options.pictures.episode, options.rollouts.episodes),
+                      {}, usage_error);
+}
+
+// Of the episode, for people.
+std::string course_name(const RunOptions& options) {
+    return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
+                       options.rollouts.seed);
+}
+
+// The lines of a text, without their line breaks.
+void for_each_line(std::string_view lines, const auto& take) {
+    while (!lines.empty()) {
+        const std::size_t end = std::min(lines.find('\n'), lines.size() - 1);
+        take(lines.substr(0, end));
+        lines.remove_prefix(end + 1);
+    }
+}
+
 ExitStatus run(const RunOptions& options) {
+    if (options.pictures.visualizer == "list") {
+        fmt::print("{}", visualizer_list());
+        return success;
+    }
+    if (options.pictures.any()) require_drawn_episode(options);
     ProblemFiles files = options.problem.files();
     files.policy = options.policy_file;
     const LoadedProblem problem = load_problem(files, options.load);
@@ -218,20 +249,26 @@ ExitStatus run(const RunOptions& options) {
     const std::int64_t horizon = options.rollouts.horizon.value_or(description.horizon);
     require_an_end(description, horizon);
 
+    // Pictures are drawn from the lines of the trace, whether or not it is written.
     std::optional<LineWriter> trace;
+    std::optional<PictureWriter> pictures;
+    if (!options.trace.empty()) trace.emplace(options.trace, problem.used);
+    if (options.pictures.any()) pictures.emplace(problem, options.pictures, course_name(options));
     TraceSink sink;
-    if (!options.trace.empty()) {
-        trace.emplace(options.trace, problem.used);
-        trace->write(header_line(options, problem, horizon));
+    if (trace || pictures) {
         sink = [&](const std::string& lines) {
-            trace->write(lines);
+            if (trace) trace->write(lines);
+            if (pictures)
+                for_each_line(lines, [&](std::string_view line) { pictures->add_line(line); });
         };
+        sink(header_line(options, problem, horizon));
     }
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
     const Rollouts rollouts =
         run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
     if (trace) trace->finish();
+    if (pictures && !is_interrupted()) pictures->finish();
     if (rollouts.missing_threads > 0)
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,
              rollouts.threads + rollouts.missing_threads);
@@ -271,7 +308,8 @@ Command run_command() {
         "  rddl run domain.rddl instance.rddl --episodes 1000\n"
         "  rddl run MountainCar_ippc2023 1 --policy noop --json\n"
         "  rddl run domain.rddl instance.rddl --policy policy.rddl --episodes 100\n"
-        "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl";
+        "  rddl run domain.rddl instance.rddl --engine interpreter --trace episodes.jsonl\n"
+        "  rddl run MountainCar_ippc2023 1 --gif movie.gif";
     add_problem_arguments(command, options->problem);
     add_policy_option(command, options->rollouts.policy, options->policy_file,
                       &options->rollouts.learned);
@@ -290,6 +328,7 @@ Command run_command() {
     add_engine_options(command, options->load);
     add_text_option(command, "--trace", "FILE", "Write every step as a line of JSON; - is stdout",
                     options->trace);
+    add_picture_options(command, options->pictures);
     add_flag(command, "--json", "Print the summary as JSON", options->json);
     add_flag(command, "--quiet", "Print neither progress nor summary", options->quiet);
     command.run = [options] {

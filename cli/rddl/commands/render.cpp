@@ -1,0 +1,138 @@
+// rddl render: pictures of the steps of a trace.
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "formats/json_text.hpp"
+#include "formats/line_stream.hpp"
+#include "formats/trace.hpp"
+#include "pictures/picture_options.hpp"
+#include "pictures/picture_writer.hpp"
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct RenderOptions {
+    std::string trace;
+    ProblemArguments problem;
+    LoadOptions load;
+    std::string beside;  // a second trace
+    PictureOptions pictures;
+    bool quiet = false;
+};
+
+// A page shows two episodes side by side; nothing else does.
+void require_pages_alone(const RenderOptions& options) {
+    const PictureOptions& pictures = options.pictures;
+    if (pictures.html.empty() || !pictures.gif.empty() || !pictures.video.empty() ||
+        !pictures.png.empty() || !pictures.svg.empty())
+        throw Failure("--beside is for --html alone", {}, usage_error);
+}
+
+// The files that the trace was made with, as its header names them.
+ProblemFiles files_of_header(const std::string& line, const RenderOptions& options) {
+    const Failure unknown(
+        fmt::format("the first line of '{}' does not tell which problem it is of", options.trace),
+        "name the problem: rddl render TRACE DOMAIN INSTANCE");
+    nlohmann::json header;
+    try {
+        header = parse_json(line);
+    } catch (const std::exception&) {
+        throw unknown;
+    }
+    const auto files = header.is_object() ? header.find("files") : header.end();
+    if (files == header.end() || !files->is_array() || files->empty()) throw unknown;
+    std::vector<std::string> paths;
+    for (const auto& file : *files) {
+        if (!file.is_object() || !file.contains("path") || !file["path"].is_string()) throw unknown;
+        paths.push_back(file["path"].get<std::string>());
+    }
+    for (const std::string& path : paths)
+        if (!std::filesystem::exists(path))
+            throw Failure(fmt::format("the trace is of '{}', which is not there", path),
+                          "name the problem: rddl render TRACE DOMAIN INSTANCE");
+    // A third one has the policy, of which states do not depend any more.
+    ProblemFiles problem = find_files(paths[0], paths.size() > 1 ? paths[1] : "");
+    for (const auto& file : changed_files(header, problem.inputs()))
+        tell("rddl: warning: '{}' has changed since the trace was made\n", file.string());
+    return problem;
+}
+
+ExitStatus render_trace(const RenderOptions& options) {
+    if (options.pictures.visualizer == "list") {
+        fmt::print("{}", visualizer_list());
+        return success;
+    }
+    require_pictures();
+    if (!options.pictures.any())
+        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video, --html or --watch",
+                      usage_error);
+    if (!options.beside.empty()) require_pages_alone(options);
+    UsedFiles used;
+    LineReader input(options.trace, used);
+    std::optional<std::string> line = input.next();
+    if (!line) throw Failure(fmt::format("'{}' is empty", options.trace));
+    const ProblemFiles files = options.problem.first.empty()
+                                   ? options.problem.with_options(files_of_header(*line, options))
+                                   : options.problem.files();
+    LoadedProblem problem = load_problem(files, options.load);
+    problem.used.add(options.trace);
+    std::optional<LineReader> second;
+    if (!options.beside.empty()) second.emplace(options.beside, problem.used);
+    PictureWriter pictures(problem, options.pictures, options.trace);
+    for (; line; line = input.next()) pictures.add_line(*line);
+    if (second) {
+        pictures.begin_second(options.beside);
+        while ((line = second->next())) pictures.add_line(*line);
+    }
+    give_up_if_interrupted();
+    const std::string what = pictures.finish();
+    if (!options.quiet) fmt::print("{}\n", what);
+    return success;
+}
+
+}  // namespace
+
+Command render_command() {
+    const auto options = std::make_shared<RenderOptions>();
+    Command command;
+    command.name = "render";
+    command.summary = "Draw the steps of a trace";
+    command.details =
+        "A trace is what 'rddl run --trace' writes, or any file in that form (docs/traces.md). "
+        "Its\n"
+        "header tells which problem it is of; without one, or where the files have moved, name "
+        "the\n"
+        "problem. docs/pictures.md shows what the pictures look like.\n\n"
+        "Examples:\n"
+        "  rddl render trace.jsonl --gif movie.gif\n"
+        "  rddl render trace.jsonl domain.rddl instance.rddl --png frames/ --size 900x600\n"
+        "  rddl render trace.jsonl --svg state.svg --step 12 --visualizer chart\n"
+        "  rddl render trace.jsonl --html replay.html --beside other.jsonl\n"
+        "  rddl run MountainCar_ippc2023 1 --gif movie.gif";
+    add_argument(command, "TRACE", "Lines of JSON; - is standard input", options->trace)
+        .is_required = true;
+    add_problem_arguments(command, options->problem, false);
+    add_text_option(command, "--beside", "TRACE",
+                    "With --html: a second trace of the problem, shown in step with the first",
+                    options->beside);
+    add_picture_options(command, options->pictures);
+    add_flag(command, "--quiet", "Print nothing", options->quiet);
+    command.run = [options] {
+        // Nothing is stepped: the interpreter is there at once.
+        options->load.engine = Engine::Interpreter;
+        options->load.quiet = true;
+        return render_trace(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli

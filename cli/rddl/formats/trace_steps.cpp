@@ -1,0 +1,125 @@
+#include "formats/trace_steps.hpp"
+
+#include "formats/json_text.hpp"
+#include "formats/trace.hpp"
+#include "support/failure.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace rddlc::cli {
+
+namespace {
+
+std::int64_t count_in(const nlohmann::json& line, const char* member, std::int64_t otherwise) {
+    const auto found = line.find(member);
+    return found != line.end() && found->is_number_integer() ? found->get<std::int64_t>()
+                                                             : otherwise;
+}
+
+bool is_set(const nlohmann::json& line, const char* member) {
+    const auto found = line.find(member);
+    return found != line.end() && found->is_boolean() && found->get<bool>();
+}
+
+double reward_in(const nlohmann::json& line) {
+    const auto found = line.find("reward");
+    return found != line.end() && found->is_number() ? found->get<double>() : 0;
+}
+
+// In a word or some: "terminated", "horizon, invariant".
+std::string end_in(const nlohmann::json& line) {
+    std::string text;
+    if (const auto causes = line.find("causes"); causes != line.end() && causes->is_array())
+        for (const auto& cause : *causes)
+            if (cause.is_string()) text += (text.empty() ? "" : ", ") + cause.get<std::string>();
+    if (!text.empty()) return text;
+    return is_set(line, "terminated") ? "terminated" : is_set(line, "truncated") ? "truncated" : "";
+}
+
+}  // namespace
+
+TraceSteps::TraceSteps(const rddl_simulator& simulator, std::int64_t episode, std::string name)
+    : problem_(*simulator.problem),
+      episode_(episode),
+      name_(std::move(name)),
+      state_layout_(problem_, RDDL_STATE),
+      action_layout_(problem_, RDDL_ACTION),
+      horizon_(problem_.horizon),
+      state_(state_layout_.size()) {
+    simulator.initial_state(&simulator, state_.data());
+}
+
+void TraceSteps::fail(const std::string& message) const {
+    throw Failure(fmt::format("'{}', line {}: {}", name_, line_, message));
+}
+
+std::optional<TraceStep> TraceSteps::read(std::string_view line) {
+    ++line_;
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) return std::nullopt;
+    nlohmann::json object;
+    try {
+        object = parse_json(line);
+    } catch (const nlohmann::json::exception&) {
+        const bool is_cut = line.front() == '{' && line.back() != '}';
+        fail(is_cut ? "the line is cut off in the middle: the trace is not complete"
+                    : "this is no JSON");
+    } catch (const RepeatedMember& repeated) {
+        fail(repeated.what());
+    }
+    if (!object.is_object()) fail("the line is not a JSON object");
+    if (!object.contains("rddl_trace")) return read_object(object);
+    if (const auto complaint = complaint_about_header(object, problem_)) fail(*complaint);
+    horizon_ = std::max<std::int64_t>(count_in(object, "horizon", horizon_), 0);
+    return std::nullopt;
+}
+
+void TraceSteps::read_record(const RecordLayout& layout, const nlohmann::json& line,
+                             const char* member, std::vector<std::byte>& record) const {
+    const auto found = line.find(member);
+    if (found == line.end() || found->is_null()) return;
+    if (!found->is_object()) fail(fmt::format("'{}' is not a JSON object", member));
+    if (const auto complaint = layout.read(*found, record.data())) fail(*complaint);
+}
+
+std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
+    if (count_in(line, "episode", 0) != episode_) return std::nullopt;
+    if (!line.contains("state") && !line.contains("next_state") && !line.contains("action"))
+        fail("the line is no step: it has no state and no action");
+    TraceStep step;
+    step.number = count_in(line, "step", next_number_);
+    if (step.number < next_number_)
+        fail(fmt::format("step {} of episode {} comes after step {}", step.number, episode_,
+                         next_number_ - 1));
+    next_number_ = step.number + 1;
+    read_record(state_layout_, line, "state", state_);
+    step.state = state_;
+    if (line.contains("action")) {
+        step.action.assign(
+            static_cast<const std::byte*>(problem_.default_action),
+            static_cast<const std::byte*>(problem_.default_action) + problem_.action_size);
+        read_record(action_layout_, line, "action", step.action);
+    }
+    step.reward = reward_in(line);
+    step.total = total_;
+    total_ += step.reward;
+    end_ = end_in(line);
+    has_next_state_ = line.contains("next_state");
+    read_record(state_layout_, line, "next_state", state_);
+    return step;
+}
+
+std::optional<TraceStep> TraceSteps::last() {
+    if (!has_next_state_) return std::nullopt;
+    TraceStep step;
+    step.number = next_number_;
+    step.state = state_;
+    step.total = total_;
+    step.end = end_;
+    return step;
+}
+
+}  // namespace rddlc::cli

@@ -1,0 +1,152 @@
+#include "pictures/outputs.hpp"
+
+#include "pictures/video.hpp"
+#include "support/utf8.hpp"
+
+#include <fmt/format.h>
+#include <render/gif.hpp>
+#include <render/png.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace rddlc::cli {
+
+namespace fs = std::filesystem;
+namespace render = rddl::render;
+
+namespace {
+
+constexpr double last_frame_seconds = 1.5;  // before a movie begins anew
+
+using BytesOf = std::string (*)(render::Film&);
+
+std::string png_of(render::Film& film) {
+    return render::png_bytes(film.picture());
+}
+
+std::string svg_of(render::Film& film) {
+    return film.svg();
+}
+
+// A file of one state. It is written at the end, when all else has gone well.
+Output single_output(const std::string& path, std::optional<std::int64_t> step, BytesOf bytes_of,
+                     UsedFiles& used) {
+    require_writable(path, used);
+    const auto bytes = std::make_shared<std::optional<std::string>>();
+    Output output;
+    output.begin = [](const Show&) {
+    };
+    output.add = [=](const Drawn& drawn) {
+        const std::int64_t number = drawn.film.moment().now().number;
+        if (step ? *step == number : drawn.is_last) *bytes = bytes_of(drawn.film);
+        if (drawn.is_last && !*bytes)
+            throw Failure(
+                fmt::format("there is no state {}: the episode has {} steps", *step, number));
+    };
+    output.finish = [=, &used] {
+        write_file(path, bytes->value(), used);
+    };
+    return output;
+}
+
+// A folder with a file of each state.
+Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_of,
+                     UsedFiles& used) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw UnwritableFile(folder, error.value());
+    Output output;
+    output.begin = [](const Show&) {
+    };
+    output.add = [=, &used](const Drawn& drawn) {
+        if (!drawn.in_movie) return;
+        const std::int64_t number = drawn.film.moment().now().number;
+        write_file(folder / fmt::format("{:06}{}", number, ending), bytes_of(drawn.film), used);
+    };
+    output.finish = [] {
+    };
+    return output;
+}
+
+Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
+                    BytesOf bytes_of, UsedFiles& used) {
+    return fs::path(path).extension() == ending ? single_output(path, options.step, bytes_of, used)
+                                                : folder_output(path, ending, bytes_of, used);
+}
+
+}  // namespace
+
+Output gif_output(const PictureOptions& options, UsedFiles& used) {
+    struct Gif {
+        OutputFile file;
+        render::GifWriter writer;
+        double seconds = 0;
+
+        Gif(const std::string& path, int width, int height, UsedFiles& in_use)
+            : file(path, in_use),
+              writer(width, height, [this](std::string_view bytes) { file.write(bytes); }) {}
+    };
+    const auto gif = std::make_shared<Gif>(options.gif, options.width, options.height, used);
+    Output output;
+    output.begin = [=](const Show& show) {
+        gif->seconds = 1 / show.pace.frames_per_second;
+    };
+    output.add = [=](const Drawn& drawn) {
+        if (drawn.in_movie)
+            gif->writer.add(drawn.film.picture(),
+                            drawn.is_last ? last_frame_seconds : gif->seconds);
+    };
+    output.finish = [=] {
+        gif->writer.finish();
+        gif->file.finish();
+    };
+    return output;
+}
+
+Output video_output(const PictureOptions& options, UsedFiles& used) {
+    require_video(options.video, used);
+    const auto video = std::make_shared<std::optional<VideoWriter>>();
+    Output output;
+    output.begin = [=, &used](const Show& show) {
+        video->emplace(options.video, options.width, options.height, show.pace.frames_per_second,
+                       used);
+    };
+    output.add = [=](const Drawn& drawn) {
+        if (drawn.in_movie) (*video)->add(drawn.film.picture());
+    };
+    output.finish = [=, &used] {
+        (*video)->finish(used);
+    };
+    return output;
+}
+
+Output png_output(const PictureOptions& options, UsedFiles& used) {
+    return still_output(options.png, ".png", options, png_of, used);
+}
+
+Output svg_output(const PictureOptions& options, UsedFiles& used) {
+    return still_output(options.svg, ".svg", options, svg_of, used);
+}
+
+Output page_output(const PictureOptions& options, UsedFiles& used) {
+    require_writable(options.html, used);
+    const auto page = std::make_shared<std::optional<render::ReplayPage>>();
+    Output output;
+    output.begin = [=](const Show& show) {
+        if (!*page)
+            page->emplace(show.world, options.width, options.height, show.pace.frames_per_second);
+        (*page)->begin_run(is_utf8(show.name) ? show.name : "episode");
+    };
+    output.add = [=](const Drawn& drawn) {
+        if (drawn.in_movie) (*page)->add(drawn.film.moment(), drawn.film.picture());
+    };
+    output.finish = [=, &used] {
+        write_file(options.html, (*page)->html(), used);
+    };
+    return output;
+}
+
+}  // namespace rddlc::cli

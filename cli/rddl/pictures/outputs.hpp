@@ -1,0 +1,50 @@
+// The files that an episode is drawn into, one kind like the other.
+#pragma once
+
+#include "pictures/picture_options.hpp"
+#include "support/files.hpp"
+
+#include <render/film.hpp>
+#include <render/replay_page.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rddlc::cli {
+
+// How quickly states are shown, and which of them.
+struct Pace {
+    double frames_per_second = 10;
+    std::int64_t stride = 1;  // every so manyth state
+};
+
+// What is known when the first state is there.
+struct Show {
+    const rddl::render::World& world;
+    Pace pace;
+    std::string name;  // of the episode
+};
+
+struct Drawn {
+    rddl::render::Film& film;  // after the state was added
+    bool in_movie;             // not left out by the stride
+    bool is_last;
+};
+
+// Opened before anything is drawn, so that what cannot be written is known at once.
+struct Output {
+    std::function<void(const Show&)> begin;  // an episode
+    std::function<void(const Drawn&)> add;
+    std::function<void()> finish;  // the file has its name from here on
+};
+
+Output gif_output(const PictureOptions& options, UsedFiles& used);
+Output video_output(const PictureOptions& options, UsedFiles& used);
+Output png_output(const PictureOptions& options, UsedFiles& used);
+Output svg_output(const PictureOptions& options, UsedFiles& used);
+// Of one or two episodes.
+Output page_output(const PictureOptions& options, UsedFiles& used);
+
+}  // namespace rddlc::cli

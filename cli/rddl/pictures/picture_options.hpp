@@ -1,0 +1,34 @@
+// What pictures are wanted, of which episode, and how they look: of `rddl run` and `rddl render`.
+#pragma once
+
+#include "command_line/command_line.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace rddlc::cli {
+
+struct PictureOptions {
+    std::string gif, video;         // files of the whole episode; empty: not wanted
+    std::string png, svg;           // a file of one state, or a folder of all
+    std::string html;               // replay page
+    bool watch = false;             // in the terminal
+    std::string scene;              // a file that says what to draw; empty: none
+    std::string visualizer;         // empty: the one for the domain
+    int width = 600, height = 400;  // pixels
+    std::optional<double> frames_per_second;
+    std::optional<double> real_time_factor;
+    std::optional<std::int64_t> most_frames;
+    std::int64_t episode = 0;
+    std::optional<std::int64_t> step;  // of files of one state; the last one if absent
+
+    bool any() const {
+        return watch ||
+               !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
+    }
+};
+
+void add_picture_options(Command& command, PictureOptions& options);
+
+}  // namespace rddlc::cli

@@ -1,0 +1,12 @@
+// An episode in the terminal.
+#pragma once
+
+#include "pictures/outputs.hpp"
+
+namespace rddlc::cli {
+
+// State by state in place, as text, or as pictures where the terminal shows some. What is no
+// terminal gets the states as text, one below the other.
+Output watch_output(const PictureOptions& options);
+
+}  // namespace rddlc::cli

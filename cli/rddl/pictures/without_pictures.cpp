@@ -1,0 +1,37 @@
+// In place of the other files of this folder, where rddl is built without the library that draws.
+#include "pictures/picture_writer.hpp"
+#include "support/failure.hpp"
+
+namespace rddlc::cli {
+
+struct PictureWriter::State {};
+
+bool can_draw() {
+    return false;
+}
+
+void require_pictures() {
+    throw Failure("this rddl was built without pictures",
+                  "install libcairo2-dev, libpng-dev, libgif-dev, pkg-config and "
+                  "fonts-dejavu-core, and build it again");
+}
+
+std::string visualizer_list() {
+    return {};
+}
+
+PictureWriter::PictureWriter(const LoadedProblem&, const PictureOptions&, std::string) {
+    require_pictures();
+}
+
+PictureWriter::~PictureWriter() = default;
+
+void PictureWriter::add_line(std::string_view) {}
+
+void PictureWriter::begin_second(std::string) {}
+
+std::string PictureWriter::finish() {
+    return {};
+}
+
+}  // namespace rddlc::cli

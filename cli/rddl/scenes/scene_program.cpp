@@ -1,0 +1,230 @@
+#include "scenes/scene_program.hpp"
+
+#include "parse/parse.hpp"
+#include "problems/front_end.hpp"
+#include "support/failure.hpp"
+#include "support/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace rddlc::cli {
+
+namespace {
+
+// No name that people give, and nothing else may be called so.
+std::string name_of_expression(ExpressionIndex index) {
+    return fmt::format("scene-expression-{}", index);
+}
+
+template <class Section>
+Section* section_of(ast::Domain& domain) {
+    Section* last = nullptr;  // of several the last one counts
+    for (ast::DomainSection& section : domain.sections)
+        if (auto* const found = std::get_if<Section>(&section.node)) last = found;
+    return last;
+}
+
+ast::Domain* domain_of(ast::Program& program) {
+    for (ast::Block& block : program.blocks)
+        if (auto* const domain = std::get_if<ast::Domain>(&block)) return domain;
+    return nullptr;
+}
+
+// Expressions as CPFs of fluents of their own.
+class SceneCompiler {
+  public:
+    SceneCompiler(ast::Program& program, const Source& source, Diagnostics& diagnostics,
+                  Standard standard)
+        : program_(program), source_(source), diagnostics_(diagnostics), standard_(standard) {}
+
+    void add(const Scene& scene) {
+        ast::Domain* const domain = domain_of(program_);
+        if (!domain) return;  // which the checker tells
+        auto* const fluents = section_of<ast::PVariables>(*domain);
+        auto* const cpfs = section_of<ast::Cpfs>(*domain);
+        if (!fluents || !cpfs) return;
+        std::set<std::string> types;
+        for (std::size_t i = 0; i < scene.expressions.size(); ++i) {
+            const SceneExpression& expression = scene.expressions[i];
+            std::optional<ast::Expr> body =
+                parse_expression(source_, expression.span, diagnostics_, standard_);
+            if (!body) continue;
+            fluents->declarations.push_back(declaration(i, expression));
+            cpfs->definitions.push_back(definition(i, expression, *std::move(body)));
+            for (const SceneVariable& variable : expression.variables) types.insert(variable.type);
+        }
+        for (const std::string& type : types) add_index(*fluents, type);
+    }
+
+  private:
+    static ast::PVariable declaration(std::size_t index, const SceneExpression& expression) {
+        ast::PVariable fluent;
+        fluent.name = {name_of_expression(index), expression.span};
+        for (const SceneVariable& variable : expression.variables)
+            fluent.parameters.push_back({variable.type, variable.span});
+        fluent.kind = {"interm-fluent", expression.span};
+        fluent.range = {expression.is_bool ? "bool" : "real", expression.span};
+        fluent.span = expression.span;
+        return fluent;
+    }
+
+    static ast::Cpf definition(std::size_t index, const SceneExpression& expression,
+                               ast::Expr body) {
+        std::vector<ast::Name> parameters;
+        for (const SceneVariable& variable : expression.variables)
+            parameters.push_back({variable.name, variable.span});
+        return {{name_of_expression(index), expression.span},
+                false,
+                std::move(parameters),
+                std::move(body),
+                expression.span};
+    }
+
+    // How many objects there are, and the number of each from 0 on: count-TYPE and index-TYPE(?x),
+    // for places in a row.
+    void add_index(ast::PVariables& fluents, const std::string& type) {
+        const std::string name = "index-" + type;
+        const std::vector<ast::Symbol> objects = objects_of(type);
+        if (objects.empty()) return;
+        const Span span{};
+        const ast::Constant zero{ast::Integer{0}, span};
+        const ast::Constant count{ast::Integer{static_cast<std::int64_t>(objects.size())}, span};
+        fluents.declarations.push_back({{"count-" + type, span},
+                                        false,
+                                        {},
+                                        {"non-fluent", span},
+                                        {"int", span},
+                                        count,
+                                        std::nullopt,
+                                        span});
+        fluents.declarations.push_back({{name, span},
+                                        false,
+                                        {{type, span}},
+                                        {"non-fluent", span},
+                                        {"int", span},
+                                        zero,
+                                        std::nullopt,
+                                        span});
+        ast::NonFluentValues values;
+        for (std::size_t i = 1; i < objects.size(); ++i) {
+            const ast::Constant number{ast::Integer{static_cast<std::int64_t>(i)}, span};
+            values.assignments.push_back({{name, span}, false, {objects[i]}, {span}, number, span});
+        }
+        append(std::move(values));
+    }
+
+    std::vector<ast::Symbol> objects_of(const std::string& type) const {
+        std::vector<ast::Symbol> objects;
+        for (const ast::Block& block : program_.blocks) {
+            if (const auto* const domain = std::get_if<ast::Domain>(&block))
+                add_members(*domain, type, objects);
+            if (const auto* const values = std::get_if<ast::NonFluents>(&block))
+                add_objects(values->sections, type, objects);
+            if (const auto* const instance = std::get_if<ast::Instance>(&block))
+                add_objects(instance->sections, type, objects);
+        }
+        return objects;
+    }
+    static void add_members(const ast::Domain& domain, const std::string& type,
+                            std::vector<ast::Symbol>& objects) {
+        for (const ast::DomainSection& section : domain.sections)
+            if (const auto* const types = std::get_if<ast::Types>(&section.node))
+                for (const ast::TypeDeclaration& declared : types->declarations)
+                    if (declared.name.text == type && declared.members)
+                        for (const ast::Name& member : *declared.members)
+                            objects.push_back({member.text, true});
+    }
+    static void add_objects(const std::vector<ast::InstanceSection>& sections,
+                            const std::string& type, std::vector<ast::Symbol>& objects) {
+        for (const ast::InstanceSection& section : sections)
+            if (const auto* const lists = std::get_if<ast::Objects>(&section.node))
+                for (const ast::ObjectList& list : lists->lists)
+                    if (list.type.text == type)
+                        for (const ast::Name& object : list.objects)
+                            objects.push_back({object.text, false});
+    }
+
+    // To the values of the last non-fluents block.
+    void append(ast::NonFluentValues values) {
+        ast::NonFluents* last = nullptr;
+        for (ast::Block& block : program_.blocks)
+            if (auto* const found = std::get_if<ast::NonFluents>(&block)) last = found;
+        if (!last) return;
+        for (ast::InstanceSection& section : last->sections)
+            if (auto* const found = std::get_if<ast::NonFluentValues>(&section.node)) {
+                std::ranges::move(values.assignments, std::back_inserter(found->assignments));
+                return;
+            }
+        last->sections.push_back({std::move(values), last->span});
+    }
+
+    ast::Program& program_;
+    const Source& source_;
+    Diagnostics& diagnostics_;
+    Standard standard_;
+};
+
+}  // namespace
+
+SceneProgram::SceneProgram(const ProblemFiles& files, const std::filesystem::path& scene_file) {
+    CompileOptions options = compile_options(files, Stage::Verify);
+    options.details = true;
+    options.stop_after = Stage::Optimise;
+    const std::string text = read_file(scene_file);
+    options.extend = [&](ast::Program& program, Sources& sources, Diagnostics& diagnostics) {
+        const FileId file = sources.add(scene_file.string(), text);
+        scene_ = read_scene(sources[file], file);
+        SceneCompiler(program, sources[file], diagnostics, options.standard).add(scene_);
+    };
+    Compilation compilation = compile_or_give_up(options);
+    const ir::Program& program = compilation.details->program;
+    if (!program.externals.empty())
+        throw Failure("scenes of problems with external functions cannot be drawn");
+    for (const auto& type : compilation.model->types) {
+        std::vector<std::string> objects(type.objects.begin(), type.objects.end());
+        objects_.emplace_back(type.name, std::move(objects));
+    }
+    std::vector<std::size_t> fluents(scene_.expressions.size());
+    for (std::size_t f = 0; f < program.fluents.size(); ++f)
+        for (std::size_t e = 0; e < fluents.size(); ++e)
+            if (program.fluents[f].name == name_of_expression(e)) fluents[e] = f;
+    details_ = std::make_unique<InterpretedDetails>(*std::move(compilation.details),
+                                                    ir::ExternalFunctions{});
+    for (const std::size_t fluent : fluents)
+        offsets_.push_back(static_cast<std::size_t>(details_->offset_of(fluent)));
+    scratch_.resize(details_->get()->scratch_size);
+    record_.resize(details_->get()->record_size);
+}
+
+const std::vector<std::string>& SceneProgram::objects_of(const std::string& type) const {
+    return std::ranges::find(objects_, type, [](const auto& each) { return each.first; })->second;
+}
+
+void SceneProgram::evaluate(const std::byte* state, const std::byte* action) {
+    // What the problem draws at random within a step is not what was drawn: nobody knows that.
+    rddl::Context<rddl::Scalar> context{};
+    const rddl::Details& details = *details_->get();
+    details.compute(details.self, state, action, scratch_.data(), record_.data(), context);
+}
+
+double SceneProgram::value(ExpressionIndex expression, std::size_t grounding) const {
+    const std::byte* const begin = record_.data() + offsets_[expression];
+    if (scene_.expressions[expression].is_bool)
+        return static_cast<double>(begin[grounding] != std::byte{0});
+    double number;
+    std::memcpy(&number, begin + grounding * sizeof number, sizeof number);
+    return number;
+}
+
+double SceneProgram::value(const SceneNumber& number, std::size_t grounding) const {
+    if (const auto* const constant = std::get_if<double>(&number)) return *constant;
+    return value(std::get<ExpressionIndex>(number), grounding);
+}
+
+}  // namespace rddlc::cli

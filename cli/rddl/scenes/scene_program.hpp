@@ -1,0 +1,40 @@
+// The expressions of a scene, as interm-fluents of the problem: so the compiler's own parser and
+// checker read them, and its interpreter computes them.
+#pragma once
+
+#include "engines/interpreted_details.hpp"
+#include "problems/problem_lookup.hpp"
+#include "scenes/scene_file.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace rddlc::cli {
+
+class SceneProgram {
+  public:
+    // Prints the diagnostics and throws Diagnosed if the scene or the problem has errors.
+    SceneProgram(const ProblemFiles& files, const std::filesystem::path& scene_file);
+
+    const Scene& scene() const { return scene_; }
+    // Of a variable's type, in the order of the problem.
+    const std::vector<std::string>& objects_of(const std::string& type) const;
+
+    // Records of the problem; then values can be asked for.
+    void evaluate(const std::byte* state, const std::byte* action);
+    // `grounding` counts the tuples of the objects of the shape's variables, the last one fastest.
+    double value(ExpressionIndex expression, std::size_t grounding) const;
+    double value(const SceneNumber& number, std::size_t grounding) const;
+
+  private:
+    Scene scene_;
+    std::vector<std::pair<std::string, std::vector<std::string>>> objects_;  // by type
+    std::unique_ptr<InterpretedDetails> details_;
+    std::vector<std::size_t> offsets_;  // of expressions, in the record
+    std::vector<std::byte> scratch_, record_;
+};
+
+}  // namespace rddlc::cli

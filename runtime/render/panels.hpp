@@ -1,0 +1,30 @@
+// Which fluents a general picture shows, and where.
+#pragma once
+
+#include "render/canvas.hpp"
+#include "render/moment.hpp"
+
+#include <span>
+#include <vector>
+
+namespace rddl::render {
+
+// In declaration order.
+std::vector<const rddl_fluent*> state_fluents(const rddl_problem& problem);
+
+// The least and greatest value that numbers of a fluent take in the steps, and 0 and 1 for bools;
+// its bounds where it has two. Of no finite number: 0 and 1.
+struct Range {
+    double low = 0, high = 1;
+
+    double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+};
+Range range_of(const Moment& moment, const rddl_fluent& fluent);
+
+// The colour of a value within its range; objects have colours of their own.
+Color value_color(const Values& values, double value, const Range& range);
+
+// Boxes of one size that fill the area, in rows, with a gap between them.
+std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap);
+
+}  // namespace rddl::render

@@ -1,0 +1,210 @@
+// State-fluents over time, a panel each: lines for a few numbers, steps for a few objects, and rows
+// of coloured cells for bools and for what would be too many lines.
+#include "render/panels.hpp"
+#include "render/visualizers/visualizers.hpp"
+#include "render/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddl::render::chart {
+
+namespace {
+
+constexpr std::int64_t most_lines = 7;  // as many as the palette has colours
+constexpr std::size_t most_panels = 24;
+
+// The steps that the axis shows.
+struct Axis {
+    std::int64_t first, last;
+
+    std::int64_t count() const { return last - first + 1; }
+};
+
+Axis axis_of(const Moment& moment) {
+    const std::int64_t first = moment.steps().front().number, now = moment.now().number;
+    const auto most = static_cast<std::int64_t>(most_steps_remembered);
+    const bool whole = first == 0 && moment.horizon() > 0 && moment.horizon() <= most;
+    return {first, whole ? std::max(moment.horizon(), now) : std::max(now, first + 49)};
+}
+
+struct Panel {
+    const Moment& moment;
+    const rddl_fluent& fluent;
+    std::vector<Values> past;  // one a step
+    Range range;
+    Axis axis;
+    Box plot;
+
+    Scale time() const {
+        return {static_cast<double>(axis.first), static_cast<double>(axis.last), plot.x,
+                plot.right()};
+    }
+    std::string objects(std::int64_t grounding) const {
+        const std::string name = moment.world().name_of(fluent, grounding);
+        const std::size_t open = name.find('(');
+        return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
+    }
+    const rddl_type* objects_of_range() const { return past.front().range(); }
+};
+
+void draw_time_axis(Canvas& canvas, const Panel& panel, bool with_title) {
+    const Box& plot = panel.plot;
+    const Scale time = panel.time();
+    canvas.line({plot.x, plot.bottom()}, {plot.right(), plot.bottom()}, colors::muted);
+    for (const double tick : ticks(time.low, time.high, static_cast<int>(plot.width / 70))) {
+        if (tick != std::round(tick)) continue;
+        const double x = time(tick);
+        canvas.line({x, plot.bottom()}, {x, plot.bottom() + 3}, colors::muted);
+        canvas.text({x, plot.bottom() + 10}, number_text(tick),
+                    {.size = 9, .color = colors::muted, .align = Align::Center});
+    }
+    if (with_title)
+        canvas.text({plot.right(), plot.bottom() + 20}, "step",
+                    {.size = 9, .color = colors::muted, .align = Align::Right});
+}
+
+// A line for each grounding. What is an object keeps its value for the whole step.
+void draw_lines(Canvas& canvas, const Panel& panel) {
+    const Box& plot = panel.plot;
+    const bool steps = panel.objects_of_range() != nullptr;
+    const Scale time = panel.time();
+    const Scale height = scale_around(panel.range.low, panel.range.high, plot.bottom(), plot.y);
+    if (steps) {
+        const rddl_type& type = *panel.objects_of_range();
+        const double room = plot.height / static_cast<double>(type.object_count);
+        for (std::int64_t i = 0; i < type.object_count; ++i) {
+            const double y = height(static_cast<double>(i));
+            canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
+            if (room >= 9)
+                canvas.text({plot.x - 4, y}, shortened(canvas, type.objects[i], 9, 52),
+                            {.size = 9, .color = colors::muted, .align = Align::Right});
+        }
+    } else {
+        for (const double tick :
+             ticks(height.low, height.high, static_cast<int>(plot.height / 24))) {
+            const double y = height(tick);
+            canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
+            canvas.text({plot.x - 4, y}, number_text(tick),
+                        {.size = 9, .color = colors::muted, .align = Align::Right});
+        }
+    }
+    std::vector<Point> points;
+    for (std::size_t g = 0; g < static_cast<std::size_t>(panel.fluent.count); ++g) {
+        const Color color = series_color(g);
+        const auto finish = [&] {
+            if (points.size() > 1) canvas.polyline(points, color, 1.6);
+            points.clear();
+        };
+        for (std::size_t i = 0; i < panel.past.size(); ++i) {
+            const double value = panel.past[i].numbers[g];
+            if (!std::isfinite(value)) {
+                finish();
+                continue;
+            }
+            const double x = time(static_cast<double>(panel.moment.steps()[i].number));
+            if (steps && !points.empty()) points.push_back({x, points.back().y});
+            points.push_back({x, height(value)});
+        }
+        const bool has_end = !points.empty();
+        const Point end = has_end ? points.back() : Point{};
+        finish();
+        if (has_end) canvas.disc(end, 2.6, color);
+    }
+}
+
+// A row of cells for each grounding.
+void draw_rows(Canvas& canvas, const Panel& panel) {
+    const Box& plot = panel.plot;
+    const auto rows = static_cast<int>(panel.fluent.count);
+    const auto columns = static_cast<int>(panel.axis.count());
+    std::vector<std::uint32_t> cells(
+        static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns),
+        pixel_of(colors::paper));
+    for (std::size_t i = 0; i < panel.past.size(); ++i) {
+        const Values& values = panel.past[i];
+        const auto column =
+            static_cast<std::size_t>(panel.moment.steps()[i].number - panel.axis.first);
+        for (std::size_t g = 0; g < values.numbers.size(); ++g)
+            cells[g * static_cast<std::size_t>(columns) + column] =
+                pixel_of(value_color(values, values.numbers[g], panel.range));
+    }
+    canvas.cells(plot, columns, rows, cells);
+    const double row = plot.height / rows;
+    if (row >= 6) {
+        for (int g = 1; g < rows; ++g)
+            canvas.line({plot.x, plot.y + g * row}, {plot.right(), plot.y + g * row},
+                        colors::paper);
+    }
+    // Names of all rows, or of as many as can be read.
+    const int every = static_cast<int>(std::ceil(9.5 / row));
+    for (int g = 0; g < rows && panel.fluent.rank > 0; g += every)
+        canvas.text({plot.x - 4, plot.y + (g + 0.5) * row},
+                    shortened(canvas, panel.objects(g), 9, 60),
+                    {.size = 9, .color = colors::muted, .align = Align::Right});
+    canvas.outline(plot, colors::rule, 0.8);
+}
+
+// What the colours mean, at the right of the title.
+void draw_key(Canvas& canvas, const Box& box, const Panel& panel, bool lines) {
+    std::vector<Entry> entries;
+    const Values& values = panel.past.back();
+    if (lines) {
+        if (panel.fluent.rank == 0) {
+            canvas.text({box.right(), box.center().y}, value_text(values, 0),
+                        {.size = 11, .color = series_color(0), .align = Align::Right});
+            return;
+        }
+        for (std::int64_t g = 0; g < panel.fluent.count; ++g)
+            entries.push_back({panel.objects(g), series_color(static_cast<std::size_t>(g))});
+    } else if (panel.fluent.scalar == RDDL_BOOL) {
+        entries = {{"true", colors::blue}, {"false", colors::faint}};
+    } else if (const rddl_type* const type = values.range()) {
+        for (std::int64_t i = 0; i < type->object_count; ++i)
+            entries.push_back(
+                {type->objects[i], value_color(values, static_cast<double>(i), panel.range)});
+    } else {
+        entries = {{number_text(panel.range.low), sequential_color(0)},
+                   {number_text(panel.range.high), sequential_color(1)}};
+    }
+    double width = 0;
+    for (const Entry& entry : entries) width += 29 + canvas.text_width(entry.name, 11);
+    legend(canvas, box.rightmost(std::min(width, box.width)), entries);
+}
+
+void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent,
+                const Axis& axis, bool with_axis_title) {
+    Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, {}};
+    for (const Step& step : moment.steps()) panel.past.push_back(moment.values_in(step, fluent));
+    const bool lines = fluent.scalar != RDDL_BOOL && fluent.count <= most_lines;
+    const double names = lines && !panel.objects_of_range() ? 44
+                         : fluent.rank > 0 || lines         ? 64
+                                                            : 8;
+    panel.plot = box.below(18).above(with_axis_title ? 25 : 15).after(names).before(14);
+    const std::string title = shortened(canvas, fluent.name, 12, box.width * 0.7);
+    canvas.text({box.x, box.y + 8}, title);
+    const double used = canvas.text_width(title, 12) + 12;
+    draw_key(canvas, box.top(16).after(used).before(4), panel, lines);
+    lines ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
+    draw_time_axis(canvas, panel, with_axis_title);
+}
+
+void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+    std::vector<const rddl_fluent*> fluents = state_fluents(moment.problem());
+    const std::size_t left_out = fluents.size() > most_panels ? fluents.size() - most_panels : 0;
+    fluents.resize(fluents.size() - left_out);
+    const std::vector<Box> boxes = panel_boxes(area, fluents.size(), 3, 10);
+    const Axis axis = axis_of(moment);
+    for (std::size_t i = 0; i < fluents.size(); ++i)
+        draw_panel(canvas, boxes[i], moment, *fluents[i], axis, boxes[i].height > 70);
+    if (left_out > 0)
+        canvas.text({area.right(), area.bottom() + 4},
+                    "and " + std::to_string(left_out) + " more fluents",
+                    {.size = 9, .color = colors::muted, .align = Align::Right});
+}
+
+}  // namespace
+
+const Visualizer visualizer{"chart", "each state-fluent over time", {}, {}, draw};
+
+}  // namespace rddl::render::chart

@@ -1,0 +1,138 @@
+// A network of streets: how dense cars flow, how many wait for each turn, and which turns have
+// green light.
+#include "render/visualizers/visualizers.hpp"
+#include "render/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddl::render::traffic {
+
+namespace {
+
+struct Street {
+    Point from, to;  // in the world
+};
+
+std::vector<Street> streets(const Moment& moment) {
+    const Values &enters = moment["LINK-TO"], &leaves = moment["LINK-FROM"];
+    const Values &x = moment["X"], &y = moment["Y"];
+    std::vector<Street> all;
+    for (int link = 0; link < enters.count(0); ++link) {
+        Street street{{moment["SOURCE-X"](link), moment["SOURCE-Y"](link)},
+                      {moment["SINK-X"](link), moment["SINK-Y"](link)}};
+        for (int i = 0; i < x.count(0); ++i) {
+            if (enters.is(link, i)) street.to = {x(i), y(i)};
+            if (leaves.is(i, link)) street.from = {x(i), y(i)};
+        }
+        all.push_back(street);
+    }
+    return all;
+}
+
+// On the picture, beside the middle of the road: people drive on the right.
+struct Lane {
+    Point begin, end;
+    double ux, uy;  // along it
+
+    Point at(double part) const {
+        return {begin.x + (end.x - begin.x) * part, begin.y + (end.y - begin.y) * part};
+    }
+};
+
+Lane lane_of(const Plane& plane, const Street& street, double offset, double gap) {
+    const Point a = plane(street.from.x, street.from.y), b = plane(street.to.x, street.to.y);
+    const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1e-9);
+    const double ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
+    const double cut = std::min(gap, length / 3);
+    const Point shift{-uy * offset, ux * offset};
+    return {{a.x + ux * cut + shift.x, a.y + uy * cut + shift.y},
+            {b.x - ux * cut + shift.x, b.y - uy * cut + shift.y},
+            ux,
+            uy};
+}
+
+// Whether a turn has green light in the phase that is shown at an intersection.
+bool is_green(const Moment& moment, int intersection, int from, int to) {
+    const Values &green = moment["GREEN"], &signal = moment["signal"];
+    if (moment.has("all-red") && moment["all-red"](intersection) > 0) return false;
+    const double shown = signal(intersection);
+    for (int phase = 0; phase < green.count(2); ++phase) {
+        const double number = moment.has("PHASE-INDEX") ? moment["PHASE-INDEX"](phase) : phase;
+        if (number == shown && green.is(from, to, phase)) return true;
+    }
+    return false;
+}
+
+void draw_flow(Canvas& canvas, const Lane& lane, const Moment& moment, int link, double width) {
+    canvas.line(lane.begin, lane.end, rgb(0xd5dae0), width + 2);
+    const Values& flow = moment["flow-on-link"];
+    // The first time is that nearest to the end of the link.
+    const int pieces = flow.count(1);
+    const double most = 0.6;  // cars a second that fill a lane
+    for (int k = 0; k < pieces; ++k) {
+        const double part = std::clamp(flow(link, k) / most, 0.0, 1.0);
+        if (part < 0.02) continue;
+        const double begin = 1 - (k + 1.0) / pieces, end = 1 - static_cast<double>(k) / pieces;
+        canvas.line(lane.at(begin), lane.at(end), sequential_color(0.25 + 0.7 * part), width * 0.8);
+    }
+}
+
+void draw_queues(Canvas& canvas, const Lane& lane, const Moment& moment, int link, double width) {
+    const Values& waiting = moment["q"];
+    double total = 0;
+    for (int to = 0; to < waiting.count(1); ++to) total += waiting(link, to);
+    if (total < 0.05) return;
+    // A car is six metres, or four points where streets are short.
+    const double length = std::hypot(lane.end.x - lane.begin.x, lane.end.y - lane.begin.y);
+    const double part = std::clamp(total * 4 / std::max(length, 1.0), 0.0, 1.0);
+    canvas.line(lane.at(1 - part), lane.end, colors::vermilion, width * 0.8);
+    const Point at = lane.at(1 - part);
+    canvas.text({at.x - lane.uy * (width + 5), at.y + lane.ux * (width + 5)},
+                number_text(std::round(total * 10) / 10),
+                {.size = 9, .color = colors::vermilion, .align = Align::Center});
+}
+
+void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+    const std::vector<Street> all = streets(moment);
+    Extent across, up;
+    for (const Street& street : all)
+        for (const Point point : {street.from, street.to}) {
+            across.add(point.x), up.add(point.y);
+        }
+    const double margin = 0.06 * std::max(across.high - across.low, up.high - up.low);
+    const Plane plane(area.above(20), across.low - margin, up.low - margin, across.high + margin,
+                      up.high + margin);
+    const Values &turns = moment["TURN"], &enters = moment["LINK-TO"];
+    const bool many = all.size() > 30;
+    const double width = many ? 5 : 9, gap = many ? 14 : 26;
+    std::vector<Lane> lanes;
+    for (const Street& street : all) lanes.push_back(lane_of(plane, street, width * 0.75, gap));
+    for (std::size_t link = 0; link < lanes.size(); ++link) {
+        draw_flow(canvas, lanes[link], moment, static_cast<int>(link), width);
+        draw_queues(canvas, lanes[link], moment, static_cast<int>(link), width);
+    }
+    for (int from = 0; from < turns.count(0); ++from)
+        for (int to = 0; to < turns.count(1); ++to) {
+            if (!turns.is(from, to)) continue;
+            for (int i = 0; i < enters.count(1); ++i)
+                if (enters.is(from, i) && is_green(moment, i, from, to))
+                    arrow(canvas, lanes[static_cast<std::size_t>(from)].end,
+                          lanes[static_cast<std::size_t>(to)].begin, colors::green, many ? 1.2 : 2);
+        }
+    const Entry entries[] = {{"flow, darker where denser", colors::sky},
+                             {"waiting cars", colors::vermilion},
+                             {"green turns", colors::green}};
+    legend(canvas, area.lowest(14), entries);
+}
+
+}  // namespace
+
+const Visualizer visualizer{"traffic",
+                            "streets with their flows and queues, and the turns with green light",
+                            {"BLX_model"},
+                            {"flow-on-link", "q", "signal", "LINK-TO", "LINK-FROM", "TURN", "GREEN",
+                             "X", "Y", "SOURCE-X", "SOURCE-Y", "SINK-X", "SINK-Y"},
+                            draw};
+
+}  // namespace rddl::render::traffic

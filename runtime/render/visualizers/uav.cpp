@@ -1,0 +1,92 @@
+// Aircraft from above and from the side, their ways, and their goals.
+#include "render/visualizers/visualizers.hpp"
+#include "render/widgets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddl::render::uav {
+
+namespace {
+
+// Two of the three directions, by the names of their fluents.
+struct View {
+    std::string_view title, across, up, goal_across, goal_up;
+};
+
+Plane plane_of(const Box& box, const Moment& moment, const View& view) {
+    Extent across, up;
+    for (const auto& [name, extent] :
+         {std::pair{view.goal_across, &across}, std::pair{view.goal_up, &up}})
+        for (const double value : moment[name].numbers) extent->add(value);
+    for (const auto& [name, extent] : {std::pair{view.across, &across}, std::pair{view.up, &up}})
+        for (const Step& step : moment.steps())
+            for (const double value : moment.values_in(step, *moment.world().find(name)).numbers)
+                extent->add(value);
+    across = across.rounded();
+    up = up.rounded();
+    return {box, across.low, up.low, across.high, up.high};
+}
+
+void draw_aircraft(Canvas& canvas, Point place, double heading, Color color) {
+    const Canvas::Saved saved = canvas.moved(place, heading);
+    const Point shape[] = {{11, 0}, {-7, -7}, {-3.5, 0}, {-7, 7}};
+    canvas.polygon(shape, color);
+}
+
+void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View& view) {
+    canvas.text({box.x, box.y + 6}, view.title, {.size = 11, .color = colors::muted});
+    const Box field = box.below(18);
+    canvas.fill(field, rgb(0xf6f9fc));
+    canvas.outline(field, colors::rule, 0.8);
+    const Plane plane = plane_of(field.inset(10), moment, view);
+    const Canvas::Saved inside = canvas.clipped(field);
+    const Values& x = moment[view.across];
+    const Values &goal_x = moment[view.goal_across], &goal_y = moment[view.goal_up];
+    for (int i = 0; i < x.count(0); ++i) {
+        const bool ours = moment["CONTROLLABLE"].is(i);
+        const Color color = ours ? series_color(static_cast<std::size_t>(i)) : colors::muted;
+        if (ours) {
+            const Point goal = plane(goal_x(i), goal_y(i));
+            canvas.ring(goal, 8, color, 2);
+            canvas.disc(goal, 3, color);
+        }
+        std::vector<Point> way;
+        for (const Step& step : moment.steps())
+            way.push_back(plane(moment.number_in(step, view.across, static_cast<std::size_t>(i)),
+                                moment.number_in(step, view.up, static_cast<std::size_t>(i))));
+        trail(canvas, way, color);
+        const Point now = way.back();
+        double heading = 0;
+        for (std::size_t k = way.size() - 1; k-- > 0;)
+            if (std::hypot(now.x - way[k].x, now.y - way[k].y) > 1) {
+                heading = std::atan2(now.y - way[k].y, now.x - way[k].x);
+                break;
+            }
+        draw_aircraft(canvas, now, heading, color);
+        canvas.text({now.x + 10, now.y - 10}, x.object(0, i), {.size = 10, .color = colors::muted});
+    }
+}
+
+void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+    const Box body = area.above(20);
+    draw_view(canvas, body.left(body.width * 0.56), moment,
+              {"from above (x, y)", "pos-x", "pos-y", "GOAL-X", "GOAL-Y"});
+    draw_view(canvas, body.after(body.width * 0.56 + 14), moment,
+              {"from the side (x, height)", "pos-x", "pos-z", "GOAL-X", "GOAL-Z"});
+    const Entry entries[] = {
+        {"colours: aircraft that are controlled, and their goals", colors::blue},
+        {"others", colors::muted}};
+    legend(canvas, area.lowest(14), entries);
+}
+
+}  // namespace
+
+const Visualizer visualizer{
+    "uav",
+    "aircraft from above and from the side, their ways and goals",
+    {"kinematic_UAVs_con", "kinematic_UAVs_dis", "kinematic_UAVs_mix"},
+    {"pos-x", "pos-y", "pos-z", "GOAL-X", "GOAL-Y", "GOAL-Z", "CONTROLLABLE"},
+    draw};
+
+}  // namespace rddl::render::uav

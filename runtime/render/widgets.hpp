@@ -1,0 +1,96 @@
+// What visualizers share: axes, arrows, gauges, labels.
+#pragma once
+
+#include "render/canvas.hpp"
+#include "render/moment.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rddl::render {
+
+// From a range of numbers to points, and back to marks with round numbers.
+struct Scale {
+    double low = 0, high = 1;   // numbers
+    double begin = 0, end = 1;  // points
+
+    double operator()(double number) const;
+    double clamped(double number) const;  // not beyond begin and end
+};
+
+// Round numbers between low and high, about `wanted` of them.
+std::vector<double> ticks(double low, double high, int wanted);
+// A range that holds a little more than the numbers, and has some width.
+Scale scale_around(double low, double high, double begin, double end, double margin = 0.05);
+
+// A flat world of x and y (upwards) with equal scales in the middle of a box.
+struct Plane {
+    Plane(const Box& box, double left, double bottom, double right, double top);
+
+    Point operator()(double x, double y) const;
+    double length(double distance) const { return factor * distance; }
+
+    Box box;  // that is used
+    double left, bottom, factor;
+};
+
+// A label that fits: shortened with "…" where it does not, or nothing.
+std::string shortened(const Canvas& canvas, std::string_view text, double size, double width);
+void label(Canvas& canvas, const Box& box, std::string_view text, TextStyle style = {});
+
+void arrow(Canvas& canvas, Point from, Point to, Color color, double thickness = 2);
+
+// A bar from the bottom of the box, with marks at some heights. Parts are from 0 to 1.
+struct Mark {
+    double part;
+    Color color;
+};
+void gauge(Canvas& canvas, const Box& box, double part, Color color,
+           std::span<const Mark> marks = {});
+
+// Swatches with names, in a row from the left; those that do not fit are left out.
+struct Entry {
+    std::string name;
+    Color color;
+};
+void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries);
+
+// A grid of cells in a box: square where that is sensible.
+struct Grid {
+    Grid(const Box& box, int columns, int rows, bool square = true);
+
+    Box cell(int column, int row) const;  // row 0 is at the top
+    Box box;
+    int columns, rows;
+};
+
+// A range that holds the numbers and ends at round ones, so that it seldom moves as they grow.
+struct Extent {
+    double low = 0, high = 0;
+    bool empty = true;
+
+    void add(double number);
+    Extent rounded() const;
+};
+
+// An arrow along an arc, clockwise where `to` is greater; angles as in Canvas::arc.
+void arc_arrow(Canvas& canvas, Point center, double radius, double from, double to, Color color,
+               double thickness = 2);
+
+// A person, standing with its feet at the place.
+void person(Canvas& canvas, Point feet, double height, Color color);
+
+// The place of each object in an order that a fluent of two of them tells: where it holds of a and
+// b, b comes after a. In declaration order where it tells nothing.
+std::vector<int> order_of(const Values& follows);
+
+// Where something was in the last steps, from long ago to now, fading.
+void trail(Canvas& canvas, std::span<const Point> points, Color color, double thickness = 2);
+
+// Where `count` things stand on a circle, from the top, clockwise.
+Point on_circle(Point center, double radius, int number, int count);
+
+}  // namespace rddl::render

@@ -1,0 +1,187 @@
+// What visualizers see of a simulator: of the problem of tests/runtime, which has every kind of
+// fluent.
+#include "../runtime/tiny_batch.hpp"
+
+#include <gtest/gtest.h>
+#include <render/film.hpp>
+#include <render/panels.hpp>
+#include <render/state_text.hpp>
+#include <render/visualizer.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace rddl::render {
+
+namespace {
+std::vector<std::byte> bytes_of(const auto& record) {
+    std::vector<std::byte> bytes(sizeof record);
+    std::memcpy(bytes.data(), &record, sizeof record);
+    return bytes;
+}
+
+tiny::StateRecord state() {
+    tiny::StateRecord record = tiny::blank_states(1)[0];
+    record.wear = {0.5, 1.25, 0};
+    record.running = {1, 0, 1};
+    record.mode = 1;
+    record.repairs = 7;
+    return record;
+}
+
+// Two steps; in the second one the mill is repaired.
+std::deque<Step> two_steps() {
+    Step first, second;
+    first.state = second.state = bytes_of(state());
+    first.action = bytes_of(tiny::ActionRecord{});
+    second.number = 1;
+    tiny::StateRecord later = state();
+    later.wear[0] = 0.75;
+    second.state = bytes_of(later);
+    tiny::ActionRecord action{};
+    action.repair = {0, 1, 0};
+    second.action = bytes_of(action);
+    return {first, second};
+}
+
+}  // namespace
+
+TEST(Moment, TellsValuesByNameAndObject) {
+    const World world(*tiny::simulator());
+    const auto steps = two_steps();
+    const Moment moment(world, steps, 0, 10);
+    const Values& wear = moment["wear"];
+    EXPECT_EQ(wear.count(0), 3);
+    EXPECT_STREQ(wear.object(0, 1), "mill");
+    EXPECT_EQ(wear(0), 0.75);
+    EXPECT_EQ(wear(1), 1.25);
+    EXPECT_EQ(&moment["age|wear|running"], &wear);
+    EXPECT_EQ(world.find("age|youth"), nullptr);
+    EXPECT_TRUE(moment["running"].is(2));
+    EXPECT_FALSE(moment["running"].is(1));
+    EXPECT_EQ(moment.number("repairs"), 7);
+    EXPECT_STREQ(moment["mode"].range()->objects[static_cast<int>(moment.number("mode"))], "fast");
+    EXPECT_EQ(moment.number_in(steps[0], "wear", 0), 0.5);
+    EXPECT_EQ(world.name_of(*world.find("wear"), 2), "wear(press)");
+}
+
+TEST(Moment, HasTheDefaultActionWhereNoneIsTaken) {
+    const World world(*tiny::simulator());
+    auto steps = two_steps();
+    EXPECT_TRUE(Moment(world, steps, 0, 10)["repair"].is(1));
+    steps.back().action.clear();
+    const Moment end(world, steps, 0, 10);
+    EXPECT_FALSE(end.acts());
+    EXPECT_FALSE(end["repair"].is(1));
+}
+
+TEST(Moment, KnowsNoOtherFluents) {
+    const World world(*tiny::simulator());
+    const auto steps = two_steps();
+    const Moment moment(world, steps, 0, 10);
+    EXPECT_FALSE(moment.has("speed"));
+    EXPECT_EQ(moment.number_or("speed", 3), 3);
+    EXPECT_THROW(moment["speed"], Error);
+    EXPECT_THROW(moment.number_in(steps[0], "speed"), Error);
+}
+
+TEST(StateText, ListsTrueBoolsAndMarksChanges) {
+    const World world(*tiny::simulator());
+    const auto steps = two_steps();
+    const std::vector<TextLine> lines = state_lines(Moment(world, steps, 0, 10));
+    ASSERT_EQ(lines.size(), 6u);
+    EXPECT_EQ(lines[0].name, "wear(lathe)");
+    EXPECT_EQ(lines[0].value, "0.75");
+    EXPECT_TRUE(lines[0].changed);
+    EXPECT_FALSE(lines[1].changed);
+    EXPECT_EQ(lines[3].name, "running");
+    EXPECT_EQ(lines[3].value, "lathe press");
+    EXPECT_EQ(lines[4].value, "fast");
+    EXPECT_EQ(lines[5].value, "7");
+}
+
+TEST(StateText, TellsWhatDiffersFromTheDefaultAction) {
+    const World world(*tiny::simulator());
+    auto steps = two_steps();
+    EXPECT_EQ(action_text(Moment(world, steps, 0, 10)), "repair(mill)");
+    steps.back().action.clear();
+    EXPECT_EQ(action_text(Moment(world, steps, 0, 10)), "default");
+}
+
+TEST(Numbers, AreShortAndWhole) {
+    EXPECT_EQ(number_text(0.1), "0.1");
+    EXPECT_EQ(number_text(-455901.3), "-455901");
+    EXPECT_EQ(number_text(-0.0), "0");
+    EXPECT_EQ(number_text(1.0 / 3), "0.3333");
+    EXPECT_EQ(number_text(1e20), "1e+20");
+    EXPECT_EQ(number_text(NAN), "nan");
+    EXPECT_EQ(number_text(-INFINITY), "-inf");
+}
+
+TEST(Visualizers, HaveDifferentNamesAndASentence) {
+    std::set<std::string_view> names;
+    for (const Visualizer* const visualizer : visualizers()) {
+        EXPECT_TRUE(names.insert(visualizer->name).second) << visualizer->name;
+        EXPECT_FALSE(visualizer->summary.empty()) << visualizer->name;
+        EXPECT_EQ(find_visualizer(visualizer->name), visualizer);
+    }
+    EXPECT_EQ(find_visualizer("nobody"), nullptr);
+}
+
+TEST(Visualizers, FallBackToAutoWhereAFluentIsMissing) {
+    const World world(*tiny::simulator());
+    EXPECT_EQ(visualizer_for(world).name, "auto");
+    EXPECT_EQ(missing_fluent(*find_visualizer("mountain_car"), world), "pos|position");
+    EXPECT_EQ(missing_fluent(*find_visualizer("chart"), world), "");
+    // The name of the domain alone does not make a mountain car.
+    rddl_problem problem = *tiny::simulator()->problem;
+    problem.domain = "mountain_car";
+    rddl_simulator simulator = *tiny::simulator();
+    simulator.problem = &problem;
+    EXPECT_EQ(visualizer_for(World(simulator)).name, "auto");
+}
+
+TEST(Visualizers, ForAnyProblemDrawEveryKindOfFluent) {
+    const World world(*tiny::simulator());
+    for (const char* const name : {"auto", "chart", "heatmap", "text"}) {
+        Film film(world, *find_visualizer(name), 300, 200, 0, 10);
+        std::set<std::uint32_t> colours;
+        for (Step& step : two_steps()) {
+            film.add(step);
+            const Picture& picture = film.picture();
+            EXPECT_EQ(picture.pixels.size(), 300u * 200u);
+            colours.insert(picture.pixels.begin(), picture.pixels.end());
+        }
+        EXPECT_GT(colours.size(), 30u) << name;
+        EXPECT_TRUE(film.svg().ends_with("</svg>\n")) << name;
+    }
+}
+
+TEST(Film, ForgetsWhatWasLongAgo) {
+    const World world(*tiny::simulator());
+    Film film(world, *find_visualizer("chart"), 300, 200, 0, 0);
+    for (std::int64_t k = 0; k < 1500; ++k) {
+        Step step = two_steps()[0];
+        step.number = k;
+        film.add(std::move(step));
+    }
+    EXPECT_EQ(film.moment().steps().size(), most_steps_remembered);
+    EXPECT_EQ(film.moment().now().number, 1499);
+    EXPECT_EQ(film.picture().width, 300);
+}
+
+TEST(Range, IsThatOfFiniteNumbers) {
+    const World world(*tiny::simulator());
+    auto steps = two_steps();
+    tiny::StateRecord odd = state();
+    odd.wear = {INFINITY, NAN, 4};
+    steps.back().state = bytes_of(odd);
+    const Moment moment(world, steps, 0, 10);
+    const Range range = range_of(moment, *world.find("wear"));
+    EXPECT_EQ(range.low, 0);
+    EXPECT_EQ(range.high, 4);
+    EXPECT_EQ(range_of(moment, *world.find("running")).high, 1);
+}
+
+}  // namespace rddl::render

@@ -1,0 +1,466 @@
+"""The pictures that rddl draws, read by Pillow.
+
+    test_pictures.py [CLASS]       some of the public problems
+    test_pictures.py --all         every problem of rddlrepository: PNG and GIF decode, with their sizes
+"""
+
+import base64
+import fcntl
+import io
+import json
+import os
+import pty
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import unittest
+from pathlib import Path
+
+import numpy
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[2]
+RDDL = os.environ.get("RDDL", str(ROOT / "build/bin/rddl"))
+sys.path.insert(0, str(ROOT / "scripts"))
+import gallery  # noqa: E402
+
+EXAMPLE = ROOT / "examples/mountain_car"
+SUCCESS, DIAGNOSED, USAGE = 0, 1, 2
+
+# Two pictures are alike if few pixels differ by much: another version of FreeType or cairo may shade
+# the edges of letters differently.
+STRONG_DIFFERENCE = 64  # of 255, in a channel
+MOST_STRONG = 0.003     # of all pixels
+
+
+def environment() -> dict:
+    return {"RDDL_REPOSITORY": gallery.repository(), **os.environ}
+
+
+class PictureTest(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory(prefix="rddlc-pictures-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def rddl(self, *words, status=SUCCESS, **options) -> subprocess.CompletedProcess:
+        done = subprocess.run([RDDL, *map(str, words)], cwd=self.folder, text=True,
+                              capture_output=True, env=environment(), **options)
+        self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def run_car(self, *words, horizon=30, **options) -> subprocess.CompletedProcess:
+        return self.rddl("run", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
+                         "--engine=interpreter", f"--horizon={horizon}", "--quiet", *words, **options)
+
+    def left_behind(self) -> list[str]:
+        return sorted(path.name for path in self.folder.rglob("*"))
+
+
+def frames_of(path: Path) -> list[numpy.ndarray]:
+    with Image.open(path) as movie:
+        frames = []
+        for k in range(movie.n_frames):
+            movie.seek(k)
+            frames.append(numpy.asarray(movie.convert("RGB"), dtype=int))
+        return frames
+
+
+def differing(a: numpy.ndarray, b: numpy.ndarray) -> float:
+    """The part of pixels that differ strongly."""
+    return float(numpy.mean(numpy.abs(a - b).max(axis=2) > STRONG_DIFFERENCE))
+
+
+class Files(PictureTest):
+    def test_formats_and_sizes(self):
+        self.run_car("--gif=a.gif", "--png=a.png", "--svg=a.svg", "--size=300x220")
+        for name in "a.gif", "a.png":
+            with Image.open(self.folder / name) as picture:
+                self.assertEqual(picture.size, (300, 220))
+        with Image.open(self.folder / "a.gif") as movie:
+            self.assertEqual(movie.n_frames, 31)
+            self.assertEqual(movie.info["loop"], 0)
+        svg = (self.folder / "a.svg").read_text()
+        self.assertIn('width="300px"', svg)
+        self.assertIn('viewBox="0 0 300 220"', svg)
+
+    def test_folders_of_all_states(self):
+        self.run_car("--png=frames", "--svg=drawings", "--gif=a.gif")
+        names = [f"{k:06}" for k in range(31)]
+        self.assertEqual(sorted(path.stem for path in (self.folder / "frames").iterdir()), names)
+        self.assertEqual(sorted(path.stem for path in (self.folder / "drawings").iterdir()), names)
+        # A movie of at most 255 colours a frame is exact: each frame is the picture.
+        for k, frame in enumerate(frames_of(self.folder / "a.gif")):
+            with Image.open(self.folder / f"frames/{k:06}.png") as picture:
+                still = numpy.asarray(picture.convert("RGB"), dtype=int)
+            self.assertEqual(differing(frame, still), 0, f"state {k}")
+
+    def test_one_state(self):
+        self.run_car("--png=all")
+        self.run_car("--png=seventh.png", "--step=7")
+        self.assertEqual((self.folder / "seventh.png").read_bytes(),
+                         (self.folder / "all/000007.png").read_bytes())
+        self.run_car("--png=last.png")
+        self.assertEqual((self.folder / "last.png").read_bytes(),
+                         (self.folder / "all/000030.png").read_bytes())
+
+    def test_render_draws_what_run_draws(self):
+        self.run_car("--gif=a.gif", "--trace=t.jsonl", "--episodes=3", "--environment=1")
+        self.rddl("render", "t.jsonl", "--gif=b.gif", "--environment=1")
+        self.rddl("render", "t.jsonl", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
+                  "--gif=c.gif", "--environment=1")
+        self.rddl("render", "t.jsonl", "--gif=other.gif", "--environment=2")
+        picture = (self.folder / "a.gif").read_bytes()
+        self.assertEqual((self.folder / "b.gif").read_bytes(), picture)
+        self.assertEqual((self.folder / "c.gif").read_bytes(), picture)
+        self.assertNotEqual((self.folder / "other.gif").read_bytes(), picture)
+
+    def test_traces_of_other_programs(self):
+        """States alone, without a header: as who steps pyRDDLGym would write them."""
+        states = [{"state": {"position": -0.5 + 0.01 * k, "velocity": 0.01}} for k in range(5)]
+        (self.folder / "t.jsonl").write_text("\n".join(map(json.dumps, states)))
+        self.rddl("render", "t.jsonl", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
+                  "--gif=a.gif", "--visualizer=mountain_car")
+        self.assertEqual(len(frames_of(self.folder / "a.gif")), 5)
+
+    def test_every_visualizer_is_listed(self):
+        text = self.rddl("run", "--visualizer=list", EXAMPLE / "domain.rddl").stdout
+        names = [line.split()[0] for line in text.splitlines()]
+        self.assertIn("mountain_car", names)
+        shown = {shot.visualizer or shot.name for shot in gallery.SHOTS}
+        self.assertEqual(shown, set(names), "each visualizer has a picture in scripts/gallery.py")
+
+
+class Movies(PictureTest):
+    def durations(self, name: str) -> list[int]:
+        with Image.open(self.folder / name) as movie:
+            durations = []
+            for k in range(movie.n_frames):
+                movie.seek(k)
+                durations.append(movie.info["duration"])
+            return durations
+
+    def test_frame_rate(self):
+        self.run_car("--gif=a.gif", "--fps=30")
+        durations = self.durations("a.gif")
+        self.assertAlmostEqual(sum(durations[:-1]), 1000, delta=10)
+        self.assertEqual(durations[-1], 1500)
+
+    def test_most_frames(self):
+        self.run_car("--gif=a.gif", "--max-frames=10")
+        # Every fourth of 31 states: 0, 4, ... 28, and the last one.
+        self.assertEqual(len(self.durations("a.gif")), 9)
+
+    def test_more_frames_than_players_show(self):
+        self.run_car("--gif=a.gif", "--fps=200")
+        self.assertTrue(all(duration >= 20 for duration in self.durations("a.gif")))
+        self.assertAlmostEqual(sum(self.durations("a.gif")[:-1]), 30 * 5, delta=20)
+
+    def test_real_time(self):
+        self.rddl("run", "Pendulum_gym", "0", "--engine=interpreter", "--horizon=20", "--quiet",
+                  "--gif=a.gif", "--real-time-factor=0.5")
+        # A step of 0.05 s takes 0.1 s.
+        self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
+        refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
+        self.assertIn("does not tell how long a step is", refused.stderr)
+
+    def test_videos(self):
+        if not shutil.which("ffmpeg"):
+            refused = self.run_car("--video=a.mp4", status=DIAGNOSED)
+            self.assertIn("cannot start ffmpeg", refused.stderr)
+            self.skipTest("there is no ffmpeg")
+        for name, magic, place in (("a.mp4", b"ftyp", 4), ("a.webm", b"\x1a\x45\xdf\xa3", 0),
+                                   ("a.webp", b"WEBP", 8)):
+            self.run_car(f"--video={name}", "--size=300x201")
+            data = (self.folder / name).read_bytes()
+            self.assertEqual(data[place:place + 4], magic)
+        with Image.open(self.folder / "a.webp") as movie:
+            self.assertEqual(movie.size, (300, 201))
+
+
+class Errors(PictureTest):
+    def refuse(self, *words, status=DIAGNOSED) -> str:
+        done = self.rddl(*words, status=status)
+        self.assertNotIn("mistake", done.stderr)
+        return done.stderr
+
+    def trace(self) -> list[str]:
+        self.run_car("--trace=t.jsonl")
+        return (self.folder / "t.jsonl").read_text().splitlines(keepends=True)
+
+    def test_trace_cut_off_in_a_line(self):
+        lines = self.trace()
+        (self.folder / "t.jsonl").write_text("".join(lines[:9]) + lines[9][:40])
+        text = self.refuse("render", "t.jsonl", "--gif=a.gif", "--png=a.png")
+        self.assertIn("'t.jsonl', line 10: the line is cut off in the middle", text)
+        self.assertEqual(self.left_behind(), ["t.jsonl"])
+
+    def test_trace_cut_off_between_lines(self):
+        (self.folder / "t.jsonl").write_text("".join(self.trace()[:9]))
+        done = self.rddl("render", "t.jsonl", "--gif=a.gif")
+        self.assertIn("episode 0 does not end in 't.jsonl'", done.stderr)
+        self.assertEqual(len(frames_of(self.folder / "a.gif")), 9)
+
+    def test_trace_of_another_problem(self):
+        self.trace()
+        other = ROOT / "examples/network"
+        text = self.refuse("render", "t.jsonl", other / "domain.rddl", other / "instance.rddl",
+                           "--gif=a.gif")
+        self.assertIn("the trace is of instance", text)
+        self.assertEqual(self.left_behind(), ["t.jsonl"])
+
+    def test_values_that_do_not_fit(self):
+        for line, complaint in (('{"state": {"position": "far"}}', "'position' takes a number"),
+                                ('{"state": {"altitude": 1}}', "no state-fluent is called"),
+                                ('[1]', "not a JSON object"), ('{"x": 1}', "no state and no action"),
+                                ("nonsense", "no JSON"),
+                                ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
+            (self.folder / "t.jsonl").write_text(line)
+            text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
+                               EXAMPLE / "instance.rddl", "--gif=a.gif")
+            self.assertIn(complaint, text)
+            self.assertFalse((self.folder / "a.gif").exists())
+
+    def test_nothing_to_read(self):
+        (self.folder / "t.jsonl").write_text("")
+        self.assertIn("is empty", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+        self.assertIn("cannot read", self.refuse("render", "missing.jsonl", "--gif=a.gif"))
+        (self.folder / "t.jsonl").write_text('{"state": {}}\n')
+        self.assertIn("does not tell which problem", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+        self.trace()
+        self.assertIn("has no step of episode 5",
+                      self.refuse("render", "t.jsonl", "--gif=a.gif", "--environment=5"))
+
+    def test_files_that_cannot_be_written(self):
+        (self.folder / "file").write_text("")
+        for option in "gif", "png", "svg", "video", "html":
+            ending = {"video": "mp4"}.get(option, option)
+            text = self.run_car(f"--{option}=missing/a.{ending}", status=DIAGNOSED).stderr
+            self.assertIn("cannot write", text)
+            text = self.run_car(f"--{option}=file/a.{ending}", status=DIAGNOSED).stderr
+            self.assertIn("cannot write", text)
+        text = self.run_car("--png=file/frames", status=DIAGNOSED).stderr
+        self.assertIn("cannot write", text)
+        self.assertEqual(self.left_behind(), ["file"])
+
+    def test_the_trace_is_not_overwritten(self):
+        lines = self.trace()
+        self.refuse("render", "t.jsonl", "--gif=t.jsonl")
+        self.assertEqual((self.folder / "t.jsonl").read_text(), "".join(lines))
+
+    def test_options(self):
+        for option, complaint in (("--size=600", "not WIDTHxHEIGHT"), ("--size=9x9", "16"),
+                                  ("--size=99999x100", "8192"), ("--fps=0", "--fps"),
+                                  ("--visualizer=mountain_cat", "did you mean 'mountain_car'?"),
+                                  ("--environment=1", "there is no episode 1")):
+            text = self.run_car("--gif=a.gif", option, status=USAGE).stderr
+            self.assertIn(complaint, text)
+        self.assertIn("nothing to write", self.refuse("render", "t.jsonl", status=USAGE))
+        text = self.run_car("--video=a.avi", status=USAGE).stderr
+        self.assertIn(".mp4, .webm or .webp", text)
+        text = self.run_car("--png=a.png", "--step=99", status=DIAGNOSED).stderr
+        self.assertIn("there is no state 99: the episode has 30 steps", text)
+
+    def test_a_visualizer_of_another_domain(self):
+        done = self.run_car("--png=a.png", "--visualizer=network")
+        self.assertIn("draws a fluent 'running', which this problem has not", done.stderr)
+        self.run_car("--png=b.png", "--visualizer=auto")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+
+class Terminal(PictureTest):
+    def watch(self, *words, size=(24, 80), **variables) -> str:
+        """What a terminal of so many rows and columns gets."""
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", *size, 0, 0))
+        process = subprocess.Popen(
+            [RDDL, "run", *map(str, words), "--engine=interpreter", "--horizon=3", "--quiet", "--watch",
+             "--fps=50"], stdout=theirs, stderr=theirs, cwd=self.folder,
+            env={**environment(), "TERM": "xterm", "TERM_PROGRAM": "", **variables})
+        os.close(theirs)
+        text = b""
+        try:
+            while chunk := os.read(ours, 1 << 16):
+                text += chunk
+        except OSError:  # how Linux tells that the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(), SUCCESS, text)
+        return text.decode().replace("\r\n", "\n")
+
+    def test_text_in_place(self):
+        text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl")
+        states = text.split("\x1b[H")[1:]
+        self.assertEqual(len(states), 4)
+        for k, state in enumerate(states):
+            self.assertIn(f"step {k} / 3", state)
+        self.assertIn("action: throttle =", states[0])
+        self.assertIn("  position -0.5", states[0])
+        self.assertIn("* position", states[1])
+        self.assertIn("ended: horizon", states[3])
+
+    def test_small_terminals(self):
+        text = self.watch("CooperativeRecon_MDP_ippc2011", "3", size=(8, 40))
+        for state in text.split("\x1b[H")[1:]:
+            lines = state.split("\x1b[J")[0].rstrip("\n").split("\n")
+            self.assertLessEqual(len(lines), 7)
+            for line in lines:
+                plain = re.sub(r"\x1b\[[0-9]*[mK]", "", line)
+                self.assertLessEqual(len(plain), 40)
+            self.assertIn("more", lines[-1])
+
+    def test_terminals_that_show_pictures(self):
+        kitty = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", TERM="xterm-kitty")
+        chunks = re.findall(r"\x1b_G(?:a=T,f=100,)?m=([01]);([^\x1b]*)\x1b", kitty)
+        pictures = "".join(data + ("\n" if more == "0" else "") for more, data in chunks).split("\n")[:-1]
+        iterm = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", TERM_PROGRAM="iTerm.app")
+        others = re.findall(r"\x1b]1337;File=inline=1;size=\d+:([^\a]*)\a", iterm)
+        self.assertEqual(pictures, others)
+        self.assertEqual(len(pictures), 4)
+        for picture in pictures:
+            with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
+                self.assertEqual(image.size, (600, 400))
+
+    def test_no_terminal(self):
+        text = self.run_car("--watch").stdout
+        self.assertNotIn("\x1b", text)
+        self.assertEqual(len(re.findall(r"^mountain_car_1  step \d+ / 30", text, re.M)), 31)
+
+
+class Scenes(PictureTest):
+    """Scene files; docs/scenes.md shows what they may hold."""
+    DRAWN = {"game_of_life": ("GameOfLife_MDP_ippc2011", "8", "2"),
+             "wildfire": ("Wildfire_MDP_ippc2014", "5", "6")}
+
+    def draw(self, scene: dict | str, status=SUCCESS) -> str:
+        text = scene if isinstance(scene, str) else json.dumps(scene)
+        (self.folder / "scene.json").write_text(text)
+        return self.run_car("--png=a.png", "--scene=scene.json", "--step=3", status=status).stderr
+
+    def test_scenes_that_are_shipped(self):
+        for name, (problem, instance, step) in self.DRAWN.items():
+            self.rddl("run", problem, instance, "--engine=interpreter", "--quiet", "--png=a.png",
+                      f"--step={step}", f"--scene={ROOT}/runtime/render/scenes/{name}.json",
+                      f"--size={gallery.SIZE[0]}x{gallery.SIZE[1]}")
+            with Image.open(self.folder / "a.png") as picture:
+                now = numpy.asarray(picture.convert("RGB"), dtype=int)
+            with Image.open(gallery.PICTURES.parent / f"scene_{name}.png") as picture:
+                wanted = numpy.asarray(picture.convert("RGB"), dtype=int)
+            self.assertLessEqual(differing(now, wanted), MOST_STRONG)
+
+    def test_values_of_the_state_and_action(self):
+        """Circles where the state says, as large as the action says."""
+        scene = {"world": {"left": -1.5, "bottom": -1, "right": 1.5, "top": 1}, "shapes": [
+            {"shape": "circle", "x": "position", "y": 0, "radius": "0.1 + 0.3 * abs[throttle]",
+             "color": {"if": "velocity < 0", "then": "#ff0000", "else": "#00ff00"}}]}
+        self.draw(scene)
+        self.run_car("--trace=t.jsonl")
+        step = json.loads((self.folder / "t.jsonl").read_text().splitlines()[4])
+        with Image.open(self.folder / "a.png") as picture:
+            pixels = numpy.asarray(picture.convert("RGB"), dtype=int)
+        color = (255, 0, 0) if step["state"]["velocity"] < 0 else (0, 255, 0)
+        y, x = numpy.nonzero((pixels == color).all(axis=2))
+        # The world is as high as the body of the picture: 400 - 26 - 26 - 16 points for 2 units.
+        unit = 332 / 2
+        self.assertAlmostEqual((x.min() + x.max()) / 2, 300 + unit * step["state"]["position"], delta=1.5)
+        radius = 0.1 + 0.3 * abs(step["action"].get("throttle", 0))
+        self.assertAlmostEqual((x.max() - x.min()) / 2, unit * radius, delta=1.5)
+
+    def test_mistakes_in_expressions(self):
+        world = '{"world": {"right": 1, "top": 1},\n "shapes": [{"shape": "circle", "y": 0, "radius": 1,\n  "x": "%s"}]}'
+        for expression, place, complaint in (
+                ("positoin", "3:9", "E02"), ("position +", "3:", "E01"), ("position 3", "3:17", "E0101"),
+                ("?x", "3:8", "E0202"), ("(position", "3:", "E01"), ("", "3:", "E01"),
+                ("position == @a", "3:", "E0")):
+            text = self.draw(world % expression, status=DIAGNOSED)
+            self.assertIn("scene.json:3:", text, expression)
+            self.assertIn(complaint, text, expression)
+            self.assertIn("^", text, expression)
+            self.assertFalse((self.folder / "a.png").exists())
+
+    def test_mistakes_in_the_file(self):
+        circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
+        for scene, complaint in (
+                ("{", "this is no JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
+                ('{"shapes": [], "shapes": []}', "given twice"),
+                ({"shapes": [{}]}, "'shape' of the shape is missing"),
+                ({"shapes": [{"shape": "cirle"}]}, "did you mean 'circle'?"),
+                ({"shapes": [{"shape": "circle"}]}, "'x' of the circle is missing"),
+                ({"shapes": [{**circle, "colour": "red"}]}, "did you mean 'color'?"),
+                ({"shapes": [{**circle, "color": "vermillion"}]}, "did you mean 'vermilion'?"),
+                ({"shapes": [{**circle, "color": {"if": "true"}}]}, "'then' of the color is missing"),
+                ({"shapes": [{**circle, "x": True}]}, "a number, or a text"),
+                ({"shapes": [{**circle, "visible": 1}]}, "a condition is a text"),
+                ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "begins with '?'"),
+                ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a {b"}]}, "is not closed"),
+                ({"shapes": [{"shape": "polygon", "points": [[0, 0]]}]}, "three or more")):
+            text = self.draw(scene, status=DIAGNOSED)
+            self.assertRegex(text, r"scene.json:\d+:\d+: ")
+            self.assertIn(complaint, text)
+        self.assertIn("is not declared", self.draw(
+            {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
+        self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
+
+
+class Gallery(PictureTest):
+    def test_pictures_are_those_of_the_gallery(self):
+        for shot in gallery.SHOTS:
+            with self.subTest(shot.name):
+                gallery.draw(shot, RDDL, self.folder / "now.png")
+                with Image.open(self.folder / "now.png") as picture:
+                    now = numpy.asarray(picture.convert("RGB"), dtype=int)
+                with Image.open(gallery.PICTURES / f"{shot.name}.png") as picture:
+                    wanted = numpy.asarray(picture.convert("RGB"), dtype=int)
+                self.assertEqual(now.shape, wanted.shape)
+                self.assertLessEqual(differing(now, wanted), MOST_STRONG,
+                                     "scripts/gallery.py makes it anew; look at it then")
+
+    def test_the_page_is_that_of_the_script(self):
+        self.assertEqual((ROOT / "docs/gallery.md").read_text(), gallery.page(RDDL))
+
+    def test_domains_have_visualizers_of_their_own(self):
+        """No picture of a domain's visualizer is one of 'auto', which stands in for it."""
+        for shot in gallery.SHOTS:
+            if shot.visualizer:
+                continue
+            done = self.rddl("run", shot.problem, shot.instance, "--engine=interpreter",
+                             "--horizon=1", "--quiet", "--png=a.png", f"--visualizer={shot.name}")
+            self.assertEqual(done.stderr, "", shot.name)
+
+
+def draw_every_problem() -> None:
+    """One instance of each problem, by its visualizer and by 'auto'."""
+    listed = json.loads(subprocess.run([RDDL, "list", "--json"], text=True, check=True,
+                                       capture_output=True, env=environment()).stdout)
+    problems = listed["problems"] if isinstance(listed, dict) else listed
+    steps = 3
+    with tempfile.TemporaryDirectory() as folder:
+        for problem in problems:
+            for visualizer in "", "auto":
+                words = [RDDL, "run", problem["name"], problem["instances"][-1],
+                         "--engine=interpreter", f"--horizon={steps}", "--quiet",
+                         "--preconditions=ignore", f"--gif={folder}/a.gif", f"--png={folder}/a.png",
+                         "--size=480x320"] + ([f"--visualizer={visualizer}"] if visualizer else [])
+                done = subprocess.run(words, text=True, capture_output=True, env=environment())
+                # Random actions make some problems fault; what came before is drawn.
+                is_fault = done.returncode == DIAGNOSED and "faulted" in done.stderr
+                assert done.returncode == SUCCESS or is_fault, f"{words}\n{done.stderr}"
+                with Image.open(f"{folder}/a.png") as picture:
+                    assert picture.size == (480, 320)
+                    picture.load()
+                frames = frames_of(Path(f"{folder}/a.gif"))
+                assert 1 <= len(frames) <= steps + 1, len(frames)
+                assert all(frame.shape == (320, 480, 3) for frame in frames)
+            print(f"{problem['name']}: {len(frames)} frames", flush=True)
+    print(f"{len(problems)} problems")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--all"]:
+        draw_every_problem()
+    else:
+        unittest.main()
