@@ -76,7 +76,7 @@ Category<Real> look_at_choice(const ActionSpace& space, const Real* outputs,
                               Real spread, const std::int32_t* indices, const std::uint8_t* masks) {
     Category<Real> all;
     const int reals = space.real_count();
-    const Real log_spread = std::log(spread);
+    const Real log_spread = spread == 1 ? Real(0) : std::log(spread);
     for (int r = 0; r < reals; ++r) {
         if (!real_is_chosen(space, r, indices)) continue;
         const Real log_deviation = log_deviations[r] + log_spread;

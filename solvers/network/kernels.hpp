@@ -68,6 +68,8 @@ inline void product_columns(int rows, int depth, Strided<Real> a, const Real* b,
     };
     for (; r + 6 <= rows; r += 6)
         product_block<6, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
+    for (; r + 4 <= rows; r += 4)
+        product_block<4, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
     for (; r + 2 <= rows; r += 2)
         product_block<2, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
     if (r < rows) product_block<1, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);

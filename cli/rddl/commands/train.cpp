@@ -251,6 +251,10 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
     add_number_option<std::int64_t>(command, "--restart", "N",
                                     "Begin anew after so many generations without progress (300)",
                                     cgp.restart_after, 0, std::int64_t{1} << 40);
+    add_number_option<std::int64_t>(command, "--tune", "N",
+                                    "Generations between searches for better constants (50); 0: "
+                                    "none",
+                                    cgp.tune_every, 0, std::int64_t{1} << 40);
     add_choice_option<Lifting>(
         command, "--lifted", "WHEN",
         "One program for all objects: auto (default: where an action has "

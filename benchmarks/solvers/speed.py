@@ -1,0 +1,52 @@
+"""How fast the solvers are, in steps a second of one core: processor time counts, so that a busy machine says much the same.
+
+    benchmarks/solvers/speed.py [--rddl PROGRAM] [--repetitions 3]
+
+The best of some repetitions, less what a run of nearly no steps takes (start, loading the simulator).
+"""
+
+import argparse
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PENDULUM, CAR = ("Pendulum_gym", "0"), ("MountainCar_ippc2023", "1")
+RLTOOLS = ["--envs", 4, "--rollout", 1024, "--epochs", 2, "--minibatch", 256, "--gamma", 0.9, "--lr", "1e-3"]
+# What is measured, and how many steps or evaluations it makes beyond the short run beside it.
+CASES = [
+    ("PPO, Pendulum, 4 x 1,024 steps, 2 epochs of 256", PENDULUM, "ppo", [*RLTOOLS, "--steps"], 8192, 614400, 1),
+    ("PPO, Pendulum, 64 x 128 steps, 4 epochs of 1,024", PENDULUM, "ppo", ["--steps"], 8192, 614400, 1),
+    ("PPO, MountainCar, as SB3: 10 epochs of 64", CAR, "ppo", ["--preset", "sb3", "--steps"], 2048, 104448, 1),
+    ("CGP, MountainCar, evaluations", CAR, "cgp", ["--tune", 0, "--restart", 0, "--gens"], 10, 2010, 32),
+]
+
+
+def processor_seconds(words):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([str(w) for w in words], check=True, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
+    parser.add_argument("--repetitions", type=int, default=3)
+    arguments = parser.parse_args()
+    for name, problem, solver, options, few, many, factor in CASES:
+        def run(count):
+            with tempfile.TemporaryDirectory() as folder:
+                return processor_seconds([arguments.rddl, "train", solver, *problem, "--out", f"{folder}/run", "--quiet",
+                                          "--evaluations", 1, *options, count])
+        run(few)  # compiles the simulator
+        least = {count: min(run(count) for _ in range(arguments.repetitions)) for count in (few, many)}
+        rate = (many - few) * factor / (least[many] - least[few])
+        print(f"{name}: {rate / 1e3:.0f} k/s", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
