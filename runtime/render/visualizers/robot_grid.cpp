@@ -4,6 +4,7 @@
 #include "render/widgets.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rddl::render::robot_grid {
 
