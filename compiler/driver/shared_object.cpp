@@ -228,7 +228,7 @@ Diagnostic not_started(const std::string& compiler, int error) {
                       .message = fmt::format("cannot run the C++ compiler '{}': {}", compiler,
                                              std::strerror(error))}
         .with_hint(is_missing ? "a shared object needs one: install it, or set CXX"
-                              : "there are too many processes, or too little memory");
+                              : "there are too many processes or open files, or too little memory");
 }
 
 }  // namespace

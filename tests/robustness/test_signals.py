@@ -2,9 +2,9 @@
 
 import os
 import random
-import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -133,15 +133,19 @@ class Stampede(ProcessTest):
 
     RUN = [RDDL, "run", *PROBLEM, "--quiet"]
 
+    @classmethod
+    def setUpClass(cls) -> None:
+        cache = tempfile.TemporaryDirectory(prefix="rddlc-robustness-")
+        cls.addClassCleanup(cache.cleanup)
+        subprocess.run([str(word) for word in cls.RUN], check=True, timeout=SECONDS,
+                       env={**os.environ, "XDG_CACHE_HOME": cache.name})
+        [cls.simulator] = Path(cache.name, "rddlc").glob("*.so")
+
     def setUp(self) -> None:
         super().setUp()
-        self.assertEqual(self.run_command(
-            *self.RUN, environment={"XDG_CACHE_HOME": str(self.folder / "real")}).status, SUCCESS)
-        [simulator] = (self.folder / "real/rddlc").glob("*.so")
-        shutil.copy(simulator, self.folder / "simulator.so")
         self.write("compiler.sh", COMPILER)
         self.environment = {"CXX": "sh compiler.sh", "XDG_CACHE_HOME": str(self.folder / "cache"),
-                            "SIMULATOR": str(self.folder / "simulator.so")}
+                            "SIMULATOR": str(self.simulator)}
 
     def runtimes_made(self) -> int:
         log = self.folder / "log"

@@ -67,14 +67,17 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
-std::vector<std::string> instances_in(const fs::path& folder) {
+fs::directory_iterator files_in(const fs::path& folder) {
     std::error_code error;
-    const fs::directory_iterator files(folder, error);
-    if (error)
-        throw Failure(
-            fmt::format("cannot read '{}': {}", folder.string(), std::strerror(error.value())));
+    fs::directory_iterator files(folder, error);
+    if (!error) return files;
+    throw Failure(
+        fmt::format("cannot read '{}': {}", folder.string(), std::strerror(error.value())));
+}
+
+std::vector<std::string> instances_in(const fs::path& folder) {
     std::vector<std::string> all;
-    for (const auto& file : files)
+    for (const auto& file : files_in(folder))
         if (const auto instance = instance_of(file.path())) all.push_back(*instance);
     std::sort(all.begin(), all.end(), instance_before);
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -162,6 +165,7 @@ fs::path RepositoryProblem::instance_file(std::string_view instance) const {
 
 Repository scan_repository(const fs::path& folder) {
     const fs::path archive = is_folder(folder / "archive") ? folder / "archive" : folder;
+    files_in(archive);  // fails where the one below is content with nothing
     Repository repository{archive, {}};
     const auto options = fs::directory_options::skip_permission_denied |
                          fs::directory_options::follow_directory_symlink;
