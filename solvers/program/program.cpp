@@ -13,10 +13,10 @@ namespace rddlc::solvers {
 
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+volatile std::sig_atomic_t signalled = 0;  // by which signal
 
-void note_signal(int) {
-    signalled = 1;
+void note_signal(int signal) {
+    signalled = signal;
 }
 
 void print_help(const char* name, const SolverProgram& program) {
@@ -76,7 +76,7 @@ ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& 
     const TrainingResult result = train(simulator, trainee, training);
     fmt::print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return, result.best_length,
                training.folder.string());
-    return result.interrupted ? interrupted : success;
+    return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
 }
 
 ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgram& program,

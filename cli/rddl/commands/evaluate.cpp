@@ -138,7 +138,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
     if (!is_interrupted()) return success;
     tell("rddl: interrupted before all was evaluated\n");
-    return interrupted;
+    return interrupted_status();
 }
 
 void add_common_options(Command& command, EvaluationOptions& options) {

@@ -56,7 +56,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     if (!result.interrupted) return success;
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,
          training.folder.string());
-    return interrupted;
+    return interrupted_status();
 }
 
 void add_common_options(Command& command, TrainOptions& options) {
