@@ -47,7 +47,8 @@ std::vector<Option> options_of(const Command& command, bool is_program) {
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument) options.push_back(option);
     options.push_back(flag("-h,--help", "Show the help"));
-    if (is_program) options.push_back(flag("--version", "Show the version"));
+    if (is_program || !command.commands.empty())
+        options.push_back(flag("--version", "Show the version"));
     return options;
 }
 
