@@ -213,8 +213,8 @@ ExitStatus run_declared(const Declared& declared) {
     return declared.command->run();
 }
 
-// `rddl train ppo ...`, or `rddl help train ppo`: a command with commands of its own is a program by
-// itself. Nothing if the words name none.
+// `rddl train ppo ...`, or `rddl help train ppo`: a command with commands of its own is a program
+// by itself. Nothing if the words name none.
 std::optional<ExitStatus> run_inner_program(const Command& program, const std::string& version,
                                             int argc, char** argv) {
     const bool helps = argc > 2 && std::string_view(argv[1]) == "help";

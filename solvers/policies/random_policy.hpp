@@ -33,7 +33,7 @@ class RandomPolicy {
         std::uint32_t draws = 0;   // made to repair this one
     };
     // Changes an action that is not legal: of the values that differ from their default, one
-    // chosen at random falls back to it (or an eighth of them, while they are many). If that
+    // chosen at random falls back to it (or several of them, while they are many). If that
     // is the default action already, a new action is drawn, whose bools are, fluent by fluent, all
     // default, all changed or at random; or, after many of these, one that changes a single
     // value. False, with the default action, if enough were tried.

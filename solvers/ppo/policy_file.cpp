@@ -6,16 +6,34 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <iterator>
 
 namespace rddlc::solvers {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
+// JSON as text. Names are those of RDDL: nothing in them needs an escape.
+std::string quoted(const std::string& name) {
+    return "\"" + name + "\"";
+}
+// Nine digits tell a float from its neighbours.
+std::string array(const float* values, std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+        fmt::format_to(std::back_inserter(text), "{}{:.9g}", i > 0 ? "," : "", values[i]);
+    return "[" + text + "]";
+}
+template <class Values, class Text>
+std::string array_of(const Values& values, Text text_of) {
+    std::string text;
+    for (const auto& value : values) text += (text.empty() ? "" : ",") + text_of(value);
+    return "[" + text + "]";
+}
 // JSON knows no infinity: null stands for it.
-Json bound(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+std::string bound(double value) {
+    return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
 }
 
 const char* name_of(RealHead::Range range) {
@@ -32,55 +50,49 @@ const char* name_of(RealHead::Range range) {
     return "free";
 }
 
-Json to_json(const ActionSpace& space) {
-    Json reals = Json::array(), categories = Json::array(), choices = Json::array();
-    for (const RealHead& head : space.reals)
-        reals.push_back({{"column", head.column},
-                         {"range", name_of(head.range)},
-                         {"lower", bound(head.lower)},
-                         {"upper", bound(head.upper)},
-                         {"scale", head.scale},
-                         {"centre", head.centre},
-                         {"rounds", head.rounds}});
-    for (const CategoryHead& head : space.categories)
-        categories.push_back({{"column", head.column},
-                              {"first_logit", head.first_logit},
-                              {"count", head.count},
-                              {"first_value", head.first_value}});
-    for (const Choice& choice : space.choices)
-        choices.push_back(
-            {{"column", choice.column}, {"value", choice.value}, {"real", choice.real}});
-    return {{"columns", space.names},   {"defaults", space.defaults}, {"reals", reals},
-            {"categories", categories}, {"picks", space.picks},       {"choices", choices},
-            {"masked", space.masked}};
+std::string text_of(const ActionSpace& space) {
+    const std::string reals = array_of(space.reals, [](const RealHead& head) {
+        return fmt::format(
+            R"({{"column":{},"range":"{}","lower":{},"upper":{},"scale":{:.17g},"centre":{:.17g},"rounds":{}}})",
+            head.column, name_of(head.range), bound(head.lower), bound(head.upper), head.scale,
+            head.centre, head.rounds);
+    });
+    const std::string categories = array_of(space.categories, [](const CategoryHead& head) {
+        return fmt::format(R"({{"column":{},"first_logit":{},"count":{},"first_value":{}}})",
+                           head.column, head.first_logit, head.count, head.first_value);
+    });
+    const std::string choices = array_of(space.choices, [](const Choice& choice) {
+        return fmt::format(R"({{"column":{},"value":{},"real":{}}})", choice.column, choice.value,
+                           choice.real);
+    });
+    return fmt::format(
+        R"({{"columns":{},"defaults":{},"reals":{},"categories":{},"picks":{},"choices":{},"masked":{}}})",
+        array_of(space.names, quoted), array(space.defaults.data(), space.defaults.size()), reals,
+        categories, space.picks, choices, space.masked);
 }
 
-Json to_json(const ObservationSpace& space) {
-    Json columns = Json::array();
-    for (const ObservationSpace::Column& column : space.columns)
-        columns.push_back({{"name", column.name}, {"objects", column.object_count}});
-    return {{"columns", columns},
-            {"stack", space.stack},
-            {"time", space.time},
-            {"horizon", space.horizon}};
+std::string text_of(const ObservationSpace& space) {
+    const std::string columns = array_of(space.columns, [](const ObservationSpace::Column& column) {
+        return fmt::format(R"({{"name":"{}","objects":{}}})", column.name, column.object_count);
+    });
+    return fmt::format(R"({{"columns":{},"stack":{},"time":{},"horizon":{}}})", columns,
+                       space.stack, space.time, space.horizon);
 }
 
-Json layers_to_json(const Network& network, const float* parameters) {
-    Json layers = Json::array();
-    for (const Layer& layer : network.layers) {
-        Json weights = Json::array();
+std::string text_of(const Network& network, const float* parameters) {
+    return array_of(network.layers, [parameters](const Layer& layer) {
+        std::string weights;
+        std::vector<float> row(static_cast<std::size_t>(layer.inputs));
         for (int o = 0; o < layer.outputs; ++o) {
-            Json row = Json::array();
             for (int i = 0; i < layer.inputs; ++i)
-                row.push_back(parameters[layer.weights +
-                                         static_cast<std::size_t>(i * layer.padded_outputs + o)]);
-            weights.push_back(std::move(row));
+                row[static_cast<std::size_t>(i)] =
+                    parameters[layer.weights +
+                               static_cast<std::size_t>(i * layer.padded_outputs + o)];
+            weights += (o > 0 ? "," : "") + array(row.data(), row.size());
         }
-        const float* const bias = parameters + layer.bias;
-        layers.push_back(
-            {{"weights", weights}, {"bias", std::vector<float>(bias, bias + layer.outputs)}});
-    }
-    return layers;
+        return fmt::format(R"({{"weights":[{}],"bias":{}}})", weights,
+                           array(parameters + layer.bias, static_cast<std::size_t>(layer.outputs)));
+    });
 }
 
 void read_layers(const Json& layers, const Network& network, float* parameters) {
@@ -125,8 +137,11 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         seen.at("time").get<bool>() ? ObservationOptions::Time::On : ObservationOptions::Time::Off;
     model->observations = observation_space(simulator, options);
     model->actions = action_space(simulator);
-    if (to_json(model->observations) != seen.at("space") ||
-        to_json(model->actions) != json.at("action"))
+    const auto stands = [text](const char* name, const std::string& space) {
+        return text.find(fmt::format("\"{}\":{}", name, space)) != text.npos;
+    };
+    if (!stands("space", text_of(model->observations)) ||
+        !stands("action", text_of(model->actions)))
         throw Failure("it is of another version of the problem: what is seen or done has changed");
     model->hidden = json.at("hidden").get<std::vector<int>>();
     make_networks(*model);
@@ -223,26 +238,23 @@ struct PpoActor {
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model) {
     const rddl_problem& problem = *simulator.problem;
-    const std::vector<float> deviations(model.log_deviations(),
-                                        model.log_deviations() + model.actions.real_count());
-    const Json json{{"format", "rddl-policy"},
-                    {"version", policy_file_version},
-                    {"solver", "ppo"},
-                    {"domain", problem.domain},
-                    {"instance", problem.instance},
-                    {"observation",
-                     {{"space", to_json(model.observations)},
-                      {"stack", model.observations.stack},
-                      {"time", model.observations.time},
-                      {"means", model.normaliser.means},
-                      {"factors", model.normaliser.factors}}},
-                    {"action", to_json(model.actions)},
-                    {"hidden", model.hidden},
-                    {"policy", layers_to_json(model.policy, model.parameters.data())},
-                    {"value", layers_to_json(model.value, model.value_parameters())},
-                    {"log_deviations", deviations},
-                    {"correlation", model.noise == Noise::Ar1 ? model.correlation : 0.0}};
-    return json.dump() + "\n";
+    std::string text = fmt::format(
+        R"({{"format":"rddl-policy","version":{},"solver":"ppo","domain":"{}","instance":"{}",)",
+        policy_file_version, problem.domain, problem.instance);
+    text +=
+        fmt::format(R"("observation":{{"space":{},"stack":{},"time":{},"means":{},"factors":{}}},)",
+                    text_of(model.observations), model.observations.stack, model.observations.time,
+                    array(model.normaliser.means.data(), model.normaliser.means.size()),
+                    array(model.normaliser.factors.data(), model.normaliser.factors.size()));
+    text += fmt::format(R"("action":{},"hidden":{},)", text_of(model.actions),
+                        array_of(model.hidden, [](int units) { return std::to_string(units); }));
+    text +=
+        fmt::format(R"("policy":{},"value":{},)", text_of(model.policy, model.parameters.data()),
+                    text_of(model.value, model.value_parameters()));
+    text += fmt::format(R"("log_deviations":{},"correlation":{:.17g}}})",
+                        array(model.log_deviations(), model.actions.reals.size()),
+                        model.noise == Noise::Ar1 ? model.correlation : 0.0);
+    return text + "\n";
 }
 
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,

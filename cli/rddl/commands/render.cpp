@@ -20,6 +20,9 @@ namespace rddlc::cli {
 
 namespace {
 
+// The first line says which problem it is, which would say how long lines can be.
+constexpr std::size_t longest_trace_line = std::size_t{256} << 20;
+
 struct RenderOptions {
     std::string trace;
     ProblemArguments problem;
@@ -77,7 +80,7 @@ ExitStatus render_trace(const RenderOptions& options) {
                       usage_error);
     if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;
-    LineReader input(options.trace, used);
+    LineReader input(options.trace, used, longest_trace_line);
     std::optional<std::string> line = input.next();
     if (!line) throw Failure(fmt::format("'{}' is empty", options.trace));
     const ProblemFiles files = options.problem.first.empty()
@@ -86,7 +89,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     LoadedProblem problem = load_problem(files, options.load);
     problem.used.add(options.trace);
     std::optional<LineReader> second;
-    if (!options.beside.empty()) second.emplace(options.beside, problem.used);
+    if (!options.beside.empty()) second.emplace(options.beside, problem.used, longest_trace_line);
     PictureWriter pictures(problem, options.pictures, options.trace);
     for (; line; line = input.next()) pictures.add_line(*line);
     if (second) {
