@@ -46,16 +46,6 @@ void expect_speeds(const json& measurements) {
     }
 }
 
-// Every episode ends with a fault in its first step that may fault; with a chance of 0 none does.
-std::string faulty_problem(const std::string& chance) {
-    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
-           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
-           chance +
-           "); }; reward = 0; }\n"
-           "non-fluents n { domain = faulty; }\n"
-           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
-}
-
 TEST_F(Bench, TellsOfFaults) {
     const std::string bench =
         "bench faulty.rddl --seconds 0.01 --batch 16 --threads 1 --engine interpreter";

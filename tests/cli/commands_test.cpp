@@ -10,8 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* interpreted = " --engine interpreter";
-
 TEST_F(Program, ExplainsItself) {
     const Outcome help = run("--help");
     EXPECT_EQ(help.status, 0);
@@ -356,12 +354,6 @@ TEST_F(Program, TellsWhenStandardOutputIsFull) {
 
 // ------------------------------------------------------------------------------------------ run
 
-json without_speed(json summary) {
-    for (const char* member : {"seconds", "steps_per_second", "threads", "engine"})
-        summary.erase(member);
-    return summary;
-}
-
 TEST_F(Program, RunsReproducibly) {
     const std::string run_it = "run domain.rddl instance.rddl --episodes 60 --json";
     const json summary = without_speed(run_json(run_it));
@@ -440,16 +432,6 @@ TEST_F(Program, KeepsGoingAfterFaults) {
     const Outcome text = run("run risky.rddl --episodes 300" + std::string(interpreted));
     EXPECT_EQ(text.status, 0);
     EXPECT_NE(text.out.find("first fault: " + message), std::string::npos) << text.out;
-}
-
-// The lamp faults in its first step with this probability, or in none.
-std::string faulty_problem(const std::string& chance) {
-    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
-           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
-           chance +
-           "); }; reward = 0; }\n"
-           "non-fluents n { domain = faulty; }\n"
-           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
 }
 
 TEST_F(Program, EndsWithStatus1IfEveryEpisodeFaulted) {

@@ -6,8 +6,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* interpreted = " --engine interpreter";
-
 // It fills the emptiest tank, draws the power, and rests a tank that it has just filled.
 constexpr const char* fill_up = R"(
 policy fill_up {
@@ -41,12 +39,6 @@ class PolicyProgram : public Program {
         return command + " domain.rddl instance.rddl " + options;
     }
 };
-
-json without_speed(json summary) {
-    for (const char* member : {"seconds", "steps_per_second", "threads", "engine"})
-        summary.erase(member);
-    return summary;
-}
 
 TEST_F(PolicyProgram, RunsFromAFile) {
     const std::string run_it = on_tanks("run", "--policy policy.rddl --episodes 40 --json");

@@ -10,8 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* interpreted = " --engine interpreter";
-
 // Tanks leak. A low one must be pumped, t2 is closed, and one pumps in one tank at a time.
 constexpr const char* strict_domain = R"(domain strict {
     types { tank : object; };
@@ -52,10 +50,6 @@ class Strict : public Program {
                    arguments);
     }
 };
-
-void expect_part(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n--- not in\n" << text;
-}
 
 // ---------------------------------------------------------------------------------------- replay
 

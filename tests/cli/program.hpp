@@ -57,6 +57,29 @@ struct Outcome {
     std::string out, err;
 };
 
+// Options that most tests add: no C++ compiler is needed.
+inline constexpr const char* interpreted = " --engine interpreter";
+
+inline void expect_part(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n--- not in\n" << text;
+}
+
+inline nlohmann::json without_speed(nlohmann::json summary) {
+    for (const char* member : {"seconds", "steps_per_second", "threads", "engine"})
+        summary.erase(member);
+    return summary;
+}
+
+// Every episode ends with a fault in its first step that may fault; with a chance of 0 none does.
+inline std::string faulty_problem(const std::string& chance) {
+    return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
+           "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +
+           chance +
+           "); }; reward = 0; }\n"
+           "non-fluents n { domain = faulty; }\n"
+           "instance i { domain = faulty; non-fluents = n; horizon = 3; discount = 1.0; }\n";
+}
+
 class Program : public testing::Test {
   protected:
     Program() {

@@ -1,7 +1,6 @@
-#include "rollouts/random_actions.hpp"
-
 #include "../runtime/tiny_simulator.hpp"
 #include "formats/records_json.hpp"
+#include "rollouts/random_actions.hpp"
 
 #include <gtest/gtest.h>
 

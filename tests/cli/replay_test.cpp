@@ -56,11 +56,11 @@ TEST_F(ReplayProgram, AnswersEveryLine) {
 
 TEST_F(ReplayProgram, EnginesAgreeToTheLastByte) {
     replay(some_lines, "--engine interpreter --seed 9");
-    const std::string interpreted = read_file(folder_ / "out.jsonl");
+    const std::string by_interpreter = read_file(folder_ / "out.jsonl");
     replay(some_lines, "--engine compiled --seed 9");
-    EXPECT_EQ(read_file(folder_ / "out.jsonl"), interpreted);
+    EXPECT_EQ(read_file(folder_ / "out.jsonl"), by_interpreter);
     replay(some_lines, "--engine interpreter --seed 10");
-    EXPECT_NE(read_file(folder_ / "out.jsonl"), interpreted);
+    EXPECT_NE(read_file(folder_ / "out.jsonl"), by_interpreter);
 }
 
 TEST_F(ReplayProgram, RepeatsTraces) {

@@ -8,12 +8,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* interpreted =
+constexpr const char* by_interpreter =
     "verify domain.rddl instance.rddl --engine interpreter --steps 500 ";
-
-void expect_part(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n--- not in\n" << text;
-}
 
 TEST_F(Program, VerifiesCompiledCodeInOneLine) {
     const Outcome outcome =
@@ -27,7 +23,7 @@ TEST_F(Program, VerifiesCompiledCodeInOneLine) {
 }
 
 TEST_F(Program, VerifiesWithFastMath) {
-    const json report = run_json(std::string(interpreted) + "--fast-math --no-pyrddlgym --json");
+    const json report = run_json(std::string(by_interpreter) + "--fast-math --no-pyrddlgym --json");
     EXPECT_EQ(report["agree"], true);
     EXPECT_EQ(report["engines"].size(), 2u);
     EXPECT_GE(report["steps"], 500);
@@ -37,7 +33,7 @@ TEST_F(Program, VerifiesWithFastMath) {
 }
 
 TEST_F(Program, VerifiesTheSameStepsAgain) {
-    const std::string command = std::string(interpreted) + "--no-pyrddlgym --json --seconds 60";
+    const std::string command = std::string(by_interpreter) + "--no-pyrddlgym --json --seconds 60";
     EXPECT_EQ(run_json(command + " --seed 5"), run_json(command + " --seed 5"));
 }
 
@@ -49,13 +45,13 @@ TEST_F(Program, VerifiesFromRecordedStates) {
     const std::string trace = read_file(folder_ / "trace.jsonl");
     const auto steps = std::count(trace.begin(), trace.end(), '\n') - 1;
     const json report =
-        run_json(std::string(interpreted) + "--states trace.jsonl --no-pyrddlgym --json");
+        run_json(std::string(by_interpreter) + "--states trace.jsonl --no-pyrddlgym --json");
     EXPECT_EQ(report["recorded_states"], steps);
     EXPECT_EQ(report["random_states"], 0);
 
     write_file(folder_ / "bad.jsonl",
                "{\"state\":{\"water___t1\":1.0}}\n{\"state\":{\"wine\":1}}\n");
-    const Outcome bad = run(std::string(interpreted) + "--states bad.jsonl");
+    const Outcome bad = run(std::string(by_interpreter) + "--states bad.jsonl");
     EXPECT_EQ(bad.status, 1);
     expect_part(bad.err, "line 2 of 'bad.jsonl': no state-fluent is called 'wine'");
 }
@@ -65,11 +61,12 @@ TEST_F(Program, VerifiesPolicies) {
                "policy p { cpfs { pump(?t) = forall_{?u : tank} [water(?t) <= water(?u)]; "
                "power = @low; extra = if (Bernoulli(0.3)) then 0.5 else 0.0; }; }");
     const json report =
-        run_json(std::string(interpreted) + "--policy policy.rddl --no-pyrddlgym --json");
+        run_json(std::string(by_interpreter) + "--policy policy.rddl --no-pyrddlgym --json");
     EXPECT_GT(report["values"]["actions"], 0);
-    EXPECT_EQ(run_json(std::string(interpreted) + "--policy noop --no-pyrddlgym --json")["agree"],
-              true);
-    const Outcome none = run(std::string(interpreted) + "--policy rddl");
+    EXPECT_EQ(
+        run_json(std::string(by_interpreter) + "--policy noop --no-pyrddlgym --json")["agree"],
+        true);
+    const Outcome none = run(std::string(by_interpreter) + "--policy rddl");
     EXPECT_EQ(none.status, 1);
     expect_part(none.err, "there is no policy block");
 }
@@ -84,10 +81,10 @@ TEST_F(Program, TellsWhatItCannotVerify) {
     const Outcome wrong = run("verify wrong.rddl");
     EXPECT_EQ(wrong.status, 1);
     expect_part(wrong.err, "wrong.rddl:1:");
-    const Outcome none = run(interpreted + std::string("--python /no/such/python"));
+    const Outcome none = run(by_interpreter + std::string("--python /no/such/python"));
     EXPECT_EQ(none.status, 0) << none.err;
     expect_part(none.out, "; pyRDDLGym: not compared, there is no '/no/such/python'");
-    EXPECT_EQ(run(std::string(interpreted) + "--quiet --no-pyrddlgym").out, "");
+    EXPECT_EQ(run(std::string(by_interpreter) + "--quiet --no-pyrddlgym").out, "");
 }
 
 // ------------------------------------------------------------------------------------- pyRDDLGym

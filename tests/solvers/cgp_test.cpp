@@ -148,12 +148,7 @@ TEST(Cgp, MutationsOfOneGeneChangeThePhenotype) {
     EXPECT_LT(same, 25);  // an argument may change for one that computes the same
 }
 
-std::vector<const rddl_simulator*> simulators() {
-    return {rddl_simulator_mountain_car_mountain_car_1(), rddl_simulator_reservoir_reservoir_1(),
-            rddl_simulator_network_network_1(), rddl_simulator_delivery_delivery_1()};
-}
-
-CgpOptions small_options() {
+CgpOptions small_search() {
     CgpOptions options;
     options.children = 6;
     options.episodes = 4;
@@ -168,7 +163,7 @@ CgpOptions small_options() {
 TEST(Cgp, ThreadsDoNotMatter) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);
-        CgpOptions options = small_options();
+        CgpOptions options = small_search();
         CgpSearch alone(*simulator, options);
         options.threads = 2;
         CgpSearch together(*simulator, options);
@@ -183,8 +178,8 @@ TEST(Cgp, ThreadsDoNotMatter) {
 TEST(Cgp, GoesOnAsIfItHadNotStopped) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);
-        CgpSearch whole(*simulator, small_options()), first(*simulator, small_options()),
-            second(*simulator, small_options());
+        CgpSearch whole(*simulator, small_search()), first(*simulator, small_search()),
+            second(*simulator, small_search());
         whole.run(10);
         first.run(5);
         second.load(first.save());
@@ -214,7 +209,7 @@ TEST(Cgp, FindsFormulasThatDriveUphill) {
 // One program for all objects acts in every instance of its domain.
 TEST(Cgp, LiftedProgramsAreReadForOtherInstances) {
     const rddl_simulator& network = *rddl_simulator_network_network_1();
-    CgpSearch search(network, small_options());
+    CgpSearch search(network, small_search());
     EXPECT_TRUE(search.scope().lifted);
     const std::string text = program_text(network, search.scope(), search.best());
     EXPECT_EQ(program_text(network, read_program(network, text)->scope,
@@ -228,7 +223,7 @@ TEST(Cgp, LiftedProgramsAreReadForOtherInstances) {
 
 TEST(Cgp, RefusesWhatIsNoProgram) {
     const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
-    CgpSearch search(car, small_options());
+    CgpSearch search(car, small_search());
     const std::string text = program_text(car, search.scope(), search.best());
     for (const std::size_t size : {std::size_t{0}, text.size() / 3, text.size() - 5})
         EXPECT_THROW(read_program(car, text.substr(0, size)), Failure) << size;

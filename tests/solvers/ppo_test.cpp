@@ -134,7 +134,7 @@ TEST(Ppo, UpdatesAsStableBaselines3Does) {
 
 // ---------------------------------------------------------------------------- determinism
 
-PpoOptions small_options() {
+PpoOptions small_training() {
     PpoOptions options;
     options.steps = 3 * 24 * 32;
     options.environments = 24;
@@ -146,15 +146,10 @@ PpoOptions small_options() {
     return options;
 }
 
-std::vector<const rddl_simulator*> simulators() {
-    return {rddl_simulator_mountain_car_mountain_car_1(), rddl_simulator_reservoir_reservoir_1(),
-            rddl_simulator_network_network_1(), rddl_simulator_delivery_delivery_1()};
-}
-
 TEST(Ppo, ThreadsDoNotMatter) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);
-        PpoOptions options = small_options();
+        PpoOptions options = small_training();
         PpoTrainer alone(*simulator, options);
         options.threads = 3;
         PpoTrainer together(*simulator, options);
@@ -171,7 +166,7 @@ TEST(Ppo, ThreadsDoNotMatter) {
 TEST(Ppo, GoesOnAsIfItHadNotStopped) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);
-        const PpoOptions options = small_options();
+        const PpoOptions options = small_training();
         PpoTrainer whole(*simulator, options), first(*simulator, options);
         whole.update();
         whole.update();
@@ -195,7 +190,7 @@ std::string complaint(const auto& work) {
 }
 
 TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
-    const PpoOptions options = small_options();
+    const PpoOptions options = small_training();
     PpoTrainer car(*rddl_simulator_mountain_car_mountain_car_1(), options);
     PpoTrainer reservoir(*rddl_simulator_reservoir_reservoir_1(), options);
     const std::string bytes = car.save();
@@ -208,7 +203,7 @@ TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
 TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);
-        PpoTrainer trainer(*simulator, small_options());
+        PpoTrainer trainer(*simulator, small_training());
         trainer.update();
         const std::string text = ppo_policy_text(*simulator, trainer.model());
         const auto model = read_ppo_policy(*simulator, text);
@@ -216,7 +211,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
         EXPECT_EQ(ppo_policy_text(*simulator, *model), text);
     }
     const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
-    PpoTrainer trainer(car, small_options());
+    PpoTrainer trainer(car, small_training());
     const std::string text = ppo_policy_text(car, trainer.model());
     const auto read = [&](const std::string& other) {
         return complaint([&] { read_ppo_policy(car, other); });
@@ -235,7 +230,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
 // A reward that is not finite cannot be learned from; here by a learning rate that breaks
 // everything.
 TEST(Ppo, TellsWhenAGradientIsNotFinite) {
-    PpoOptions options = small_options();
+    PpoOptions options = small_training();
     options.learning_rate = 1e30;
     options.schedule = LearningRate::Constant;
     options.gradient_norm = 0;

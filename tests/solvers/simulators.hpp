@@ -5,3 +5,11 @@
 #include "solver_mountain_car.h"
 #include "solver_network.h"
 #include "solver_reservoir.h"
+
+#include <vector>
+
+// All kinds of actions among them.
+inline std::vector<const rddl_simulator*> simulators() {
+    return {rddl_simulator_mountain_car_mountain_car_1(), rddl_simulator_reservoir_reservoir_1(),
+            rddl_simulator_network_network_1(), rddl_simulator_delivery_delivery_1()};
+}
