@@ -433,21 +433,21 @@ TEST_F(Verify, ReadsRecordedStates) {
 TEST_F(Verify, RefusesStatesThatNoStepMakes) {
     const VerifiedProblem problem = load(
         "domain d { pvariables {\n"
-        " level : { state-fluent, real, default = 1.0 };\n"
+        " depth : { state-fluent, real, default = 1.0 };\n"
         " ratio : { state-fluent, real, default = 1.0 };\n"
         " push : { action-fluent, real, default = 0.0 }; };\n"
-        " cpfs { level' = 0.5 * level + push; ratio' = 1.0 / level; };\n"
-        " reward = level; }\n"
+        " cpfs { depth' = 0.5 * depth + push; ratio' = 1.0 / depth; };\n"
+        " reward = depth; }\n"
         "instance i { domain = d; max-nondef-actions = 1; horizon = 5; discount = 1.0; }\n");
     FiniteValues finite(problem.files, problem.load);
     const Record initial(static_cast<std::size_t>(problem.description().state_size));
     const auto read = [&](const char* line) {
         return read_states(file("states.jsonl", line), problem.description(), initial, finite);
     };
-    EXPECT_EQ(read(R"({"state": {"ratio": "inf", "level": 2.0}, "action": {"push": 1}})").size(),
+    EXPECT_EQ(read(R"({"state": {"ratio": "inf", "depth": 2.0}, "action": {"push": 1}})").size(),
               1u);
     for (const auto& [line, why] :
-         {std::pair{R"({"state": {"level": "nan"}})", "'level' is \"nan\", but"},
+         {std::pair{R"({"state": {"depth": "nan"}})", "'depth' is \"nan\", but"},
           {R"({"state": {}, "action": {"push": "-inf"}})", "'push' is \"-inf\", but"}}) {
         try {
             read(line);
