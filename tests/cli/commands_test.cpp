@@ -302,7 +302,7 @@ TEST_F(Program, SaysWhichFilesAreMissing) {
     write_file(folder_ / "e/other.rddl", "");
     EXPECT_TRUE(told("run e e").starts_with("rddl: error: there is no domain.rddl in 'e'\n"));
     EXPECT_TRUE(told("run e instance.rddl")
-                    .starts_with("rddl: error: 'e' is a folder, and 'instance.rddl' a file\n"));
+                    .starts_with("error: cannot read 'e': Is a directory [E0901]\n"));
 }
 
 constexpr const char* domain_alone =

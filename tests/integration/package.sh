@@ -45,4 +45,4 @@ refuses() {
 refuses domain "there is no file 'missing.rddl'"
 refuses extern "there is no file 'missing.hpp'"
 refuses language "simulators are C++, which this project does not enable"
-refuses component "rddlc has no component 'pictures'; it has compiler and runtime"
+refuses component "rddlc has no component 'pictures'; it has compiler, runtime and solvers"

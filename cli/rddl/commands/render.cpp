@@ -58,8 +58,9 @@ ProblemFiles files_of_header(const std::string& line, const RenderOptions& optio
         if (!file.is_object() || !file.contains("path") || !file["path"].is_string()) throw unknown;
         paths.push_back(file["path"].get<std::string>());
     }
+    std::error_code ignored;
     for (const std::string& path : paths)
-        if (!std::filesystem::exists(path))
+        if (!std::filesystem::exists(path, ignored))
             throw Failure(fmt::format("the trace is of '{}', which is not there", path),
                           "name the problem: rddl render TRACE DOMAIN INSTANCE");
     // A third one has the policy, of which states do not depend any more.

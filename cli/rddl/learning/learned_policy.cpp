@@ -9,16 +9,29 @@
 
 namespace rddlc::cli {
 
+namespace {
+
+// False, too, for links in a circle and names that are too long: who reads the file tells so.
+bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+bool is_folder(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+}
+
+}  // namespace
+
 std::filesystem::path policy_file(const std::filesystem::path& path) {
-    if (!std::filesystem::is_directory(path)) return path;
+    if (!is_folder(path)) return path;
     const std::filesystem::path formula = path / "policy.cgp";
-    return std::filesystem::exists(formula) ? formula : path / "policy.json";
+    return is_there(formula) ? formula : path / "policy.json";
 }
 
 bool is_learned_policy(const std::filesystem::path& path) {
     const std::filesystem::path file = policy_file(path);
-    return (file.extension() == ".json" || file.extension() == ".cgp") &&
-           std::filesystem::exists(file);
+    return (file.extension() == ".json" || file.extension() == ".cgp") && is_there(file);
 }
 
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
@@ -46,7 +59,7 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
                           "name the file that has it: --policy-block=FILE.rddl");
         return solvers::block_policy(simulator);
     }
-    if (!std::filesystem::exists(name))
+    if (!is_there(name))
         throw Failure(
             fmt::format("'{}' is neither random, noop, rddl, a policy file nor the folder of a run",
                         name),

@@ -134,9 +134,6 @@ ProblemFiles find_paths(const std::string& domain, const std::string& instance) 
     if (instance.empty()) return {domain, domain, std::nullopt};
     if (const fs::path of_folder = fs::path(domain) / "domain.rddl"; is_there(of_folder))
         return {domain + " " + instance, of_folder, instance};
-    if (is_folder(domain))
-        throw Failure(fmt::format("'{}' is a folder, and '{}' a file", domain, instance),
-                      "name two files, DOMAIN INSTANCE, or a folder and the number of an instance");
     if (is_there(domain) && !is_path(instance))
         throw Failure(
             fmt::format("there is no instance file '{}'", instance),
