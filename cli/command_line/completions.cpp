@@ -38,7 +38,8 @@ std::vector<Option> options_of(const Command& command, bool is_program) {
     std::vector<Option> options;
     for (const Option& option : command.options)
         if (option.kind != OptionKind::Argument) options.push_back(option);
-    for (const Option& option : common_options(is_program)) options.push_back(option);
+    const bool has_commands = is_program || !command.commands.empty();
+    for (const Option& option : common_options(has_commands)) options.push_back(option);
     return options;
 }
 

@@ -438,7 +438,9 @@ TEST_F(Verify, RefusesStatesThatNoStepMakes) {
         " push : { action-fluent, real, default = 0.0 }; };\n"
         " cpfs { depth' = 0.5 * depth + push; ratio' = 1.0 / depth; };\n"
         " reward = depth; }\n"
-        "instance i { domain = d; max-nondef-actions = 1; horizon = 5; discount = 1.0; }\n");
+        "non-fluents n { domain = d; }\n"
+        "instance i { domain = d; non-fluents = n; max-nondef-actions = 1; horizon = 5;\n"
+        " discount = 1.0; }\n");
     FiniteValues finite(problem.files, problem.load);
     const Record initial(static_cast<std::size_t>(problem.description().state_size));
     const auto read = [&](const char* line) {
