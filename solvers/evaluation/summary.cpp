@@ -27,6 +27,7 @@ Estimate estimate_of(const std::vector<double>& values) {
     for (const double value : values) squares += (value - estimate.mean) * (value - estimate.mean);
     estimate.minimum = *std::min_element(values.begin(), values.end());
     estimate.maximum = *std::max_element(values.begin(), values.end());
+    if (std::isnan(estimate.mean)) estimate.minimum = estimate.maximum = estimate.mean;
     if (estimate.minimum == estimate.maximum) {  // rounding shall not show a spread
         estimate.mean = estimate.minimum;
         return estimate;

@@ -10,10 +10,11 @@ namespace rddlc::solvers {
 
 struct Estimate {
     double mean = 0;
-    double deviation = 0;  // of the sample, divided by n - 1
+    double deviation = 0;  // of the sample, divided by n - 1; 0 for a single value
     double minimum = 0, maximum = 0;
     double half_width = 0;  // of the 95 % confidence interval of the mean, by Student's t
 };
+// Zeros for no values; nan if a value is nan.
 Estimate estimate_of(const std::vector<double>& values);
 
 struct Summary {

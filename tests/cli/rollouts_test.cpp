@@ -26,10 +26,10 @@ Rollouts run(RolloutOptions options, std::string* trace = nullptr) {
 }
 
 TEST(Rollouts, DoNotDependOnBatchAndThreads) {
-    const Rollouts alone = run({.threads = 1, .batch = 1});
+    const Rollouts alone = run({{.threads = 1, .batch = 1}});
     ASSERT_EQ(alone.episodes.size(), 37u);
     for (const auto& [threads, batch] : {std::pair{1, 37}, {2, 5}, {3, 64}, {8, 1}}) {
-        const Rollouts others = run({.threads = threads, .batch = batch});
+        const Rollouts others = run({{.threads = threads, .batch = batch}});
         EXPECT_EQ(others.steps, alone.steps);
         for (std::size_t i = 0; i < alone.episodes.size(); ++i) {
             EXPECT_EQ(others.episodes[i].undiscounted_return,
@@ -45,14 +45,14 @@ TEST(Rollouts, DoNotDependOnBatchAndThreads) {
 
 TEST(Rollouts, TracesDoNotDependOnBatchAndThreads) {
     std::string alone, together;
-    run({.threads = 1, .batch = 1}, &alone);
-    run({.threads = 4, .batch = 7}, &together);
+    run({{.threads = 1, .batch = 1}}, &alone);
+    run({{.threads = 4, .batch = 7}}, &together);
     EXPECT_FALSE(alone.empty());
     EXPECT_EQ(alone, together);
 }
 
 TEST(Rollouts, StopAtTheHorizon) {
-    const Rollouts rollouts = run({.policy = Policy::Noop, .horizon = 3});
+    const Rollouts rollouts = run({{.horizon = 3}, Policy::Noop});
     for (const Episode& episode : rollouts.episodes) {
         EXPECT_TRUE(episode.finished);
         EXPECT_LE(episode.length, 3);
@@ -64,7 +64,7 @@ TEST(Rollouts, StopAtTheHorizon) {
 
 TEST(Rollouts, DiscountReturns) {
     std::string trace;
-    const Rollouts rollouts = run({.policy = Policy::Noop, .batch = 64}, &trace);
+    const Rollouts rollouts = run({{.batch = 64}, Policy::Noop}, &trace);
     std::vector<double> plain(37), discounted(37);
     std::istringstream lines(trace);
     for (std::string text; std::getline(lines, text);) {
@@ -82,7 +82,7 @@ TEST(Rollouts, DiscountReturns) {
 
 TEST(Rollouts, FaultsEndAnEpisodeAndAreCounted) {
     // A random hazard, added to a probability, is out of range half of the time.
-    const Rollouts rollouts = run({.threads = 1});
+    const Rollouts rollouts = run({{.threads = 1}});
     ASSERT_TRUE(rollouts.first_fault);
     EXPECT_NE(rollouts.first_fault->message.find("tiny.rddl:22:24: Bernoulli"), std::string::npos);
     const auto first = static_cast<std::size_t>(rollouts.first_fault->episode);
@@ -94,7 +94,7 @@ TEST(Rollouts, FaultsEndAnEpisodeAndAreCounted) {
 
 TEST(Trace, ReplaysBitForBit) {
     std::string trace;
-    run({.threads = 1, .batch = 4}, &trace);
+    run({{.threads = 1, .batch = 4}}, &trace);
     TraceHeader header;
     header.seed = 11;
     header.horizon = tiny::problem.horizon;

@@ -1,6 +1,6 @@
 // Tables, numbers and hashes.
 #include "cache/sha256.hpp"
-#include "formats/statistics.hpp"
+#include "formats/number_text.hpp"
 #include "formats/table.hpp"
 #include "terminal/progress.hpp"
 
@@ -64,17 +64,6 @@ TEST(Text, ShowsRatesAndDurations) {
     EXPECT_EQ(rate_text(5.126e6), "5.13 M");
     EXPECT_EQ(seconds_text(0.0021), "2.1 ms");
     EXPECT_EQ(duration_text(200), "3 min 20 s");
-}
-
-TEST(Statistics, OfASample) {
-    const Statistics s = statistics_of({1, 2, 3, 4});
-    EXPECT_EQ(s.mean, 2.5);
-    EXPECT_DOUBLE_EQ(s.deviation, std::sqrt(5.0 / 3));
-    EXPECT_EQ(s.minimum, 1);
-    EXPECT_EQ(s.maximum, 4);
-    EXPECT_EQ(statistics_of({7}).deviation, 0);
-    EXPECT_EQ(statistics_of(std::vector<double>(1000, 0.1)).deviation, 0);
-    EXPECT_TRUE(std::isnan(statistics_of({1, std::nan("")}).maximum));
 }
 
 // FIPS 180-4 examples.

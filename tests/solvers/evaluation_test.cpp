@@ -27,6 +27,17 @@ TEST(Evaluation, EstimatesMeansAndTheirIntervals) {
     EXPECT_EQ(estimate_of({0.1, 0.1, 0.1}).half_width, 0);
 }
 
+TEST(Evaluation, TellsTheSpreadOfASample) {
+    const Estimate s = estimate_of({1, 2, 3, 4});
+    EXPECT_EQ(s.mean, 2.5);
+    EXPECT_DOUBLE_EQ(s.deviation, std::sqrt(5.0 / 3));
+    EXPECT_EQ(s.minimum, 1);
+    EXPECT_EQ(s.maximum, 4);
+    EXPECT_EQ(estimate_of({7}).deviation, 0);
+    EXPECT_EQ(estimate_of(std::vector<double>(1000, 0.1)).deviation, 0);
+    EXPECT_TRUE(std::isnan(estimate_of({1, std::nan("")}).maximum));
+}
+
 // The same seeds give the same weather, whatever the policy and the number of threads.
 TEST(Evaluation, PoliciesDependOnSeedAndEpisodeOnly) {
     const rddl_simulator& simulator = *rddl_simulator_reservoir_reservoir_1();

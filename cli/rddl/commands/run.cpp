@@ -3,12 +3,13 @@
 #include "commands/options.hpp"
 #include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
-#include "formats/statistics.hpp"
+#include "formats/number_text.hpp"
 #include "formats/table.hpp"
 #include "formats/trace.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
 #include "rollouts/rollouts.hpp"
+#include "solvers/evaluation/summary.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
@@ -25,6 +26,8 @@ namespace rddlc::cli {
 
 namespace {
 
+using solvers::Summary;
+
 struct RunOptions {
     ProblemArguments problem;
     std::optional<std::filesystem::path> policy_file;
@@ -36,36 +39,8 @@ struct RunOptions {
     bool quiet = false;
 };
 
-struct Summary {
-    Statistics undiscounted_return, discounted_return, length;
-    std::int64_t episodes = 0;  // finished ones
-    std::int64_t terminated = 0, horizon = 0, invariant = 0, faulted = 0, refused = 0;
-    std::int64_t illegal_actions = 0;
-    double steps_per_second = 0;
-};
-
-Summary summarise(const Rollouts& rollouts) {
-    Summary summary;
-    std::vector<double> returns, discounted, lengths;
-    for (const Episode& episode : rollouts.episodes) {
-        if (!episode.finished) continue;
-        returns.push_back(episode.undiscounted_return);
-        discounted.push_back(episode.discounted_return);
-        lengths.push_back(static_cast<double>(episode.length));
-        summary.terminated += (episode.causes & RDDL_TERMINATED) != 0;
-        summary.horizon += (episode.causes & RDDL_TRUNCATED_HORIZON) != 0;
-        summary.invariant += (episode.causes & RDDL_TRUNCATED_INVARIANT) != 0;
-        summary.faulted += (episode.causes & RDDL_FAULTED) != 0;
-        summary.refused += episode.refused;
-        summary.illegal_actions += episode.illegal_actions;
-    }
-    summary.episodes = static_cast<std::int64_t>(returns.size());
-    summary.undiscounted_return = statistics_of(returns);
-    summary.discounted_return = statistics_of(discounted);
-    summary.length = statistics_of(lengths);
-    summary.steps_per_second =
-        rollouts.seconds > 0 ? static_cast<double>(rollouts.steps) / rollouts.seconds : 0;
-    return summary;
+double steps_per_second(const Rollouts& rollouts) {
+    return rollouts.seconds > 0 ? static_cast<double>(rollouts.steps) / rollouts.seconds : 0;
 }
 
 // "episode 3, step 7", of a fault or a violation.
@@ -120,7 +95,7 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
                  {"std", Align::Right},
                  {"min", Align::Right},
                  {"max", Align::Right}});
-    const auto add = [&](std::string what, const Statistics& s) {
+    const auto add = [&](std::string what, const solvers::Estimate& s) {
         table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
                        number_text(s.minimum), number_text(s.maximum)});
     };
@@ -140,11 +115,11 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     if (preconditions != Preconditions::Ignore || summary.illegal_actions > 0)
         fmt::print("{}\n", illegal_actions_line(summary.illegal_actions, preconditions));
     fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
-               seconds_text(rollouts.seconds), rate_text(summary.steps_per_second),
+               seconds_text(rollouts.seconds), rate_text(steps_per_second(rollouts)),
                rollouts.threads, rollouts.threads == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json to_json(const Statistics& s) {
+nlohmann::ordered_json spread_json(const solvers::Estimate& s) {
     return {{"mean", json_number(s.mean)},
             {"std", json_number(s.deviation)},
             {"min", json_number(s.minimum)},
@@ -158,9 +133,9 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
                                {"engine", name_of(options.load.engine)},
                                {"seed", options.rollouts.seed},
                                {"episodes", summary.episodes},
-                               {"return", to_json(summary.undiscounted_return)},
-                               {"discounted_return", to_json(summary.discounted_return)},
-                               {"length", to_json(summary.length)},
+                               {"return", spread_json(summary.undiscounted_return)},
+                               {"discounted_return", spread_json(summary.discounted_return)},
+                               {"length", spread_json(summary.length)},
                                {"terminated", summary.terminated},
                                {"truncated_horizon", summary.horizon},
                                {"truncated_invariant", summary.invariant},
@@ -172,7 +147,7 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
                                {"first_broken_invariant", nullptr},
                                {"steps", rollouts.steps},
                                {"seconds", rollouts.seconds},
-                               {"steps_per_second", summary.steps_per_second},
+                               {"steps_per_second", steps_per_second(rollouts)},
                                {"threads", rollouts.threads}};
     if (rollouts.first_fault) out["first_fault"] = fault_line(*rollouts.first_fault);
     if (const auto& first = rollouts.first_illegal_action)
@@ -273,7 +248,7 @@ ExitStatus run(const RunOptions& options) {
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,
              rollouts.threads + rollouts.missing_threads);
 
-    const Summary summary = summarise(rollouts);
+    const Summary summary = solvers::summary_of(rollouts);
     ViolationExplainer explainer(problem.files, options.load);
     if (const auto& first = rollouts.first_illegal_action)
         report_illegal_action(*first, summary.illegal_actions, options.rollouts.preconditions,

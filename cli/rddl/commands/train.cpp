@@ -1,7 +1,7 @@
 // rddl train: learn a policy.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "formats/statistics.hpp"
+#include "formats/number_text.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"

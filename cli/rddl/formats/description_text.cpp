@@ -1,5 +1,5 @@
 #include "engines/faults.hpp"
-#include "formats/statistics.hpp"
+#include "formats/number_text.hpp"
 #include "formats/table.hpp"
 #include "model/expression_text.hpp"
 #include "model/vocabulary.hpp"

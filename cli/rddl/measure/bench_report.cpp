@@ -1,7 +1,7 @@
 #include "measure/bench_report.hpp"
 
 #include "formats/json_text.hpp"
-#include "formats/statistics.hpp"
+#include "formats/number_text.hpp"
 #include "formats/table.hpp"
 
 #include <fmt/format.h>

@@ -68,17 +68,9 @@ Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& opt
 }
 
 Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& policy,
-                      const RolloutOptions& options, const TraceSink& trace, bool progress) {
-    solvers::EpisodeOptions episodes;
-    episodes.preconditions = options.preconditions;
-    episodes.episodes = options.episodes;
-    episodes.seed = options.seed;
-    episodes.horizon = options.horizon;
-    episodes.threads = options.threads;
-    episodes.batch = options.batch;
-    episodes.memory_limit = options.memory_limit;
-
-    const std::int64_t steps = solvers::steps_at_most(simulator, episodes);
+                      const solvers::EpisodeOptions& options, const TraceSink& trace,
+                      bool progress) {
+    const std::int64_t steps = solvers::steps_at_most(simulator, options);
     Progress bar("running", options.episodes * std::max<std::int64_t>(steps, 1), progress);
     solvers::Watch watch;
     watch.stops = is_interrupted;
@@ -92,7 +84,7 @@ Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& po
             return std::make_unique<TraceRecorder>(simulator, *format, environments, trace);
         };
     }
-    return solvers::run_episodes(simulator, policy, episodes, watch);
+    return solvers::run_episodes(simulator, policy, options, watch);
 }
 
 }  // namespace rddlc::cli

@@ -3,7 +3,6 @@
 
 #include "rollouts/violations.hpp"
 #include "solvers/evaluation/episodes.hpp"
-#include "support/memory.hpp"
 
 #include <rddl/simulator.h>
 
@@ -25,16 +24,9 @@ using solvers::Rollouts;
 enum class Policy { Random, Noop, Rddl, Learned };
 std::string_view name_of(Policy policy);  // "random", ...
 
-struct RolloutOptions {
+struct RolloutOptions : solvers::EpisodeOptions {
     Policy policy = Policy::Random;
     std::filesystem::path learned = {};  // a policy file, or the folder of a run
-    Preconditions preconditions = Preconditions::Ignore;
-    std::int64_t episodes = 1;
-    std::uint64_t seed = 0;
-    std::optional<std::int64_t> horizon = {};  // 0: none; absent: the instance's
-    int threads = 0;                           // 0: one per core
-    std::int64_t batch = 0;                    // environments stepped together; 0: chosen here
-    std::int64_t memory_limit = default_memory_limit;  // bytes of all environments
 };
 
 // Receives the trace lines of consecutive episodes, in order; called by one thread at a time.
@@ -43,8 +35,9 @@ using TraceSink = std::function<void(const std::string& lines)>;
 // Stops early, with what is finished, once is_interrupted(). `trace` may be empty.
 Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
                       const TraceSink& trace, bool progress);
-// The same with another policy than that of the options.
+// The same with any policy.
 Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& policy,
-                      const RolloutOptions& options, const TraceSink& trace, bool progress);
+                      const solvers::EpisodeOptions& options, const TraceSink& trace,
+                      bool progress);
 
 }  // namespace rddlc::cli
