@@ -1,8 +1,7 @@
 #include "solvers/cgp/search.hpp"
 
 #include "solvers/cgp/island.hpp"
-#include "solvers/files/archive.hpp"
-#include "solvers/files/fingerprint.hpp"
+#include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/threads.hpp>
@@ -17,7 +16,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-constexpr std::uint64_t format_version = 1;
+const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 1};
 CgpOptions completed(CgpOptions options, const rddl_problem& problem) {
     if (options.episodes == 0) options.episodes = problem.stochastic ? 16 : 1;
     if (options.children == 0) options.children = problem.stochastic ? 8 : 32;
@@ -136,25 +135,14 @@ const CgpProgress& CgpSearch::progress() const {
 
 std::string CgpSearch::save() const {
     SavingArchive archive;
-    archive(std::string("rddl cgp checkpoint"));
-    archive(format_version);
-    archive(fingerprint(state_->simulator));
+    begin_checkpoint(archive, checkpoint, state_->simulator);
     state_->archive(archive);
     return archive.bytes();
 }
 
 void CgpSearch::load(std::string_view bytes) {
     LoadingArchive archive(bytes);
-    std::string magic;
-    std::uint64_t version = 0, problem = 0;
-    archive(magic);
-    if (magic != "rddl cgp checkpoint") throw Failure("it is no checkpoint of CGP");
-    archive(version);
-    if (version != format_version)
-        throw Failure(fmt::format("it is of version {}, and this program reads version {}", version,
-                                  format_version));
-    archive(problem);
-    if (problem != fingerprint(state_->simulator)) throw Failure("it is of another problem");
+    begin_checkpoint(archive, checkpoint, state_->simulator);
     state_->archive(archive);
     state_->report();
 }

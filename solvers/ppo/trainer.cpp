@@ -1,6 +1,6 @@
 #include "solvers/ppo/trainer.hpp"
 
-#include "solvers/files/fingerprint.hpp"
+#include "solvers/files/checkpoint.hpp"
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/collector.hpp"
 #include "solvers/ppo/learner.hpp"
@@ -21,7 +21,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-constexpr std::uint64_t format_version = 1;
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 1};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -332,25 +332,14 @@ const PpoProgress& PpoTrainer::progress() const {
 
 std::string PpoTrainer::save() const {
     SavingArchive archive;
-    archive(std::string("rddl ppo checkpoint"));
-    archive(format_version);
-    archive(fingerprint(state_->simulator));
+    begin_checkpoint(archive, checkpoint, state_->simulator);
     state_->archive(archive);
     return archive.bytes();
 }
 
 void PpoTrainer::load(std::string_view bytes) {
     LoadingArchive archive(bytes);
-    std::string magic;
-    std::uint64_t version = 0, problem = 0;
-    archive(magic);
-    if (magic != "rddl ppo checkpoint") throw Failure("it is no checkpoint of PPO");
-    archive(version);
-    if (version != format_version)
-        throw Failure(fmt::format("it is of version {}, and this program reads version {}", version,
-                                  format_version));
-    archive(problem);
-    if (problem != fingerprint(state_->simulator)) throw Failure("it is of another problem");
+    begin_checkpoint(archive, checkpoint, state_->simulator);
     state_->archive(archive);
 }
 

@@ -11,16 +11,11 @@ int main(int argc, char** argv) {
     SolverProgram program;
     program.solver = "cgp";
     program.help = "  --gens N  --lambda N  --cols N  --islands N  --threads T\n";
-    const auto take = [&](const char* name, auto& number) {
-        program.options[name] = [name, &number](const std::string& word) {
-            number = static_cast<std::remove_reference_t<decltype(number)>>(number_in(name, word));
-        };
-    };
-    take("--gens", options.generations);
-    take("--lambda", options.children);
-    take("--cols", options.nodes);
-    take("--islands", options.islands);
-    take("--threads", options.threads);
+    add_number(program.options, "--gens", options.generations);
+    add_number(program.options, "--lambda", options.children);
+    add_number(program.options, "--cols", options.nodes);
+    add_number(program.options, "--islands", options.islands);
+    add_number(program.options, "--threads", options.threads);
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed) {
         options.seed = seed;
         return cgp_trainee(simulator, options);

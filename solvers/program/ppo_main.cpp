@@ -13,19 +13,14 @@ int main(int argc, char** argv) {
     program.help =
         "  --steps N  --envs N  --rollout T  --epochs E  --minibatch M  --lr RATE  --gamma G\n"
         "  --threads T\n";
-    const auto take = [&](const char* name, auto& number) {
-        program.options[name] = [name, &number](const std::string& word) {
-            number = static_cast<std::remove_reference_t<decltype(number)>>(number_in(name, word));
-        };
-    };
-    take("--steps", options.steps);
-    take("--envs", options.environments);
-    take("--rollout", options.rollout);
-    take("--epochs", options.epochs);
-    take("--minibatch", options.minibatch);
-    take("--lr", options.learning_rate);
-    take("--gamma", options.gamma);
-    take("--threads", options.threads);
+    add_number(program.options, "--steps", options.steps);
+    add_number(program.options, "--envs", options.environments);
+    add_number(program.options, "--rollout", options.rollout);
+    add_number(program.options, "--epochs", options.epochs);
+    add_number(program.options, "--minibatch", options.minibatch);
+    add_number(program.options, "--lr", options.learning_rate);
+    add_number(program.options, "--gamma", options.gamma);
+    add_number(program.options, "--threads", options.threads);
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed) {
         options.seed = seed;
         return ppo_trainee(simulator, options);

@@ -33,4 +33,12 @@ int run_solver_program(const rddl_simulator& simulator, const SolverProgram& pro
 // The number that a word is; a Failure if it is none.
 double number_in(const std::string& option, const std::string& word);
 
+// The option's word is that number, which must live as long as the options.
+template <class Number>
+void add_number(WordTakers& options, const std::string& name, Number& number) {
+    options[name] = [name, &number](const std::string& word) {
+        number = static_cast<Number>(number_in(name, word));
+    };
+}
+
 }  // namespace rddlc::solvers
