@@ -24,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool holds_runtime(const fs::path& folder) {
-    std::error_code ignored;
-    return fs::exists(folder / "rddl" / "simulator.hpp", ignored);
+    return is_there(folder / "rddl" / "simulator.hpp");
 }
 
 // Empty if it is not set.
@@ -35,7 +34,7 @@ std::string environment_value(const char* name) {
 }
 
 // Some compilers say that all went well, and made nothing.
-bool is_there(const fs::path& file) {
+bool is_filled(const fs::path& file) {
     std::error_code missing;
     return fs::file_size(file, missing) > 0 && !missing;
 }
@@ -277,9 +276,9 @@ bool prepare_runtime(const fs::path& folder) {
     if (is_refused(header_result) && !lacks_resources(*header_result)) {
         std::error_code ignored;
         fs::remove(folder / precompiled_name, ignored);
-        return succeeds(batches) && is_there(folder / batches_name);
+        return succeeds(batches) && is_filled(folder / batches_name);
     }
-    return succeeds(batches) && is_there(folder / batches_name) && succeeds(header_result);
+    return succeeds(batches) && is_filled(folder / batches_name) && succeeds(header_result);
 }
 
 bool build_shared_object(const fs::path& source, const fs::path& output, Processors processors,
@@ -305,7 +304,7 @@ bool build_shared_object(const fs::path& source, const fs::path& output, Process
         diagnostics.report(not_started(command.front(), errno));
         return false;
     }
-    if (result->status == 0 && is_there(output)) return true;
+    if (result->status == 0 && is_filled(output)) return true;
     if (result->status == 0) {
         diagnostics.report(idle_compiler(command));
         return false;

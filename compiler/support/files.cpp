@@ -116,6 +116,16 @@ std::string read_descriptor(int descriptor, std::string_view name, std::size_t l
     }
 }
 
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
 std::string read_file(const fs::path& path) {
     struct Descriptor {
         int number;

@@ -16,6 +16,10 @@
 
 namespace rddlc {
 
+// False, too, for links in a circle and names that are too long: who reads the file tells so.
+bool is_there(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+
 // The bytes of a file, which may be a pipe; "-" is no special name. Throws a Failure "cannot read
 // 'x': Is a directory".
 std::string read_file(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include "formats/table.hpp"
 #include "problems/front_end.hpp"
 #include "rollouts/parallel.hpp"
+#include "support/files.hpp"
 #include "support/program.hpp"
 #include "support/render.hpp"
 #include "terminal/interrupt.hpp"
@@ -167,8 +168,7 @@ ExitStatus check(const CheckOptions& options) {
         return check_problems(require_repository().problems, options);
     }
     if (problem.first.empty()) throw UsageError("name a problem, or say --all");
-    std::error_code ignored;
-    if (problem.second.empty() && std::filesystem::is_directory(problem.first, ignored)) {
+    if (problem.second.empty() && is_folder(problem.first)) {
         const RepositoryProblem found = problem_in(problem.first);
         const std::filesystem::path domain = found.domain_file();
         if (found.instances.empty())

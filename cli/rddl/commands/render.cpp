@@ -6,6 +6,7 @@
 #include "formats/trace.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
+#include "support/files.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
@@ -19,9 +20,6 @@
 namespace rddlc::cli {
 
 namespace {
-
-// The first line says which problem it is, which would say how long lines can be.
-constexpr std::size_t longest_trace_line = std::size_t{256} << 20;
 
 struct RenderOptions {
     std::string trace;
@@ -58,9 +56,8 @@ ProblemFiles files_of_header(const std::string& line, const RenderOptions& optio
         if (!file.is_object() || !file.contains("path") || !file["path"].is_string()) throw unknown;
         paths.push_back(file["path"].get<std::string>());
     }
-    std::error_code ignored;
     for (const std::string& path : paths)
-        if (!std::filesystem::exists(path, ignored))
+        if (!is_there(path))
             throw Failure(fmt::format("the trace is of '{}', which is not there", path),
                           "name the problem: rddl render TRACE DOMAIN INSTANCE");
     // A third one has the policy, of which states do not depend any more.
@@ -77,11 +74,12 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     require_pictures();
     if (!options.pictures.any())
-        throw Failure("there is nothing to write", "say --gif, --png, --svg, --video, --html or --watch",
-                      usage_error);
+        throw Failure("there is nothing to write",
+                      "say --gif, --png, --svg, --video, --html or --watch", usage_error);
     if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;
-    LineReader input(options.trace, used, longest_trace_line);
+    // The first line says which problem it is, which would say how long lines can be.
+    LineReader input(options.trace, used, largest_text);
     std::optional<std::string> line = input.next();
     if (!line) throw Failure(fmt::format("'{}' is empty", options.trace));
     const ProblemFiles files = options.problem.first.empty()
@@ -90,7 +88,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     LoadedProblem problem = load_problem(files, options.load);
     problem.used.add(options.trace);
     std::optional<LineReader> second;
-    if (!options.beside.empty()) second.emplace(options.beside, problem.used, longest_trace_line);
+    if (!options.beside.empty()) second.emplace(options.beside, problem.used, largest_text);
     PictureWriter pictures(problem, options.pictures, options.trace);
     for (; line; line = input.next()) pictures.add_line(*line);
     if (second) {

@@ -31,15 +31,6 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-CompileOptions front_end_options(const ProblemFiles& files, Stage last,
-                                 const LoadOptions& options) {
-    CompileOptions front_end = compile_options(files, last);
-    front_end.extern_headers = extern_files(options.externs).headers;
-    front_end.passes = options.passes;
-    front_end.details = options.details;
-    return front_end;
-}
-
 LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
     if (options.real != RealType::Double)
         throw Failure("the interpreter computes with doubles",
@@ -96,6 +87,15 @@ UsedFiles used_files(const ProblemFiles& files, const LoadOptions& options) {
 }
 
 }  // namespace
+
+CompileOptions front_end_options(const ProblemFiles& files, Stage last,
+                                 const LoadOptions& options) {
+    CompileOptions front_end = compile_options(files, last);
+    front_end.extern_headers = extern_files(options.externs).headers;
+    front_end.passes = options.passes;
+    front_end.details = options.details;
+    return front_end;
+}
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
     LoadedProblem problem = options.engine == Engine::Interpreter ? interpreted(files, options)

@@ -1,6 +1,7 @@
 // A problem as a simulator, whichever engine runs it.
 #pragma once
 
+#include "driver/driver.hpp"
 #include "emit/emit.hpp"
 #include "passes/passes.hpp"
 #include "problems/problem_lookup.hpp"
@@ -50,6 +51,9 @@ struct LoadedProblem {
     LoadCosts costs;
     UsedFiles used = {};  // all that was read for it
 };
+
+// To compile the problem up to a stage, as it is loaded.
+CompileOptions front_end_options(const ProblemFiles& files, Stage last, const LoadOptions& options);
 
 // Prints the diagnostics and throws Diagnosed if there are errors; fails without a C++ compiler.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);

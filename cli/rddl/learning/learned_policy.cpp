@@ -9,20 +9,6 @@
 
 namespace rddlc::cli {
 
-namespace {
-
-// False, too, for links in a circle and names that are too long: who reads the file tells so.
-bool is_there(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-}
-bool is_folder(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::is_directory(path, ignored);
-}
-
-}  // namespace
-
 std::filesystem::path policy_file(const std::filesystem::path& path) {
     if (!is_folder(path)) return path;
     const std::filesystem::path formula = path / "policy.cgp";

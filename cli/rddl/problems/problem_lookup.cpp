@@ -57,16 +57,6 @@ void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
     problem.name = fmt::format("{}", fmt::join(parts, "_"));
 }
 
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
-
-bool is_folder(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_directory(path, ignored);
-}
-
 fs::directory_iterator files_in(const fs::path& folder) {
     std::error_code error;
     fs::directory_iterator files(folder, error);

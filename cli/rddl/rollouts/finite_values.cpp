@@ -12,9 +12,8 @@ namespace rddlc::cli {
 namespace {
 
 std::set<std::string> infinite_fluents(const ProblemFiles& files, const LoadOptions& options) {
-    CompileOptions compiling = compile_options(files, Stage::Optimise);
-    compiling.passes = options.passes;
-    const Compilation compilation = compile_or_give_up(compiling);
+    const Compilation compilation =
+        compile_or_give_up(front_end_options(files, Stage::Optimise, options));
     std::set<std::string> names;
     for (const ir::Buffer& buffer : compilation.program->buffers)
         if (!buffer.finite) names.insert(buffer.name);

@@ -60,16 +60,13 @@ void add_interpreters(VerifiedProblem& problem) {
 }
 
 Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int lanes) {
-    const ExternFiles externs = extern_files(load.externs);
-    CompileOptions options = compile_options(files, Stage::Emit);
-    options.extern_headers = externs.headers;
-    options.passes = load.passes;
+    CompileOptions options = front_end_options(files, Stage::Emit, load);
     options.lane_count = lanes;
     const Compilation compilation = compile_or_give_up(options);
     // What is compiled once for all simulators has batches of the usual packs.
     const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
-    return compiled_simulator(compilation.text,
-                              {files.name, load.ignore_cache, load.quiet, externs.headers, usual})
+    return compiled_simulator(compilation.text, {files.name, load.ignore_cache, load.quiet,
+                                                 options.extern_headers, usual})
         .simulator;
 }
 
