@@ -1,0 +1,92 @@
+"""Gymnasium spaces of fluents."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from .model import Fluent, Model
+from .records import STORED, Column, columns_of
+
+
+class ActionDict(spaces.Dict):
+    """Dictionaries of action values of which only `limit` may differ from their default."""
+
+    def __init__(
+        self, entries: Mapping[str, spaces.Space[Any]], defaults: Mapping[str, Any], limit: int
+    ) -> None:
+        super().__init__(dict(entries))
+        self.defaults = {key: np.asarray(value) for key, value in defaults.items()}
+        self.limit = limit
+
+    def changes(self, action: Mapping[str, Any]) -> int:
+        """How many values differ from their default."""
+        return sum(
+            int(np.count_nonzero(np.asarray(action[key]) != default))
+            for key, default in self.defaults.items()
+            if key in action
+        )
+
+    def contains(self, x: Any) -> bool:
+        return super().contains(x) and self.changes(x) <= self.limit
+
+    def sample(self, mask: Any | None = None, probability: Any | None = None) -> dict[str, Any]:
+        """A sample of each value; all but `limit` of them, which are drawn, get their default."""
+        sampled = super().sample(mask, probability)
+        sizes = [default.size for default in self.defaults.values()]
+        kept = np.zeros(sum(sizes), bool)
+        kept[self.np_random.permutation(kept.size)[: self.limit]] = True
+        parts = np.split(kept, np.cumsum(sizes)[:-1])
+        for (key, default), part in zip(self.defaults.items(), parts):
+            if default.ndim:
+                sampled[key] = np.where(part.reshape(default.shape), sampled[key], default)
+                sampled[key] = sampled[key].astype(self.spaces[key].dtype)
+            elif not part[0]:
+                space = self.spaces[key]
+                is_box = isinstance(space, spaces.Box)
+                sampled[key] = default.astype(space.dtype) if is_box else np.int64(default)
+        return sampled
+
+
+def grounded_space(fluents: Sequence[Fluent]) -> spaces.Dict:
+    """A space for each value: Discrete for bools, objects and bounded ints, else a Box of shape ()."""
+    return spaces.Dict({column.name: _space_of_value(column) for column in columns_of(fluents)})
+
+
+def lifted_space(fluents: Sequence[Fluent]) -> spaces.Dict:
+    """A Box for each fluent, of its shape or (1,): int8 of bools, int64 of ints and objects,
+    float64 of reals."""
+    return spaces.Dict({fluent.name: _space_of_fluent(fluent) for fluent in fluents})
+
+
+def action_space(model: Model, defaults: Mapping[str, Any], *, lifted: bool) -> spaces.Dict:
+    """Of action dictionaries; `defaults` by the same keys."""
+    space = lifted_space(model.actions) if lifted else grounded_space(model.actions)
+    limit = model.limited_actions
+    return space if limit is None else ActionDict(space.spaces, defaults, limit)
+
+
+def _space_of_value(column: Column) -> spaces.Space[Any]:
+    stored = STORED[column.fluent.scalar]
+    lower, upper = column.bounds
+    count = column.category_count
+    if count is not None and count <= np.iinfo(np.int32).max:
+        return spaces.Discrete(count, start=int(lower))
+    return spaces.Box(lower, upper, (), stored.type)
+
+
+def _space_of_fluent(fluent: Fluent) -> spaces.Box:
+    shape = fluent.shape or (1,)
+    lower, upper = np.array([column.bounds for column in columns_of([fluent])]).T
+    stored = STORED[fluent.scalar]
+    return spaces.Box(_limits(lower, shape, stored), _limits(upper, shape, stored), shape, stored.type)
+
+
+def _limits(bounds: NDArray[np.float64], shape: tuple[int, ...], stored: np.dtype[Any]) -> Any:
+    if stored.kind == "i" and np.isfinite(bounds).all():
+        return bounds.reshape(shape).astype(stored)
+    return bounds.reshape(shape)
