@@ -89,6 +89,9 @@ class DictionaryActions:
         if values:
             self._record[0] = tuple(values)
 
+    def write_record(self) -> None:
+        """The record is what `write` has written."""
+
     def _write_lifted(self, name: str, value: Any, values: list[Any]) -> None:
         if name not in self._lifted:
             raise ActionError(

@@ -16,6 +16,7 @@ from . import _native
 from .choices import ActionPlan, Squash, plan_of
 from .errors import ActionError
 from .problems import Problem
+from .quick import quick_writer
 from .records import columns_of, grounded_view
 
 Array = NDArray[Any]
@@ -28,7 +29,7 @@ class FlatReader:
 
     def __init__(self, problem: Problem, values: Array, *, normalize: bool) -> None:
         columns = columns_of(problem.model.observed)
-        self._values = values
+        self._values, self._first = values, values[0]
         self._sources: list[int] = []  # of each feature: a column
         objects: list[int] = []  # and the object that it is about, or -1
         self.names: list[str] = []
@@ -42,6 +43,8 @@ class FlatReader:
         is_object = self._objects >= 0
         lower, upper = np.where(is_object, 0, lower), np.where(is_object, 1, upper)
         self._is_plain = not is_object.any()
+        self.is_view = self._is_plain and not normalize
+        """Whether rows() are the batch's own memory."""
         self._middle: Array | None = None
         if normalize:
             scaled = np.isfinite(lower) & np.isfinite(upper) & (lower < upper)
@@ -50,11 +53,6 @@ class FlatReader:
             self._half = np.where(scaled, (safe_upper - safe_lower) / 2, 1).astype(np.float32)
             lower, upper = np.where(scaled, -1, lower), np.where(scaled, 1, upper)
         self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
-
-    @property
-    def is_view(self) -> bool:
-        """Whether rows() are the batch's own memory."""
-        return self._is_plain and self._middle is None
 
     def rows(self, values: Array | None = None) -> Array:
         """(n, features) of a matrix of values, else of the batch's."""
@@ -68,7 +66,7 @@ class FlatReader:
 
     def read(self) -> Array:
         """(features,) of the first environment."""
-        return self._values[0].copy() if self.is_view else self.rows()[0]
+        return self._first.copy() if self.is_view else self.rows()[0]
 
 
 class ChoiceActions:
@@ -91,6 +89,7 @@ class ChoiceActions:
         self._lower, self._upper = self._number_limits()
         self.space = self._new_space()
         self.step = batch.step_values
+        self._quick = quick_writer(self.plan, self._values[0]) if self._squash is None else None
 
     def _number_limits(self) -> tuple[Array, Array]:
         count = len(self.plan.numbers)
@@ -113,6 +112,8 @@ class ChoiceActions:
 
     def write(self, action: Any) -> None:
         """Of the first environment. Raises ActionError, and has changed nothing then."""
+        if self._quick is not None and self._quick(action):
+            return
         if isinstance(action, Mapping) and "action" in action:
             action = action["action"]  # as pyRDDLGym's agents of learners send it
         self.write_rows(_first_row(action))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -19,7 +20,7 @@ class ActionDict(spaces.Dict):
     def __init__(
         self, entries: Mapping[str, spaces.Space[Any]], defaults: Mapping[str, Any], limit: int
     ) -> None:
-        super().__init__(dict(entries))
+        super().__init__(OrderedDict(entries))
         self.defaults = {key: np.asarray(value) for key, value in defaults.items()}
         self.limit = limit
 
@@ -54,13 +55,18 @@ class ActionDict(spaces.Dict):
 
 def grounded_space(fluents: Sequence[Fluent]) -> spaces.Dict:
     """A space for each value: Discrete for bools, objects and bounded ints, else a Box of shape ()."""
-    return spaces.Dict({column.name: _space_of_value(column) for column in columns_of(fluents)})
+    return _in_order({column.name: _space_of_value(column) for column in columns_of(fluents)})
 
 
 def lifted_space(fluents: Sequence[Fluent]) -> spaces.Dict:
     """A Box for each fluent, of its shape or (1,): int8 of bools, int64 of ints and objects,
     float64 of reals."""
-    return spaces.Dict({fluent.name: _space_of_fluent(fluent) for fluent in fluents})
+    return _in_order({fluent.name: _space_of_fluent(fluent) for fluent in fluents})
+
+
+def _in_order(entries: dict[str, spaces.Space[Any]]) -> spaces.Dict:
+    """Of anything else, Gymnasium sorts the names."""
+    return spaces.Dict(OrderedDict(entries))
 
 
 def action_space(model: Model, defaults: Mapping[str, Any], *, lifted: bool) -> spaces.Dict:
@@ -87,6 +93,10 @@ def _space_of_fluent(fluent: Fluent) -> spaces.Box:
 
 
 def _limits(bounds: NDArray[np.float64], shape: tuple[int, ...], stored: np.dtype[Any]) -> Any:
-    if stored.kind == "i" and np.isfinite(bounds).all():
-        return bounds.reshape(shape).astype(stored)
-    return bounds.reshape(shape)
+    """For Box, which takes an infinite bound of ints as a scalar only."""
+    if stored.kind != "i":
+        return bounds.reshape(shape)
+    if (bounds == bounds[0]).all():
+        return bounds[0] if np.isinf(bounds[0]) else int(bounds[0])
+    most = 2.0**62
+    return np.clip(bounds, -most, most).astype(stored).reshape(shape)
