@@ -131,8 +131,8 @@ void Batch::set_seed(std::uint64_t seed) {
     check(*simulator_, simulator_->set_seed(live(), seed));
 }
 
-void Batch::set_seeds(std::span<const std::uint64_t> seeds) {
-    check(*simulator_, simulator_->set_seeds(live(), 0, static_cast<std::int64_t>(seeds.size()),
+void Batch::set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds) {
+    check(*simulator_, simulator_->set_seeds(live(), begin, static_cast<std::int64_t>(seeds.size()),
                                              seeds.data()));
 }
 

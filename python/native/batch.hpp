@@ -42,7 +42,7 @@ class Batch {
     void step();
     void step_values();
     void set_seed(std::uint64_t seed);
-    void set_seeds(std::span<const std::uint64_t> seeds);
+    void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
     void read_state(std::int64_t environment, std::byte* record);
     void write_state(std::int64_t environment, const std::byte* record, std::int64_t steps);

@@ -156,8 +156,8 @@ void add_batch(nb::module_& module) {
     batch.def("step", &Batch::step);
     batch.def("step_values", &Batch::step_values);
     batch.def("set_seed", &Batch::set_seed);
-    batch.def("set_seeds", [](Batch& self, const std::vector<std::uint64_t>& seeds) {
-        self.set_seeds(seeds);
+    batch.def("set_seeds", [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
+        self.set_seeds(begin, seeds);
     });
     batch.def("violated_preconditions", &Batch::violated_preconditions);
     batch.def("explain_violation", &Batch::explain_violation);

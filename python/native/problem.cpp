@@ -1,6 +1,7 @@
 #include "native/problem.hpp"
 
 #include "driver/cpp_compiler.hpp"
+#include "driver/version.hpp"
 #include "native/describe.hpp"
 #include "problems/problem_lookup.hpp"
 #include "support/failure.hpp"
@@ -106,6 +107,7 @@ void check(const rddl_simulator& simulator, rddl_error error) {
 
 void add_problem(nb::module_& module) {
     add_errors(module);
+    module.attr("version") = version;
     nb::class_<LoadedProblem>(module, "Simulator", "A problem that can be stepped.")
         .def_prop_ro("files", files_as_text, "Paths of the domain and, apart from it, the instance.")
         .def_prop_ro("name", [](const LoadedProblem& problem) { return problem.files.name; })

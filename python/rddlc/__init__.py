@@ -9,13 +9,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import causes
+from . import _native, causes
 from .environment import RDDLEnv, State
 from .errors import ActionError, CompileError, EpisodeOver, Error
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
+from .registration import register_environments
+from .vector import RDDLVectorEnv
 
-__version__ = "0.2.0"
+__version__: str = _native.version
 
 __all__ = [
     "ActionError",
@@ -28,9 +30,11 @@ __all__ = [
     "ObjectType",
     "Problem",
     "RDDLEnv",
+    "RDDLVectorEnv",
     "State",
     "causes",
     "make",
+    "make_vec",
     "problems",
 ]
 
@@ -62,7 +66,32 @@ def make(
 
     Raises CompileError with the compiler's diagnostics, and Error where files are missing.
     """
+    return RDDLEnv(_problem_of(domain, instance, options), **options)
+
+
+def make_vec(
+    domain: str | os.PathLike[str] | Problem,
+    instance: str | int | os.PathLike[str] | None = None,
+    num_envs: int = 1,
+    **options: Any,
+) -> RDDLVectorEnv:
+    """A `gymnasium.vector.VectorEnv` of `num_envs` environments in one batch; problems as in `make`.
+
+    engine, externs, extended, horizon, normalize: as in `make`.
+    observations: "flat" (default): float32 (num_envs, features); "dict": arrays (num_envs, *shape).
+    actions: "simplified" (default), "box", or "dict" of arrays.
+    autoreset_mode: "NextStep" (default), "SameStep" or "Disabled", or a Gymnasium AutoresetMode.
+    threads: 0: one for each core.
+    copy: whether arrays are copies; else they may be the engine's own memory, which the next step
+        changes.
+    """
+    return RDDLVectorEnv(_problem_of(domain, instance, options), num_envs, **options)
+
+
+def _problem_of(domain: Any, instance: Any, options: dict[str, Any]) -> Problem:
+    """Takes what is about loading out of the options."""
     of_problem = {key: options.pop(key) for key in _OF_PROBLEM if key in options}
-    if not isinstance(domain, Problem):
-        domain = Problem(domain, instance, **of_problem)
-    return RDDLEnv(domain, **options)
+    return domain if isinstance(domain, Problem) else Problem(domain, instance, **of_problem)
+
+
+register_environments()

@@ -103,7 +103,10 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def _new_reader(self) -> Any:
         if self._forms["observations"] == "flat":
             return FlatReader(
-                self.problem, self._batch.observation_values, normalize=self._forms["normalize"]
+                self.problem,
+                self._batch.observation_values,
+                self._batch.final_values,
+                normalize=self._forms["normalize"],
             )
         kind = LiftedReader if self._forms["vectorized"] else GroundedReader
         return kind(self.model.observed, self._batch.observations)
@@ -230,7 +233,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def action_masks(self) -> NDArray[np.bool_]:
         """(sum of categories,): which values of a Discrete or MultiDiscrete action satisfy the
         preconditions, each while the others have their default (sb3-contrib's MaskablePPO)."""
-        return self._masks.flat()
+        return self._masks.rows()[0]
 
     # ---- states
 

@@ -27,9 +27,11 @@ class FlatReader:
     one that it is), numbers themselves. `normalize`: those with two bounds are -1 at the lower and 1
     at the upper one."""
 
-    def __init__(self, problem: Problem, values: Array, *, normalize: bool) -> None:
+    def __init__(
+        self, problem: Problem, values: Array, final_values: Array, *, normalize: bool
+    ) -> None:
         columns = columns_of(problem.model.observed)
-        self._values, self._first = values, values[0]
+        self._values, self._first, self._final_values = values, values[0], final_values
         self._sources: list[int] = []  # of each feature: a column
         objects: list[int] = []  # and the object that it is about, or -1
         self.names: list[str] = []
@@ -44,7 +46,7 @@ class FlatReader:
         lower, upper = np.where(is_object, 0, lower), np.where(is_object, 1, upper)
         self._is_plain = not is_object.any()
         self.is_view = self._is_plain and not normalize
-        """Whether rows() are the batch's own memory."""
+        """Whether features are the batch's own memory."""
         self._middle: Array | None = None
         if normalize:
             scaled = np.isfinite(lower) & np.isfinite(upper) & (lower < upper)
@@ -54,9 +56,15 @@ class FlatReader:
             lower, upper = np.where(scaled, -1, lower), np.where(scaled, 1, upper)
         self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
-    def rows(self, values: Array | None = None) -> Array:
-        """(n, features) of a matrix of values, else of the batch's."""
-        rows = self._values if values is None else values
+    def rows(self, *, copy: bool) -> Array:
+        """(n, features). Without a copy they may be the batch's own memory."""
+        return self._values.copy() if copy and self.is_view else self._features(self._values)
+
+    def final_rows(self) -> Array:
+        """(n, features) of the ends of episodes; rows of others mean nothing."""
+        return self._features(self._final_values.copy())
+
+    def _features(self, rows: Array) -> Array:
         if not self._is_plain:
             rows = rows[:, self._sources]
             rows = np.where(self._objects >= 0, rows == self._objects, rows).astype(np.float32)
@@ -66,7 +74,7 @@ class FlatReader:
 
     def read(self) -> Array:
         """(features,) of the first environment."""
-        return self._first.copy() if self.is_view else self.rows()[0]
+        return self._first.copy() if self.is_view else self._features(self._values)[0]
 
 
 class ChoiceActions:

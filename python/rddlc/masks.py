@@ -9,102 +9,95 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from . import _native
+from .choices import ActionPlan
 from .errors import Error
 from .problems import Problem
-from .records import columns_of
+
+ALWAYS = -1  # in place of a choice: nobody knows, so it is allowed
+Change = tuple[int, int]  # a column of action values, and what it is set to
 
 
 class ActionMasks:
-    """Of the first environment of a batch, for each category of an action whether it is legal, while
-    all others have their default."""
+    """For each environment of a batch and each category of an action whether it is legal, while all
+    others have their default."""
 
     def __init__(self, problem: Problem, batch: _native.Batch, writer: Any) -> None:
-        self._batch = batch
-        self._problem = problem
+        self._problem, self._batch = problem, batch
         self._space: spaces.Space[Any] = writer.space
-        self._plan = getattr(writer, "plan", None)
-        self._masks = np.zeros(batch.choice_count(), np.uint8)
-        self._table: dict[tuple[int, int], int] | None = None
+        self._plan: ActionPlan | None = getattr(writer, "plan", None)
+        self._masks: NDArray[np.uint8] | None = None
 
-    def flat(self) -> NDArray[np.bool_]:
-        """(sum of categories,), one after the other."""
-        parts = [part for part in self._parts() if part is not None]
-        if not parts:
+    def rows(self) -> NDArray[np.bool_]:
+        """(environments, sum of categories): those of one entry after those of the other."""
+        if self._masks is None:
+            self._prepare()
+        if not len(self._choices):
             raise Error("there is nothing to mask: the actions have no categories")
-        return np.concatenate(parts)
+        self._batch.action_masks(self._masks.ravel())
+        return self._masks[:, self._choices].astype(bool) | (self._choices == ALWAYS)
 
     def for_space(self) -> Any:
-        """As the action space's sample(mask) takes it: int8; None for what has no categories."""
-        parts = [None if part is None else part.astype(np.int8) for part in self._parts()]
-        space = self._space
-        if isinstance(space, spaces.Discrete):
-            return parts[0]
-        if isinstance(space, spaces.MultiDiscrete):
-            return tuple(parts)
-        if not isinstance(space, spaces.Dict):
+        """Of the first environment as the action space's sample(mask) takes it: int8; None for what
+        has no categories."""
+        if self._masks is None:
+            self._prepare()
+        if not len(self._choices):
             return None
-        if self._plan is None:
+        counts = [count for count in self._counts if count]
+        masks = iter(np.split(self.rows()[0].astype(np.int8), np.cumsum(counts)[:-1]))
+        parts = tuple(next(masks) if count else None for count in self._counts)
+        space = self._space
+        if self._plan is not None and isinstance(space, spaces.Dict):
+            is_one = isinstance(space["discrete"], spaces.Discrete)
+            return {"discrete": parts[0] if is_one else parts, "continuous": None}
+        if isinstance(space, spaces.Dict):
             return dict(zip(space.spaces, parts))
-        discrete = space["discrete"]
-        mask = parts[0] if isinstance(discrete, spaces.Discrete) else tuple(parts)
-        return {"discrete": mask, "continuous": None}
+        return parts[0] if isinstance(space, spaces.Discrete) else parts
 
-    def _parts(self) -> list[NDArray[np.bool_] | None]:
-        """Of each category in turn; None where a value has no categories."""
-        self._batch.action_masks(self._masks)
-        allowed = self._masks.astype(bool)
+    def _prepare(self) -> None:
+        entries = self._entries()
+        choice_of = self._choice_table()
+        self._counts = [len(entry) for entry in entries]
+        self._choices = np.array(
+            [choice_of.get(change, ALWAYS) for entry in entries for change in entry], np.int64
+        )
+        environments = len(self._batch.rewards)
+        self._masks = np.zeros((environments, self._batch.choice_count()), np.uint8)
+
+    def _entries(self) -> list[list[Change]]:
+        """What each category of each entry of the space changes; nothing for numbers."""
+        if self._plan is None:
+            return self._entries_of_dictionary()
         plan = self._plan
-        if plan is None:
-            return self._parts_of_dictionary(allowed)
+        changes = [(int(column), int(value)) for column, value in zip(plan.columns, plan.values)]
         if plan.picks:
-            changes = [
-                self._allowed(allowed, int(column), int(value))
-                for column, value in zip(plan.columns[:-1], plan.values[:-1])
-            ]
-            part = np.array([*changes, allowed[0]])
-            return [part] * plan.picks
+            return [changes] * plan.picks
         return [
-            np.array([self._allowed(allowed, int(column), int(least) + k) for k in range(count)])
-            for column, least, count in zip(plan.columns, plan.values, plan.category_counts)
+            [(column, least + k) for k in range(count)]
+            for (column, least), count in zip(changes, plan.category_counts)
         ]
 
-    def _parts_of_dictionary(self, allowed: NDArray[np.bool_]) -> list[NDArray[np.bool_] | None]:
-        parts: list[NDArray[np.bool_] | None] = []
-        columns = columns_of(self._problem.model.actions)
-        if len(columns) != len(self._space.spaces):  # type: ignore[attr-defined]
-            return [None] * len(self._space.spaces)  # type: ignore[attr-defined]
-        for index, space in enumerate(self._space.spaces.values()):  # type: ignore[attr-defined]
-            if not isinstance(space, spaces.Discrete):
-                parts.append(None)
-                continue
-            start, count = int(space.start), int(space.n)
-            parts.append(
-                np.array([self._allowed(allowed, index, start + k) for k in range(count)])
-            )
-        return parts
+    def _entries_of_dictionary(self) -> list[list[Change]]:
+        entries: list[list[Change]] = []
+        for column, space in enumerate(self._space.spaces.values()):  # type: ignore[attr-defined]
+            is_category = isinstance(space, spaces.Discrete)
+            start = int(space.start) if is_category else 0
+            entries.append([(column, start + k) for k in range(int(space.n))] if is_category else [])
+        return entries
 
-    def _allowed(self, allowed: NDArray[np.bool_], column: int, value: int) -> bool:
-        """Changes that are no choice are numbers, of which nobody knows; the default is choice 0."""
-        choice = self._choices().get((column, value))
-        return bool(allowed[choice]) if choice is not None else self._is_free(allowed, column, value)
-
-    def _is_free(self, allowed: NDArray[np.bool_], column: int, value: int) -> bool:
-        is_default = self._defaults[column] == value
-        return bool(allowed[0]) if is_default else True
-
-    def _choices(self) -> dict[tuple[int, int], int]:
-        """The simulator's choice that sets a column to a value, but for defaults."""
-        if self._table is None:
-            model = self._problem.model
-            first, begin = {}, 0
-            for fluent in model.actions:
-                first[fluent.index] = begin
-                begin += fluent.count
-            self._table = {}
-            for choice in range(1, len(self._masks)):
-                fluent_index, grounding, value = self._batch.choice(choice)
-                self._table[first[fluent_index] + grounding, value] = choice
-            self._defaults = [
-                each for fluent in model.actions for each in self._problem.constants(fluent.name)
-            ]
-        return self._table
+    def _choice_table(self) -> dict[Change, int]:
+        """The simulator's choice that makes a change; choice 0 for what changes nothing."""
+        model = self._problem.model
+        first = {fluent.index: 0 for fluent in model.actions}
+        table: dict[Change, int] = {(-1, 0): 0}
+        begin = 0
+        for fluent in model.actions:
+            first[fluent.index] = begin
+            for grounding, default in enumerate(self._problem.constants(fluent.name)):
+                if fluent.scalar != "real":
+                    table[begin + grounding, int(default)] = 0
+            begin += fluent.count
+        for choice in range(1, self._batch.choice_count()):
+            fluent_index, grounding, value = self._batch.choice(choice)
+            table[first[fluent_index] + grounding, value] = choice
+        return table

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 from . import _native
@@ -132,7 +131,3 @@ def _has_cpp_compiler() -> bool:
         stacklevel=5,
     )
     return False
-
-
-def package_folder() -> Path:
-    return Path(__file__).parent

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
 from gymnasium import spaces
+from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from .model import Fluent, Model
@@ -51,6 +53,35 @@ class ActionDict(spaces.Dict):
                 is_box = isinstance(space, spaces.Box)
                 sampled[key] = default.astype(space.dtype) if is_box else np.int64(default)
         return sampled
+
+
+class ActionDictBatch(spaces.Dict):
+    """Actions of several environments, each of which is one of `single`."""
+
+    def __init__(self, single: ActionDict, count: int) -> None:
+        entries = ((key, batch_space(space, count)) for key, space in single.spaces.items())
+        super().__init__(OrderedDict(entries))
+        self.single, self.count = single, count
+
+    def seed(self, seed: Any = None) -> Any:
+        self.single.seed(seed if seed is None or isinstance(seed, dict) else int(seed))
+        return super().seed(seed)
+
+    def sample(self, mask: Any | None = None, probability: Any | None = None) -> dict[str, Any]:
+        rows = [self.single.sample(mask, probability) for _ in range(self.count)]
+        return {key: np.stack([row[key] for row in rows]) for key in self.spaces}
+
+    def contains(self, x: Any) -> bool:
+        rows = range(self.count)
+        return super().contains(x) and all(
+            self.single.changes({key: value[row] for key, value in x.items()}) <= self.single.limit
+            for row in rows
+        )
+
+
+@batch_space.register(ActionDict)
+def _batch_of_action_dict(space: ActionDict, n: int = 1) -> ActionDictBatch:
+    return ActionDictBatch(deepcopy(space), n)
 
 
 def grounded_space(fluents: Sequence[Fluent]) -> spaces.Dict:

@@ -24,7 +24,8 @@ class FlatObservations(unittest.TestCase):
 
     def test_names_tell_the_features(self) -> None:
         problem = written("counters").problem
-        reader = FlatReader(problem, np.zeros((1, 4), np.float32), normalize=False)
+        values = np.zeros((1, 4), np.float32)
+        reader = FlatReader(problem, values, values, normalize=False)
         colors = ["shade=red", "shade=green", "shade=blue"]
         self.assertEqual(reader.names, ["count___a", "count___b", *colors, "filled"])
 
