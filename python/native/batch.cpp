@@ -47,16 +47,11 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
     const auto matrix = [&](std::int64_t columns) {
         return std::vector<std::byte>(count * static_cast<std::size_t>(columns) * size);
     };
-    arrays_ = {records(problem.action_size),
-               records(problem.observation_size),
-               records(problem.observation_size),
-               records(problem.state_size),
-               matrix(action_columns_),
-               matrix(observation_columns_),
-               matrix(observation_columns_),
-               std::vector<double>(count),
-               std::vector<std::uint8_t>(count),
-               std::vector<std::uint8_t>(count),
+    arrays_ = {records(problem.action_size),      records(problem.observation_size),
+               records(problem.observation_size), records(problem.state_size),
+               matrix(action_columns_),           matrix(observation_columns_),
+               matrix(observation_columns_),      std::vector<double>(count),
+               std::vector<std::uint8_t>(count),  std::vector<std::uint8_t>(count),
                std::vector<std::uint8_t>(count)};
 }
 
@@ -123,8 +118,8 @@ void Batch::step_values() {
         out.final_observation_values = arrays_.final_values.data();
     const nb::gil_scoped_release released;
     void* const values = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
-    check(*simulator_, simulator_->step_values(batch, number(), arrays_.action_values.data(),
-                                               values, &out));
+    check(*simulator_,
+          simulator_->step_values(batch, number(), arrays_.action_values.data(), values, &out));
 }
 
 void Batch::set_seed(std::uint64_t seed) {
@@ -143,9 +138,8 @@ void Batch::read_state(std::int64_t environment, std::byte* record) {
 void Batch::write_state(std::int64_t environment, const std::byte* record, std::int64_t steps) {
     check(*simulator_, simulator_->set_state(live(), environment, 1, record, &steps));
     if (settings_.shows_records)
-        check(*simulator_,
-              simulator_->get_observation(batch_.get(), 0, settings_.environments,
-                                          arrays_.observations.data()));
+        check(*simulator_, simulator_->get_observation(batch_.get(), 0, settings_.environments,
+                                                       arrays_.observations.data()));
     read_values();
 }
 
@@ -174,8 +168,8 @@ std::string Batch::fault(std::int64_t environment) {
 
 std::vector<std::int32_t> Batch::violated_preconditions() {
     std::vector<std::int32_t> violated(static_cast<std::size_t>(settings_.environments));
-    check(*simulator_, simulator_->violated_preconditions(live(), arrays_.actions.data(),
-                                                          violated.data()));
+    check(*simulator_,
+          simulator_->violated_preconditions(live(), arrays_.actions.data(), violated.data()));
     return violated;
 }
 

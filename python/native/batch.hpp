@@ -4,9 +4,10 @@
 #include "native/problem.hpp"
 #include "solvers/batches/batch.hpp"
 
+#include <rddl/simulator.h>
+
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
-#include <rddl/simulator.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +22,8 @@ struct BatchSettings {
     std::int64_t environments = 1;
     int threads = 0;  // 0: one per core
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
-    std::int64_t horizon = 0;  // 0: the instance's; RDDL_NO_HORIZON: none
-    bool doubles = false;      // the matrices of numbers
+    std::int64_t horizon = 0;                        // 0: the instance's; RDDL_NO_HORIZON: none
+    bool doubles = false;                            // the matrices of numbers
     bool shows_records = true, shows_values = true;  // what steps and resets fill
 };
 

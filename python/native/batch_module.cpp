@@ -1,12 +1,11 @@
 // The batch as Python sees it.
 #include "native/batch.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
-
-#include <fmt/format.h>
 
 #include <optional>
 
@@ -97,8 +96,8 @@ void add_arrays(nb::class_<Batch>& batch) {
                      })
         .def_prop_ro("final_values",
                      [](nb::handle self) {
-                         return matrix<&Arrays::final_values>(
-                             self, batch_of(self).observation_columns());
+                         return matrix<&Arrays::final_values>(self,
+                                                              batch_of(self).observation_columns());
                      })
         .def_prop_ro("rewards", numbers<&Arrays::rewards, double>)
         .def_prop_ro("terminated", numbers<&Arrays::terminated, bool>)
@@ -113,15 +112,16 @@ void add_states(nb::class_<Batch>& batch) {
                  self.read_state(environment,
                                  bytes_of(record, self.simulator().problem->state_size));
              })
-        .def("write_state",
-             [](Batch& self, std::int64_t environment, const ConstBytes& record,
-                std::int64_t steps) {
-                 const std::int64_t size = self.simulator().problem->state_size;
-                 if (static_cast<std::int64_t>(record.size()) != size)
-                     throw Refused(fmt::format("a state has {} bytes, not {}", size, record.size()));
-                 self.write_state(environment, reinterpret_cast<const std::byte*>(record.data()),
-                                  steps);
-             })
+        .def(
+            "write_state",
+            [](Batch& self, std::int64_t environment, const ConstBytes& record,
+               std::int64_t steps) {
+                const std::int64_t size = self.simulator().problem->state_size;
+                if (static_cast<std::int64_t>(record.size()) != size)
+                    throw Refused(fmt::format("a state has {} bytes, not {}", size, record.size()));
+                self.write_state(environment, reinterpret_cast<const std::byte*>(record.data()),
+                                 steps);
+            })
         .def("progress", &Batch::progress, "Steps of the episode, and episodes ended before it.")
         .def("causes_of", &Batch::causes)
         .def("fault", &Batch::fault);
@@ -156,9 +156,10 @@ void add_batch(nb::module_& module) {
     batch.def("step", &Batch::step);
     batch.def("step_values", &Batch::step_values);
     batch.def("set_seed", &Batch::set_seed);
-    batch.def("set_seeds", [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
-        self.set_seeds(begin, seeds);
-    });
+    batch.def("set_seeds",
+              [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
+                  self.set_seeds(begin, seeds);
+              });
     batch.def("violated_preconditions", &Batch::violated_preconditions);
     batch.def("explain_violation", &Batch::explain_violation);
     batch.def("choice_count", [](const Batch& self) {

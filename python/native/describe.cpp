@@ -38,7 +38,7 @@ nb::object bounds(const double* values, std::int64_t count) {
 }
 
 nb::dict fluent_of(const rddl_problem& problem, const rddl_fluent& fluent, std::int32_t index) {
-    static constexpr const char* roles[] = {"non-fluent",   "state-fluent",   "action-fluent",
+    static constexpr const char* roles[] = {"non-fluent",    "state-fluent",   "action-fluent",
                                             "interm-fluent", "derived-fluent", "observ-fluent"};
     static constexpr const char* scalars[] = {"bool", "int", "real"};
     nb::list parameters;

@@ -1,8 +1,9 @@
 // What a simulator tells of its problem, as Python's own dictionaries and lists.
 #pragma once
 
-#include <nanobind/nanobind.h>
 #include <rddl/simulator.h>
+
+#include <nanobind/nanobind.h>
 
 namespace rddlc::python {
 

@@ -3,14 +3,13 @@
 #include "native/batch.hpp"
 #include "native/problem.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <render/png.hpp>
 #include <render/replay_page.hpp>
 #include <render/state_text.hpp>
 #include <render/visualizer.hpp>
-
-#include <fmt/format.h>
 
 #include <cstddef>
 #include <deque>
@@ -91,9 +90,10 @@ class Painter {
         const render::Visualizer* const found = render::find_visualizer(name);
         if (!found) throw Refused(fmt::format("there is no visualizer '{}'", name));
         if (const auto missing = render::missing_fluent(*found, world_); !missing.empty())
-            throw Refused(fmt::format("the visualizer '{}' draws a fluent '{}', which this "
-                                      "problem has not",
-                                      name, missing));
+            throw Refused(
+                fmt::format("the visualizer '{}' draws a fluent '{}', which this "
+                            "problem has not",
+                            name, missing));
         return *found;
     }
 
@@ -129,9 +129,8 @@ nb::object pixels(Painter& painter) {
     const std::size_t shape[] = {static_cast<std::size_t>(picture.height),
                                  static_cast<std::size_t>(picture.width), 3};
     std::uint8_t* const data = bytes.release();
-    const nb::capsule owner(data, [](void* array) noexcept {
-        delete[] static_cast<std::uint8_t*>(array);
-    });
+    const nb::capsule owner(
+        data, [](void* array) noexcept { delete[] static_cast<std::uint8_t*>(array); });
     return nb::cast(nb::ndarray<nb::numpy, std::uint8_t>(data, 3, shape, owner));
 }
 

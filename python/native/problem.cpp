@@ -84,9 +84,9 @@ void add_errors(nb::module_& module) {
             try {
                 std::rethrow_exception(thrown);
             } catch (const Failure& failure) {
-                const std::string text =
-                    failure.hint.empty() ? failure.what()
-                                         : fmt::format("{}: {}", failure.what(), failure.hint);
+                const std::string text = failure.hint.empty()
+                                             ? failure.what()
+                                             : fmt::format("{}: {}", failure.what(), failure.hint);
                 PyErr_SetString(static_cast<PyObject*>(type), text.c_str());
             } catch (const Diagnosed&) {
                 PyErr_SetString(static_cast<PyObject*>(type),
@@ -109,7 +109,8 @@ void add_problem(nb::module_& module) {
     add_errors(module);
     module.attr("version") = version;
     nb::class_<LoadedProblem>(module, "Simulator", "A problem that can be stepped.")
-        .def_prop_ro("files", files_as_text, "Paths of the domain and, apart from it, the instance.")
+        .def_prop_ro("files", files_as_text,
+                     "Paths of the domain and, apart from it, the instance.")
         .def_prop_ro("name", [](const LoadedProblem& problem) { return problem.files.name; })
         .def_prop_ro("lane_count",
                      [](const LoadedProblem& problem) { return problem.simulator->lane_count; })

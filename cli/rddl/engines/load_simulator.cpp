@@ -68,9 +68,9 @@ LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');
     costs.emitted_bytes = static_cast<std::int64_t>(text.size());
-    const CompiledSimulator compiled =
-        compiled_simulator(text, {files.name, options.ignore_cache, options.quiet,
-                                  extern_files(options.externs).headers});
+    const CompiledSimulator compiled = compiled_simulator(
+        text,
+        {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers});
     costs.build_seconds = compiled.object.build_seconds;
     costs.object_bytes =
         static_cast<std::int64_t>(std::filesystem::file_size(compiled.object.path));
