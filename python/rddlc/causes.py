@@ -12,3 +12,7 @@ NAMES = {TERMINATED: "terminated", HORIZON: "horizon", INVARIANT: "invariant", F
 def text_of(causes: int) -> str:
     """ "terminated", "horizon", "invariant", "fault", or several of them: "terminated, horizon"."""
     return ", ".join(name for bit, name in NAMES.items() if causes & bit)
+
+
+TEXTS = [None, *(text_of(causes) for causes in range(1, 16))]
+"""Of all causes; None of none."""

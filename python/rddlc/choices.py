@@ -39,10 +39,11 @@ class ActionPlan:
 
     def check_categories(self, categories: Array) -> None:
         """Raises ActionError for one that does not exist. categories: (n, categories)"""
-        if ((categories < 0) | (categories >= np.array(self.category_counts, np.int64))).any():
-            row, place = np.argwhere(
-                (categories < 0) | (categories >= np.array(self.category_counts, np.int64))
-            )[0]
+        if not self.category_counts:
+            return
+        outside = (categories < 0) | (categories >= np.array(self.category_counts))
+        if outside.any():
+            row, place = np.argwhere(outside)[0]
             raise ActionError(
                 f"category {place} is {categories[row, place]}, which is not from 0 to "
                 f"{self.category_counts[place] - 1}"
@@ -52,8 +53,9 @@ class ActionPlan:
         """Into rows of action values: (n, columns)."""
         if not self.picks:
             if len(self.columns):
-                values[:, self.columns] = categories + self.values
-            values[:, self.number_columns] = numbers
+                values[:, _as_slice(self.columns)] = categories + self.values
+            if self.numbers:
+                values[:, _as_slice(self.number_columns)] = numbers
             return
         values[:] = self.defaults
         rows = np.arange(len(values))
@@ -64,6 +66,12 @@ class ActionPlan:
         for place, column in enumerate(self.number_columns):
             chosen = (self.columns[categories] == column).any(axis=1)
             values[chosen, column] = numbers[chosen, place]
+
+
+def _as_slice(columns: Array) -> Any:
+    """The same columns, by a slice if they stand together: numpy copies these several times as fast."""
+    begin, end = int(columns[0]), int(columns[-1]) + 1
+    return slice(begin, end) if end - begin == len(columns) else columns
 
 
 class Squash:

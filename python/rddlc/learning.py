@@ -95,6 +95,8 @@ class ChoiceActions:
         self._box = box
         self._squash = Squash(self.plan) if box or normalize else None
         self._lower, self._upper = self._number_limits()
+        rows = (len(self._values), len(self._lower))  # of the same shape, numpy compares quickest
+        self._row_limits = np.full(rows, self._lower), np.full(rows, self._upper)
         self.space = self._new_space()
         self.step = batch.step_values
         self._quick = quick_writer(self.plan, self._values[0]) if self._squash is None else None
@@ -130,16 +132,21 @@ class ChoiceActions:
         """A row for each environment. Raises ActionError, and has changed nothing then."""
         categories, numbers = self._split(actions)
         self.plan.check_categories(categories)
-        outside = ~((numbers >= self._lower) & (numbers <= self._upper))
-        if outside.any():
-            row, place = np.argwhere(outside)[0]
-            raise ActionError(
-                f"the number for '{self.plan.numbers[place].name}' is {numbers[row, place]:g}, "
-                f"which is not from {self._lower[place]:g} to {self._upper[place]:g}"
-            )
+        self._check_numbers(numbers)
         if self._squash is not None:
             numbers = self._squash.values(numbers)
         self.plan.write(categories, numbers, self._values)
+
+    def _check_numbers(self, numbers: Array) -> None:
+        lower, upper = self._row_limits
+        if (numbers >= lower).all() and (numbers <= upper).all():
+            return
+        outside = ~((numbers >= self._lower) & (numbers <= self._upper))  # nan, too
+        row, place = np.argwhere(outside)[0]
+        raise ActionError(
+            f"the number for '{self.plan.numbers[place].name}' is {numbers[row, place]:g}, "
+            f"which is not from {self._lower[place]:g} to {self._upper[place]:g}"
+        )
 
     def _split(self, actions: Any) -> tuple[Array, Array]:
         rows, counts = len(self._values), self.plan.category_counts

@@ -20,6 +20,7 @@ from .problems import Problem
 
 AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMode.SAME_STEP: 2}
 NO_HORIZON = -1
+CAUSE_TEXTS = np.array(causes.TEXTS, object)
 
 
 class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
@@ -141,10 +142,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _infos(self) -> dict[str, Any]:
         ended = self._causes != 0
-        texts = np.full(self.num_envs, None, object)
-        for place in np.flatnonzero(ended):
-            texts[place] = causes.text_of(int(self._causes[place]))
-        of_ends: dict[str, Any] = {"cause": texts, "_cause": ended}
+        of_ends: dict[str, Any] = {"cause": CAUSE_TEXTS[self._causes], "_cause": ended}
         if self._mode != AutoresetMode.SAME_STEP:
             return of_ends
         final = self._reader.final_rows()
