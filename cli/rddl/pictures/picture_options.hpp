@@ -29,6 +29,9 @@ struct PictureOptions {
     bool any() const { return watch || any_file(); }
 };
 
+// --size
+void add_size_option(Command& command, int& width, int& height, const std::string& explanation);
+
 void add_picture_options(Command& command, PictureOptions& options);
 
 }  // namespace rddlc::cli

@@ -1,4 +1,5 @@
 // In place of the other files of this folder, where rddl is built without the library that draws.
+#include "pictures/charts.hpp"
 #include "pictures/picture_writer.hpp"
 #include "support/failure.hpp"
 
@@ -14,6 +15,18 @@ void require_pictures() {
     throw Failure("this rddl was built without pictures",
                   "install libcairo2-dev, libpng-dev, libgif-dev, pkg-config and "
                   "fonts-dejavu-core, and build it again");
+}
+
+void require_writable_chart(const ChartFiles&) {
+    require_pictures();
+}
+
+void write_chart(const CurveChart&, const ChartFiles&) {
+    require_pictures();
+}
+
+void write_chart(const IntervalChart&, const ChartFiles&) {
+    require_pictures();
 }
 
 std::string visualizer_list() {
