@@ -89,6 +89,27 @@ std::string bash_case(const Command& command, bool is_program, const std::string
                               fmt::join(names_of(options), " "));
 }
 
+// Of a command of the program. If it has commands of its own, one of them is the next word.
+std::string bash_command(const Command& command, bool is_program, const std::string& margin) {
+    if (command.commands.empty()) return bash_case(command, is_program, margin);
+    std::vector<std::string> words;
+    std::string text;
+    for (const Command& inner : command.commands) {
+        words.push_back(inner.name);
+        text += fmt::format("{0}    {1})\n{2}{0}        ;;\n", margin, inner.name,
+                            bash_case(inner, false, margin + "        "));
+    }
+    return fmt::format(
+        "{0}if ((COMP_CWORD == 2)); then\n"
+        "{0}    offered='{1} {2}'\n"
+        "{0}else\n"
+        "{0}    case ${{COMP_WORDS[2]}} in\n"
+        "{3}"
+        "{0}    esac\n"
+        "{0}fi\n",
+        margin, fmt::join(words, " "), fmt::join(names_of(options_of(command, false)), " "), text);
+}
+
 std::string bash_body(const Command& program) {
     if (program.commands.empty()) return bash_case(program, true, "    ");
     return fmt::format(
@@ -104,7 +125,7 @@ std::string bash_body(const Command& program) {
         "        esac\n"
         "    fi\n",
         fmt::join(first_words(program), " "), fmt::join(names_of(options_of(program, true)), " "),
-        branches(program, bash_case), bash_case(program, true, "            "));
+        branches(program, bash_command), bash_case(program, true, "            "));
 }
 
 std::string bash(const Command& program) {
@@ -160,6 +181,21 @@ std::string zsh_arguments(const Command& command, bool is_program, const std::st
                        zsh_options(command, is_program, margin));
 }
 
+std::string zsh_command(const Command& command, bool is_program, const std::string& margin) {
+    if (command.commands.empty()) return zsh_arguments(command, is_program, margin);
+    std::vector<std::string> words;
+    std::string text;
+    for (const Command& inner : command.commands) {
+        words.push_back(inner.name);
+        text += fmt::format("{0}{1})\n{2}{0}    ;;\n", margin, inner.name,
+                            zsh_arguments(inner, false, margin + "    "));
+    }
+    return fmt::format(
+        "{0}_arguments -C \\\n{1}{0}    '1:command:({2})' '*::argument:->argument'\n"
+        "{0}case $words[1] in\n{3}{0}esac\n",
+        margin, zsh_options(command, false, margin), fmt::join(words, " "), text);
+}
+
 std::string zsh_body(const Command& program) {
     if (program.commands.empty()) return zsh_arguments(program, true, "    ");
     std::string text =
@@ -180,7 +216,7 @@ std::string zsh_body(const Command& program) {
         "    argument)\n"
         "        case $words[1] in\n"
         "        help) _describe command commands ;;\n";
-    return text + branches(program, zsh_arguments) + "        esac\n        ;;\n    esac\n";
+    return text + branches(program, zsh_command) + "        esac\n        ;;\n    esac\n";
 }
 
 std::string zsh(const Command& program) {
@@ -216,6 +252,32 @@ std::string fish_option(const std::string& start, const Option& option) {
     return line + fmt::format(" -d {}\n", fish_text(option.explanation));
 }
 
+// The condition that the words so far name the command, and what it takes.
+std::string fish_options(const std::string& start, const std::string& condition,
+                         const Command& command) {
+    std::string text;
+    for (const Option& option : options_of(command, false))
+        text += fish_option(fmt::format("{} -n '{}'", start, condition), option);
+    return text;
+}
+
+std::string fish_command(const std::string& start, const Command& command) {
+    const std::string named = "__fish_seen_subcommand_from " + command.name;
+    if (command.commands.empty()) return fish_options(start, named, command);
+    std::vector<std::string> words;
+    for (const Command& inner : command.commands) words.push_back(inner.name);
+    const std::string unnamed =
+        fmt::format("{}; and not __fish_seen_subcommand_from {}", named, fmt::join(words, " "));
+    std::string text = fish_options(start, unnamed, command);
+    for (const Command& inner : command.commands) {
+        text += fmt::format("{} -n '{}' -f -a {} -d {}\n", start, unnamed, inner.name,
+                            fish_text(inner.summary));
+        text += fish_options(
+            start, fmt::format("{}; and __fish_seen_subcommand_from {}", named, inner.name), inner);
+    }
+    return text;
+}
+
 std::string fish(const Command& program) {
     std::string text = fmt::format(
         "# Completions of {0} for fish: {0} --completions fish | source\n", program.name);
@@ -226,9 +288,7 @@ std::string fish(const Command& program) {
     for (const Command& command : program.commands) {
         text += fmt::format("{} -n __fish_use_subcommand -f -a {} -d {}\n", start, command.name,
                             fish_text(command.summary));
-        for (const Option& option : options_of(command, false))
-            text += fish_option(
-                fmt::format("{} -n '__fish_seen_subcommand_from {}'", start, command.name), option);
+        text += fish_command(start, command);
     }
     return text;
 }

@@ -68,9 +68,11 @@ std::string options_text(const std::vector<Option>& options) {
 
 std::string command_text(const Command& command, const std::string& program_name) {
     const std::string full_name = program_name + " " + command.name;
-    return ".SS " + plain(full_name) + "\n" + plain(command.summary) + ".\n.PP\n" +
-           synopsis(command, full_name) + options_text(command.options) +
-           as_it_stands(command.details);
+    std::string text = ".SS " + plain(full_name) + "\n" + plain(command.summary) + ".\n.PP\n" +
+                       synopsis(command, full_name) + options_text(command.options) +
+                       as_it_stands(command.details);
+    for (const Command& inner : command.commands) text += command_text(inner, full_name);
+    return text;
 }
 
 }  // namespace

@@ -52,6 +52,20 @@ inline double measured(std::span<double> returns, Measure measure) {
     return mean(count);
 }
 
+template <class Archive>
+void archive_genome(Archive& archive, Genome& genome) {
+    archive(genome.inputs);
+    archive(genome.constants);
+    archive(genome.nodes);
+    archive(genome.outputs);
+}
+
+// A program, and how good it is.
+struct Found {
+    Genome genome;
+    Fitness fitness;
+};
+
 // One population: a father, and what is known of programs.
 class Island {
   public:
@@ -95,10 +109,10 @@ class Island {
         if (options_.restart_after > 0 && stagnation_ >= options_.restart_after) restart();
     }
 
-    void welcome(const Genome& genome, const Fitness& fitness) {
-        if (is_noisy() || !beats(fitness_, fitness)) {
-            father_ = genome;
-            fitness_ = fitness;
+    void welcome(const Found& found) {
+        if (is_noisy() || !beats(fitness_, found.fitness)) {
+            father_ = found.genome;
+            fitness_ = found.fitness;
         }
     }
 
@@ -113,12 +127,8 @@ class Island {
     template <class Archive>
     void archive(Archive& archive) {
         archive(random_);
-        for (Genome* genome : {&father_, &record_}) {
-            archive(genome->inputs);
-            archive(genome->constants);
-            archive(genome->nodes);
-            archive(genome->outputs);
-        }
+        archive_genome(archive, father_);
+        archive_genome(archive, record_);
         archive(fitness_);
         archive(record_fitness_);
         archive(has_record_);
@@ -225,7 +235,8 @@ class Island {
         const std::vector<Fitness> all = is_noisy() ? race(candidates) : evaluate_all(candidates);
         const std::size_t first = is_noisy() ? 1 : 0;
         if (is_noisy()) fitness_ = all.front();
-        if (!(start_value_ < std::numeric_limits<double>::infinity())) start_value_ = fitness_.value;
+        if (!(start_value_ < std::numeric_limits<double>::infinity()))
+            start_value_ = fitness_.value;
         std::size_t best = first;
         double sum = 0, count = 0;
         for (std::size_t c = first; c < all.size(); ++c) {
@@ -236,10 +247,10 @@ class Island {
             }
         }
         mean_of_children_ = count > 0 ? sum / count : 0;
-        // As long as nothing is better than what it began with, programs grow and shrink as they like.
+        // As long as nothing is better than what it began with, programs grow and shrink as they
+        // like.
         const bool saves = options_.parsimony && fitness_.value > start_value_;
-        replaced_ = saves ? !is_better(fitness_, all[best])
-                                       : !beats(fitness_, all[best]);
+        replaced_ = saves ? !is_better(fitness_, all[best]) : !beats(fitness_, all[best]);
         const bool improves = beats(all[best], fitness_);
         if (replaced_) {
             father_ = candidates[best];
@@ -327,7 +338,8 @@ class Island {
     bool has_record_ = false, replaced_ = false;
     std::int64_t generations_ = 0, stagnation_ = 0, evaluations_ = 0, episodes_ = 0, restarts_ = 0;
     std::uint64_t confirmed_ = 0;
-    double start_value_ = std::numeric_limits<double>::infinity(), mean_of_children_ = 0, deviation_ = 0.3;
+    double start_value_ = std::numeric_limits<double>::infinity(), mean_of_children_ = 0,
+           deviation_ = 0.3;
     std::unordered_map<std::uint64_t, Fitness> known_;
 };
 

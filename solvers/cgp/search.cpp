@@ -16,8 +16,15 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 1};
-CgpOptions completed(CgpOptions options, const rddl_problem& problem) {
+const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 2};
+
+CgpOptions completed(CgpOptions options, const rddl_problem& problem, const Ranks& ranks) {
+    if (options.islands == 0) options.islands = ranks.count;
+    if (options.islands < ranks.count)
+        throw Failure(fmt::format("{} ranks need as many islands, and --islands is {}", ranks.count,
+                                  options.islands),
+                      {}, usage_error);
+
     if (options.episodes == 0) options.episodes = problem.stochastic ? 16 : 1;
     if (options.children == 0) options.children = problem.stochastic ? 8 : 32;
     if (options.episodes > 1 && options.episodes < 4) options.episodes = 4;
@@ -28,13 +35,17 @@ CgpOptions completed(CgpOptions options, const rddl_problem& problem) {
 }  // namespace
 
 struct CgpSearch::State {
-    State(const rddl_simulator& its_simulator, const CgpOptions& its_options)
+    State(const rddl_simulator& its_simulator, const CgpOptions& its_options,
+          const Ranks& its_ranks)
         : simulator(its_simulator),
-          options(completed(its_options, *simulator.problem)),
+          ranks(its_ranks),
+          options(completed(its_options, *simulator.problem, ranks)),
           scope(program_scope(simulator, options.lifting, options.time, options.seed)),
-          team(std::min(options.threads, options.islands)) {
-        for (int i = 0; i < options.islands; ++i)
-            islands.push_back(std::make_unique<Island>(simulator, scope, options, i));
+          share(rddl::share_of(ranks.number, ranks.count, options.islands, 1)),
+          team(std::min(options.threads, static_cast<int>(share.end - share.begin))) {
+        for (std::int64_t i = share.begin; i < share.end; ++i)
+            islands.push_back(
+                std::make_unique<Island>(simulator, scope, options, static_cast<int>(i)));
         report();
     }
 
@@ -54,7 +65,7 @@ struct CgpSearch::State {
             });
             generations -= some;
             progress.generations += some;
-            if (some == until_migration && islands.size() > 1) migrate();
+            if (some == until_migration && options.islands > 1) migrate();
         }
         progress.seconds +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -63,32 +74,66 @@ struct CgpSearch::State {
 
     // In a ring; all leave before any arrives.
     void migrate() {
-        std::vector<std::pair<Genome, Fitness>> best;
-        for (const auto& island : islands)
-            best.emplace_back(island->record(), island->record_fitness());
+        SavingArchive own;
+        for (const auto& island : islands) {
+            Found found{island->record(), island->record_fitness()};
+            archive_genome(own, found.genome);
+            own(found.fitness);
+        }
+        std::vector<Found> all;
+        for (const std::string& theirs : ranks.gather(own.bytes()))
+            for (LoadingArchive archive(theirs); !archive.at_end();) {
+                Found& found = all.emplace_back();
+                archive_genome(archive, found.genome);
+                archive(found.fitness);
+            }
         for (std::size_t i = 0; i < islands.size(); ++i) {
-            const auto& [genome, fitness] = best[(i + islands.size() - 1) % islands.size()];
-            islands[i]->welcome(genome, fitness);
+            const std::size_t number = static_cast<std::size_t>(share.begin) + i;
+            islands[i]->welcome(all[(number + all.size() - 1) % all.size()]);
         }
     }
 
-    const Island& best_island() const {
-        const Island* best = islands.front().get();
-        for (const auto& island : islands)
-            if (is_better(island->record_fitness(), best->record_fitness())) best = island.get();
-        return *best;
+    // What this rank knows, as the others take it.
+    std::string own_report() const {
+        const Island* first = islands.front().get();
+        CgpProgress own;
+        Found found{first->record(), first->record_fitness()};
+        for (const auto& island : islands) {
+            if (is_better(island->record_fitness(), found.fitness))
+                found = {island->record(), island->record_fitness()};
+            own.evaluations += island->evaluations();
+            own.episodes += island->episodes();
+            own.restarts += island->restarts();
+        }
+        own.mean_of_children = first->mean_of_children();
+        own.replaced = first->replaced();
+        own.best = found.fitness;
+        SavingArchive archive;
+        archive(own);
+        archive_genome(archive, found.genome);
+        return archive.bytes();
     }
 
     void report() {
-        progress.best = best_island().record_fitness();
         progress.evaluations = progress.episodes = progress.restarts = 0;
-        for (const auto& island : islands) {
-            progress.evaluations += island->evaluations();
-            progress.episodes += island->episodes();
-            progress.restarts += island->restarts();
+        bool is_first = true;
+        for (const std::string& bytes : ranks.gather(own_report())) {
+            LoadingArchive archive(bytes);
+            CgpProgress theirs;
+            archive(theirs);
+            progress.evaluations += theirs.evaluations;
+            progress.episodes += theirs.episodes;
+            progress.restarts += theirs.restarts;
+            if (is_first) {
+                progress.mean_of_children = theirs.mean_of_children;
+                progress.replaced = theirs.replaced;
+            }
+            if (is_first || is_better(theirs.best, progress.best)) {
+                progress.best = theirs.best;
+                archive_genome(archive, best);
+            }
+            is_first = false;
         }
-        progress.mean_of_children = islands.front()->mean_of_children();
-        progress.replaced = islands.front()->replaced();
     }
 
     template <class Archive>
@@ -105,19 +150,49 @@ struct CgpSearch::State {
             scope.inputs[i].shift = scales[2 * i];
             scope.inputs[i].scale = scales[2 * i + 1];
         }
-        for (const auto& island : islands) island->archive(archive);
+        archive_islands(archive);
+    }
+
+    // One after the other, whatever rank they are on.
+    template <class Archive>
+    void archive_islands(Archive& archive) {
+        int count = options.islands;
+        archive(count);
+        if (count != options.islands)
+            throw Failure(fmt::format("it is of a run of {} islands, and this has {}", count,
+                                      options.islands));
+        if constexpr (Archive::is_loading) {
+            for (std::int64_t i = 0; i < count; ++i) {
+                std::string bytes;
+                archive(bytes);
+                LoadingArchive own(bytes);
+                if (i >= share.begin && i < share.end)
+                    islands[static_cast<std::size_t>(i - share.begin)]->archive(own);
+            }
+        } else {
+            SavingArchive own;
+            for (const auto& island : islands) {
+                SavingArchive one;
+                island->archive(one);
+                own(one.bytes());
+            }
+            for (const std::string& theirs : ranks.gather(own.bytes())) archive.append(theirs);
+        }
     }
 
     const rddl_simulator& simulator;
+    Ranks ranks;
     CgpOptions options;
     ProgramScope scope;
+    rddl::Range share;  // of the islands, that are on this rank
     rddl::Team team;
     std::vector<std::unique_ptr<Island>> islands;
     CgpProgress progress;
+    Genome best;
 };
 
-CgpSearch::CgpSearch(const rddl_simulator& simulator, const CgpOptions& options)
-    : state_(std::make_unique<State>(simulator, options)) {}
+CgpSearch::CgpSearch(const rddl_simulator& simulator, const CgpOptions& options, const Ranks& ranks)
+    : state_(std::make_unique<State>(simulator, options, ranks)) {}
 CgpSearch::~CgpSearch() = default;
 
 void CgpSearch::run(std::int64_t generations) {
@@ -127,7 +202,7 @@ const ProgramScope& CgpSearch::scope() const {
     return state_->scope;
 }
 const Genome& CgpSearch::best() const {
-    return state_->best_island().record();
+    return state_->best;
 }
 const CgpProgress& CgpSearch::progress() const {
     return state_->progress;

@@ -3,11 +3,13 @@
 // (1 + lambda) with neutral drift: a child that is as good as its father takes its place. Episodes
 // of a generation begin with the same random numbers for father and children, new ones in each
 // generation; of several episodes, all candidates play a few and the best of them the others.
-// Islands do this side by side, and at times the best program of an island goes to the next one.
+// Islands do this side by side, and at times the best program of an island goes to the next one, in
+// a ring.
 #pragma once
 
 #include "solvers/cgp/genome.hpp"
 #include "solvers/cgp/scope.hpp"
+#include "solvers/ranks/ranks.hpp"
 
 #include <rddl/simulator.h>
 
@@ -34,11 +36,11 @@ struct CgpOptions {
     std::int64_t restart_after = 300;  // generations without a better program; 0: never
     std::int64_t tune_every = 50;     // generations between searches for better constants; 0: never
     std::int64_t migrate_every = 50;  // generations
-    int islands = 1;
+    int islands = 0;                  // 0: one for each rank
     int threads = 1;
     Lifting lifting = Lifting::Auto;
     bool parsimony = true;  // of programs that are as good, a smaller one is better
-    bool time = false;  // programs read how much of the episode is over
+    bool time = false;      // programs read how much of the episode is over
     std::uint64_t seed = 0;
 };
 
@@ -59,8 +61,9 @@ struct CgpProgress {
 
 class CgpSearch {
   public:
-    // The simulator must outlive this.
-    CgpSearch(const rddl_simulator& simulator, const CgpOptions& options);
+    // The simulator must outlive this. Ranks share the islands; what they find does not depend on
+    // how many ranks there are. Throws a Failure where there are fewer islands than ranks.
+    CgpSearch(const rddl_simulator& simulator, const CgpOptions& options, const Ranks& ranks = {});
     ~CgpSearch();
 
     void run(std::int64_t generations);

@@ -34,8 +34,9 @@ std::string cgp_status(const CgpSearch& search) {
 
 }  // namespace
 
-Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options) {
-    const auto search = std::make_shared<CgpSearch>(simulator, options);
+Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
+                    const Ranks& ranks) {
+    const auto search = std::make_shared<CgpSearch>(simulator, options, ranks);
     // So many at once that to look at what came of them costs nothing.
     const std::int64_t total = options.generations;
     const std::int64_t some = std::clamp<std::int64_t>(total / 200, 1, 50);

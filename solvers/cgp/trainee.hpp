@@ -7,6 +7,7 @@
 namespace rddlc::solvers {
 
 // The simulator must outlive it.
-Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options);
+Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
+                    const Ranks& ranks = {});
 
 }  // namespace rddlc::solvers

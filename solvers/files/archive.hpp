@@ -30,6 +30,8 @@ class SavingArchive {
         (*this)(static_cast<std::uint64_t>(text.size()));
         bytes_.append(text);
     }
+    // What another archive has saved.
+    void append(std::string_view bytes) { bytes_.append(bytes); }
     const std::string& bytes() const { return bytes_; }
 
   private:

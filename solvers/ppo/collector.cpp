@@ -28,17 +28,18 @@ std::uint64_t seed_of(std::uint64_t seed, std::int64_t environment, std::int64_t
 }  // namespace
 
 Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
-                     const PpoOptions& options, std::int64_t first, std::int64_t count)
+                     const PpoOptions& options, const EnvironmentShare& share)
     : simulator_(simulator),
       model_(model),
       options_(options),
       gamma_(std::min(options.gamma, simulator.problem->discount)),
       bootstraps_(options.bootstraps.value_or(!model.observations.time)),
-      first_(first),
-      count_(count),
-      batch_(create_batch(simulator, batch_options(count))),
-      chooser_(simulator, model.actions, options.noise, options.correlation, count) {
-    const auto environments = static_cast<std::size_t>(count);
+      first_(share.first),
+      count_(share.count),
+      origin_(share.origin),
+      batch_(create_batch(simulator, batch_options(share.count))),
+      chooser_(simulator, model.actions, options.noise, options.correlation, share.count) {
+    const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
     const auto columns = static_cast<std::size_t>(model.observations.column_count());
     features_.resize(environments * features);
@@ -60,7 +61,8 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
 
 void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
     std::vector<std::uint64_t> seeds;
-    for (std::int64_t e = 0; e < count_; ++e) seeds.push_back(seed_of(seed, first_ + e, update));
+    for (std::int64_t e = 0; e < count_; ++e)
+        seeds.push_back(seed_of(seed, origin_ + first_ + e, update));
     simulator_.set_seeds(batch_.get(), 0, count_, seeds.data());
     std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
     std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
@@ -118,7 +120,7 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
                         at(experience.masks, actions.mask_size()),
                         at(experience.log_probabilities, 1)};
     const auto key_of = [&](std::int64_t e) {
-        return ChoiceKey{seed, static_cast<std::uint64_t>(first_ + e),
+        return ChoiceKey{seed, static_cast<std::uint64_t>(origin_ + first_ + e),
                          static_cast<std::uint64_t>(update * experience.rollout + t)};
     };
     chooser_.choose(batch_.get(), outputs_.data(), output_row, model_.log_deviations(), key_of,
@@ -234,6 +236,9 @@ void Collector::archive(Archive& archive) {
     if constexpr (!Archive::is_loading)
         simulator_.get_state(batch_.get(), 0, count_, states.data());
     archive(states);
+    if (states.size() !=
+        static_cast<std::size_t>(count_) * static_cast<std::size_t>(simulator_.problem->state_size))
+        throw Failure("it is of a run with another --envs or --threads");
     archive(features_);
     archive(chooser_.noise());
     archive(chooser_.has_noise());

@@ -18,12 +18,17 @@ struct FinishedEpisode {
     std::uint8_t causes;
 };
 
+// [first, first + count) of the environments of this process, which begin at `origin` of those of
+// all.
+struct EnvironmentShare {
+    std::int64_t first, count, origin = 0;
+};
+
 class Collector {
   public:
-    // Environments [first, first + count) of those of `options`. All that is referred to must
-    // outlive this.
+    // All that is referred to must outlive this.
     Collector(const rddl_simulator& simulator, const PpoModel& model, const PpoOptions& options,
-              std::int64_t first, std::int64_t count);
+              const EnvironmentShare& share);
 
     // New random numbers for what follows, which depend on seed, update and environment only.
     void begin_update(std::uint64_t seed, std::int64_t update);
@@ -55,7 +60,7 @@ class Collector {
     const PpoOptions& options_;
     double gamma_;
     bool bootstraps_;
-    std::int64_t first_, count_;
+    std::int64_t first_, count_, origin_;
     Batch batch_;
     Chooser chooser_;
     std::vector<float> features_;      // rows as they are, of each environment

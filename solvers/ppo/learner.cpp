@@ -22,12 +22,13 @@ std::size_t parts(std::size_t count, std::size_t size) {
 
 }  // namespace
 
-Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team)
+Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, const Ranks& ranks)
     : first_moments(model.parameters.size()),
       second_moments(model.parameters.size()),
       model_(model),
       options_(options),
       team_(team),
+      ranks_(ranks),
       workplaces_(static_cast<std::size_t>(team.size())),
       policy_rows_(model.policy.rows),
       value_rows_(model.value.rows) {
@@ -108,8 +109,19 @@ void Learner::learn_tile(const Experience& experience, std::span<const std::uint
                        gradient + model_.value_begin());
 }
 
+void Learner::add_up(std::vector<float>& gradient, LossSums& sums) {
+    if (ranks_.count == 1) return;
+    double* const numbers[] = {&sums.policy, &sums.value, &sums.entropy, &sums.kl, &sums.clipped};
+    message_ = gradient;
+    for (const double* number : numbers) message_.push_back(static_cast<float>(*number));
+    ranks_.add_up(message_);
+    std::copy_n(message_.begin(), gradient.size(), gradient.begin());
+    for (std::size_t i = 0; i < std::size(numbers); ++i)
+        *numbers[i] = static_cast<double>(message_[gradient.size() + i]);
+}
+
 LossSums Learner::learn(const Experience& experience, std::span<const std::uint32_t> samples,
-                        const Step& step) {
+                        const Moments& advantages, const Step& step) {
     LossWeights weights{options_.clip,
                         options_.value_clip,
                         options_.value_weight,
@@ -117,17 +129,12 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
                         step.kl_penalty,
                         0,
                         1,
-                        1 / static_cast<double>(samples.size())};
-    if (options_.normalises_advantages && samples.size() > 1) {
-        double sum = 0, squares = 0;
-        for (const std::uint32_t s : samples) sum += static_cast<double>(experience.advantages[s]);
-        weights.advantage_mean = sum / static_cast<double>(samples.size());
-        for (const std::uint32_t s : samples) {
-            const double d = static_cast<double>(experience.advantages[s]) - weights.advantage_mean;
-            squares += d * d;
-        }
-        weights.advantage_scale =
-            1 / (std::sqrt(squares / static_cast<double>(samples.size() - 1)) + 1e-8);
+                        1 / advantages.count};
+    if (options_.normalises_advantages && advantages.count > 1) {
+        weights.advantage_mean = advantages.sum / advantages.count;
+        const double squares =
+            std::max(0.0, advantages.squares - advantages.sum * weights.advantage_mean);
+        weights.advantage_scale = 1 / (std::sqrt(squares / (advantages.count - 1)) + 1e-8);
     }
 
     const NetworkFunctions<float>& functions = network_functions();
@@ -161,6 +168,7 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
         all.kl += sums_[c].kl;
         all.clipped += sums_[c].clipped;
     }
+    add_up(gradient, all);
     double squares = 0;
     for (const float number : gradient)
         squares += static_cast<double>(number) * static_cast<double>(number);

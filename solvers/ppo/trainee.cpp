@@ -42,8 +42,9 @@ std::string ppo_status(const PpoProgress& progress, double seconds) {
 
 }  // namespace
 
-Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options) {
-    const auto trainer = std::make_shared<PpoTrainer>(simulator, options);
+Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
+                    const Ranks& ranks) {
+    const auto trainer = std::make_shared<PpoTrainer>(simulator, options, ranks);
     const auto seconds = std::make_shared<double>(0);
     const auto total = static_cast<double>(options.steps);
     Trainee trainee;

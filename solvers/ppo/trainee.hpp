@@ -7,6 +7,7 @@
 namespace rddlc::solvers {
 
 // The simulator must outlive it.
-Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options);
+Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
+                    const Ranks& ranks = {});
 
 }  // namespace rddlc::solvers

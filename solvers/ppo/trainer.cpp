@@ -21,7 +21,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 1};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 2};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -45,7 +45,7 @@ void check(const PpoOptions& options) {
 
 // 0 .. count - 1, shuffled (Fisher and Yates) by numbers of this seed and place alone.
 void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_t update,
-             std::uint64_t epoch) {
+             std::uint64_t epoch, std::uint64_t rank) {
     using namespace rddl::philox;
     std::iota(order.begin(), order.end(), 0u);
     Block<std::uint64_t> words{};
@@ -53,7 +53,7 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
         if (i % 4 == 3 || i == order.size() - 1)
             words = generate<draw_rounds>(
                 Block<std::uint64_t>{i / 4, epoch, update & 0xFFFFFFFF, update >> 32},
-                Key<std::uint64_t>{seed & 0xFFFFFFFF, (seed >> 32) ^ 0x73687566});
+                Key<std::uint64_t>{seed & 0xFFFFFFFF, (seed >> 32) ^ 0x73687566 ^ rank << 8});
         const std::uint64_t other = (words[i % 4] & 0xFFFFFFFF) * (i + 1) >> 32;
         std::swap(order[i], order[other]);
     }
@@ -62,13 +62,15 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
 }  // namespace
 
 struct PpoTrainer::State {
-    State(const rddl_simulator& its_simulator, const PpoOptions& its_options)
+    State(const rddl_simulator& its_simulator, const PpoOptions& its_options,
+          const Ranks& its_ranks)
         : simulator(its_simulator),
           options(its_options),
+          ranks(its_ranks),
           model(make_model(observation_space(simulator, options.observations),
                            action_space(simulator), options)),
           team(options.threads),
-          learner(model, options, team),
+          learner(model, options, team, ranks),
           experience(model, options.environments, options.rollout),
           feature_statistics(static_cast<std::size_t>(model.features())),
           order(experience.count()),
@@ -78,8 +80,10 @@ struct PpoTrainer::State {
         const int shards = std::min(team.size(), options.environments);
         for (int s = 0; s < shards; ++s) {
             const rddl::Range share = rddl::share_of(s, shards, options.environments, 8);
-            collectors.push_back(std::make_unique<Collector>(simulator, model, options, share.begin,
-                                                             share.end - share.begin));
+            collectors.push_back(std::make_unique<Collector>(
+                simulator, model, options,
+                EnvironmentShare{share.begin, share.end - share.begin,
+                                 std::int64_t{ranks.number} * options.environments}));
         }
         entropy_weight =
             options.entropy_weight.value_or(model.actions.logit_count > 0 ? 0.01 : 0.0);
@@ -100,14 +104,24 @@ struct PpoTrainer::State {
         });
     }
 
+    // Of all ranks.
+    void add_up(std::vector<Moments>& moments) const {
+        static_assert(sizeof(Moments) == 3 * sizeof(double));
+        ranks.add_up({&moments.front().count, 3 * moments.size()});
+    }
+
     // Environment by environment, so that shards do not matter.
     void learn_scales() {
-        if (options.normalises_observations) {
-            const std::size_t features = feature_statistics.size();
-            std::vector<Moments> all(features);
-            for (const auto& collector : collectors)
-                for (std::size_t i = 0; i < collector->feature_moments().size(); ++i)
-                    all[i % features].add(collector->feature_moments()[i]);
+        // Of each feature, and of the returns.
+        const std::size_t features = feature_statistics.size();
+        std::vector<Moments> all(features + 1);
+        for (const auto& collector : collectors) {
+            for (std::size_t i = 0; i < collector->feature_moments().size(); ++i)
+                all[i % features].add(collector->feature_moments()[i]);
+            for (const Moments& moments : collector->return_moments()) all[features].add(moments);
+        }
+        add_up(all);
+        if (options.normalises_observations)
             for (std::size_t f = 0; f < features; ++f) {
                 feature_statistics[f].mean = static_cast<double>(model.normaliser.means[f]);
                 feature_statistics[f].add(all[f]);
@@ -115,11 +129,7 @@ struct PpoTrainer::State {
                 model.normaliser.factors[f] =
                     static_cast<float>(1 / feature_statistics[f].deviation());
             }
-        }
-        Moments returns;
-        for (const auto& collector : collectors)
-            for (const Moments& moments : collector->return_moments()) returns.add(moments);
-        return_statistics.add(returns);
+        return_statistics.add(all[features]);
     }
 
     void estimate() {
@@ -144,6 +154,17 @@ struct PpoTrainer::State {
         return options.learning_rate * std::max(0.0, 1 - done);
     }
 
+    // Of all ranks, as they are in `order`: what normalises the advantages of each minibatch is
+    // known before the first of them is learned from.
+    std::vector<Moments> advantages_of_minibatches() const {
+        const auto size = static_cast<std::size_t>(options.minibatch);
+        std::vector<Moments> all((order.size() + size - 1) / size);
+        for (std::size_t s = 0; s < order.size(); ++s)
+            all[s / size].add(static_cast<double>(experience.advantages[order[s]]));
+        add_up(all);
+        return all;
+    }
+
     void learn(double rate) {
         LossSums sums;
         double samples = 0, kl_sum = 0, kl_samples = 0;
@@ -151,15 +172,17 @@ struct PpoTrainer::State {
         bool stops = false;
         for (int epoch = 0; epoch < options.epochs && !stops; ++epoch) {
             shuffle(order, options.seed, static_cast<std::uint64_t>(progress.updates),
-                    static_cast<std::uint64_t>(epoch));
+                    static_cast<std::uint64_t>(epoch), static_cast<std::uint64_t>(ranks.number));
+            const std::vector<Moments> advantages = advantages_of_minibatches();
             kl_sum = kl_samples = 0;
             const auto size = static_cast<std::size_t>(options.minibatch);
             for (std::size_t s = 0; s < order.size() && !stops; s += size) {
                 const std::span<const std::uint32_t> batch(order.data() + s,
                                                            std::min(size, order.size() - s));
+                const Moments& advantage = advantages[s / size];
                 const LossSums some =
-                    learner.learn(experience, batch, {rate, entropy_weight, kl_penalty});
-                const auto count = static_cast<double>(batch.size());
+                    learner.learn(experience, batch, advantage, {rate, entropy_weight, kl_penalty});
+                const double count = advantage.count;
                 sums.policy += some.policy;
                 sums.value += some.value;
                 sums.entropy += some.entropy;
@@ -195,20 +218,23 @@ struct PpoTrainer::State {
 
     void report() {
         std::int64_t mended_now = 0;
+        std::vector<FinishedEpisode> ended;
         progress.simulator_seconds = 0;
         progress.episodes = 0;
         for (const auto& collector : collectors) {
             mended_now += collector->mended();
             progress.simulator_seconds += collector->simulator_seconds();
-            for (const FinishedEpisode& episode : collector->finished()) {
-                episodes.push_back(episode);
-                progress.episodes += 1;
-            }
+            ended.insert(ended.end(), collector->finished().begin(), collector->finished().end());
+        }
+        SavingArchive own;
+        own(ended);
+        for (const std::string& theirs : ranks.gather(own.bytes())) {
+            LoadingArchive archive(theirs);
+            archive(ended);
+            episodes.insert(episodes.end(), ended.begin(), ended.end());
+            progress.episodes += static_cast<std::int64_t>(ended.size());
         }
         while (episodes.size() > remembered_episodes) episodes.pop_front();
-        progress.mended_rate =
-            static_cast<double>(mended_now - mended) / static_cast<double>(experience.count());
-        mended = mended_now;
         const auto count = static_cast<double>(std::max<std::size_t>(episodes.size(), 1));
         progress.mean_return = progress.mean_discounted_return = progress.mean_length =
             progress.success_rate = 0;
@@ -222,12 +248,18 @@ struct PpoTrainer::State {
             progress.mean_return = progress.mean_discounted_return = progress.mean_length =
                 std::nan("");
 
-        Moments returns, errors;
+        std::vector<Moments> sums(3);
+        Moments &returns = sums[0], &errors = sums[1], &mending = sums[2];
+        mending.count = static_cast<double>(experience.count());
+        mending.sum = static_cast<double>(mended_now - mended);
+        mended = mended_now;
         for (std::size_t s = 0; s < experience.count(); ++s) {
             returns.add(static_cast<double>(experience.returns[s]));
             errors.add(static_cast<double>(experience.returns[s]) -
                        static_cast<double>(experience.values[s]));
         }
+        add_up(sums);
+        progress.mended_rate = mending.sum / mending.count;
         const auto variance = [](const Moments& m) {
             return m.squares / m.count - m.sum / m.count * (m.sum / m.count);
         };
@@ -268,7 +300,7 @@ struct PpoTrainer::State {
                           "try a lower --lr, or look for rewards and observations that are huge");
         }
         progress.learn_seconds = seconds_since(begin);
-        progress.steps += static_cast<std::int64_t>(experience.count());
+        progress.steps += static_cast<std::int64_t>(experience.count()) * ranks.count;
         progress.updates += 1;
         report();
     }
@@ -289,11 +321,32 @@ struct PpoTrainer::State {
         std::vector<FinishedEpisode> list(episodes.begin(), episodes.end());
         archive(list);
         episodes.assign(list.begin(), list.end());
-        for (const auto& collector : collectors) collector->archive(archive);
+        archive_environments(archive);
+    }
+
+    // Of all ranks, one after the other.
+    template <class Archive>
+    void archive_environments(Archive& archive) {
+        int count = ranks.count;
+        archive(count);
+        if (count != ranks.count)
+            throw Failure(
+                fmt::format("it is of a run of {} ranks, and this has {}", count, ranks.count));
+        SavingArchive saved;
+        if constexpr (!Archive::is_loading)
+            for (const auto& collector : collectors) collector->archive(saved);
+        std::vector<std::string> all(static_cast<std::size_t>(count));
+        if constexpr (!Archive::is_loading) all = ranks.gather(saved.bytes());
+        for (std::string& bytes : all) archive(bytes);
+        if constexpr (Archive::is_loading) {
+            LoadingArchive own(all[static_cast<std::size_t>(ranks.number)]);
+            for (const auto& collector : collectors) collector->archive(own);
+        }
     }
 
     const rddl_simulator& simulator;
     PpoOptions options;
+    Ranks ranks;
     PpoModel model;
     rddl::Team team;
     Learner learner;
@@ -308,9 +361,10 @@ struct PpoTrainer::State {
     PpoProgress progress;
 };
 
-PpoTrainer::PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options) {
+PpoTrainer::PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options,
+                       const Ranks& ranks) {
     check(options);
-    state_ = std::make_unique<State>(simulator, options);
+    state_ = std::make_unique<State>(simulator, options, ranks);
 }
 PpoTrainer::~PpoTrainer() = default;
 

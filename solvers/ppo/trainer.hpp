@@ -7,6 +7,7 @@
 
 #include "solvers/ppo/model.hpp"
 #include "solvers/ppo/options.hpp"
+#include "solvers/ranks/ranks.hpp"
 
 #include <rddl/simulator.h>
 
@@ -33,8 +34,9 @@ struct PpoProgress {
 class PpoTrainer {
   public:
     // Throws a Failure where the options do not fit each other or the problem. The simulator must
-    // outlive this.
-    PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options);
+    // outlive this. Each rank steps as many environments as the options say, and gives its gradient
+    // to all; the same options and number of ranks give the same bytes.
+    PpoTrainer(const rddl_simulator& simulator, const PpoOptions& options, const Ranks& ranks = {});
     ~PpoTrainer();
 
     // Throws a Failure, with the step and the cause, where a loss or a gradient is not finite.
@@ -45,7 +47,7 @@ class PpoTrainer {
     const PpoOptions& options() const;
     const PpoProgress& progress() const;
 
-    // All that it takes to go on as if nothing had happened.
+    // All that it takes to go on as if nothing had happened, on as many ranks.
     std::string save() const;
     // Of a trainer with the same options. Throws a Failure where it is none or of another problem.
     void load(std::string_view bytes);

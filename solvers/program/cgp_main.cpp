@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
     add_number(program.options, "--cols", options.nodes);
     add_number(program.options, "--islands", options.islands);
     add_number(program.options, "--threads", options.threads);
-    program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed) {
+    program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;
-        return cgp_trainee(simulator, options);
+        return cgp_trainee(simulator, options, ranks);
     };
     program.read = [](const rddl_simulator& simulator, std::string_view text) {
         return program_policy(simulator, read_program(simulator, text), "cgp");

@@ -21,9 +21,9 @@ int main(int argc, char** argv) {
     add_number(program.options, "--lr", options.learning_rate);
     add_number(program.options, "--gamma", options.gamma);
     add_number(program.options, "--threads", options.threads);
-    program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed) {
+    program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;
-        return ppo_trainee(simulator, options);
+        return ppo_trainee(simulator, options, ranks);
     };
     program.read = [](const rddl_simulator& simulator, std::string_view text) {
         return ppo_policy(simulator, read_ppo_policy(simulator, text), false, 0, "ppo");

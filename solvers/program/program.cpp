@@ -72,11 +72,15 @@ ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& 
     training.stops = [] {
         return signalled != 0;
     };
-    const Trainee trainee = program.trainee(simulator, training.seed);
-    const TrainingResult result = train(simulator, trainee, training);
-    fmt::print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return, result.best_length,
-               training.folder.string());
-    return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
+    return run_on_ranks(argv[0], training.stops, [&](const Ranks& ranks) {
+        training.ranks = ranks;
+        const Trainee trainee = program.trainee(simulator, training.seed, ranks);
+        const TrainingResult result = train(simulator, trainee, training);
+        if (ranks.is_first())
+            fmt::print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
+                       result.best_length, training.folder.string());
+        return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
+    });
 }
 
 ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgram& program,

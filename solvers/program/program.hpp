@@ -22,7 +22,7 @@ struct SolverProgram {
     std::string solver;  // "ppo"
     std::string help;    // lines about its options
     WordTakers options;  // "--steps"
-    std::function<Trainee(const rddl_simulator&, std::uint64_t seed)> trainee;
+    std::function<Trainee(const rddl_simulator&, std::uint64_t seed, const Ranks&)> trainee;
     std::function<Policy(const rddl_simulator&, std::string_view text)> read;
 };
 

@@ -50,14 +50,13 @@ class Training {
             if (due || promises) evaluate();
             log();
             show(false);
-            stops = interrupted() || out_of_time() || result_.reached;
-            if (!stops && seconds_between(last_saved_, Clock::now()) > seconds_between_checkpoints)
-                save();
+            agree();
+            stops = result_.interrupted || ends_by_time_ || result_.reached;
+            if (!stops && saves_) save();
         }
         if (!evaluated_ || evaluated_at_ != trainee_.steps()) evaluate();
         show(true);
         save();
-        result_.interrupted = interrupted();
         result_.seconds = elapsed();
         result_.best_return = best_return_;
         result_.best_length = best_length_;
@@ -68,7 +67,8 @@ class Training {
     std::filesystem::path file(const char* name) const { return options_.folder / name; }
 
     void open_folder() {
-        const bool exists = std::filesystem::exists(file("checkpoint"));
+        const bool exists =
+            options_.ranks.is_first() && std::filesystem::exists(file("checkpoint"));
         if (options_.resumes) {
             load();
             return;
@@ -80,8 +80,18 @@ class Training {
     }
 
     double elapsed() const { return seconds_before_ + seconds_between(begin_, Clock::now()); }
-    bool interrupted() const { return options_.stops && options_.stops(); }
-    bool out_of_time() const { return options_.seconds > 0 && elapsed() >= options_.seconds; }
+
+    // What clocks and signals tell one rank is true for all.
+    void agree() {
+        const bool interrupted = options_.stops && options_.stops();
+        const bool out_of_time = options_.seconds > 0 && elapsed() >= options_.seconds;
+        const bool due = seconds_between(last_saved_, Clock::now()) > seconds_between_checkpoints;
+        double flags[] = {interrupted ? 1.0 : 0.0, out_of_time ? 1.0 : 0.0, due ? 1.0 : 0.0};
+        options_.ranks.add_up(flags);
+        result_.interrupted = flags[0] > 0;
+        ends_by_time_ = flags[1] > 0;
+        saves_ = flags[2] > 0;
+    }
 
     // The likeliest actions, on seeds that are the same for all evaluations.
     void evaluate() {
@@ -122,7 +132,7 @@ class Training {
 
     // On a terminal one line, several times a second; elsewhere a line every five seconds.
     void show(bool last) {
-        if (options_.quiet) return;
+        if (options_.quiet || !options_.ranks.is_first()) return;
         const auto now = Clock::now();
         const bool terminal = is_terminal(2);
         if (!last && seconds_between(last_shown_, now) < (terminal ? 0.2 : 5.0)) return;
@@ -146,6 +156,8 @@ class Training {
     // The checkpoint is the last, so that it never knows more than the other files.
     void save() {
         last_saved_ = Clock::now();
+        const std::string learner = trainee_.save();  // of all ranks
+        if (!options_.ranks.is_first()) return;
         std::filesystem::create_directories(options_.folder);
         const char* const extension = trainee_.solver == "cgp" ? ".cgp" : ".json";
         write((std::string("policy") + extension).c_str(),
@@ -155,13 +167,14 @@ class Training {
         write("events.out.tfevents.rddl", log_.events());
         SavingArchive archive;
         archive_all(archive);
-        archive(trainee_.save());
+        archive(learner);
         write("checkpoint", archive.bytes());
     }
 
     void load() {
         const std::filesystem::path path = file("checkpoint");
-        const std::string bytes = read_file(path);
+        const Ranks& ranks = options_.ranks;
+        const std::string bytes = ranks.gather(ranks.is_first() ? read_file(path) : "").front();
         try {
             LoadingArchive archive(bytes);
             archive_all(archive);
@@ -194,6 +207,7 @@ class Training {
     const Trainee& trainee_;
     const TrainingOptions& options_;
     TrainingResult result_;
+    bool ends_by_time_ = false, saves_ = false;
     RunLog log_;
     Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;
     double seconds_before_ = 0;  // of runs that this one goes on with

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solvers/policies/policy.hpp"
+#include "solvers/ranks/ranks.hpp"
 
 #include <rddl/simulator.h>
 
@@ -45,6 +46,7 @@ struct TrainingOptions {
     std::uint64_t seed = 0;
     bool quiet = false;
     std::function<bool()> stops;  // Ctrl-C; may be empty
+    Ranks ranks;                  // which train together; the first one writes and tells
 };
 
 struct TrainingResult {

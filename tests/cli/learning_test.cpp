@@ -79,6 +79,43 @@ TEST_F(LearningProgram, CtrlCSavesAndEnds) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run/policy.json"));
 }
 
+// Width and height in the header of a PNG file.
+std::pair<int, int> png_size(const std::string& bytes) {
+    const auto number = [&](std::size_t at) {
+        int value = 0;
+        for (std::size_t i = at; i < at + 4; ++i)
+            value = value * 256 + static_cast<unsigned char>(bytes.at(i));
+        return value;
+    };
+    return bytes.starts_with("\x89PNG") ? std::pair{number(16), number(20)} : std::pair{0, 0};
+}
+
+TEST_F(LearningProgram, DrawsLearningCurvesAndComparisons) {
+    for (const char* const seed : {"0", "1"})
+        ASSERT_EQ(run(on_tanks("train cgp", fmt::format("--gens 20 --seed {0} --quiet --out "
+                                                        "runs/tanks_cgp_{0} {1}",
+                                                        seed, small_cgp)))
+                      .status,
+                  0);
+    const Outcome plotted = run("plot runs --png a.png --svg a.svg --size 640x480");
+    if (plotted.err.find("without pictures") != std::string::npos) GTEST_SKIP() << plotted.err;
+    ASSERT_EQ(plotted.status, 0) << plotted.err;
+    EXPECT_EQ(plotted.out, "wrote a.png\nwrote a.svg\n");
+    EXPECT_EQ(png_size(read_file(folder_ / "a.png")), (std::pair{640, 480}));
+    EXPECT_NE(read_file(folder_ / "a.svg").find("<svg"), std::string::npos);
+    // A band about one curve, or two curves.
+    ASSERT_EQ(run("plot runs/tanks_cgp_0/ runs/tanks_cgp_1 --size 640x480 --png b.png").status, 0);
+    ASSERT_EQ(run("plot runs --each --size 640x480 --png c.png").status, 0);
+    EXPECT_NE(read_file(folder_ / "a.png"), read_file(folder_ / "c.png"));
+    const Outcome wrong = run("plot runs --y rollout/loss");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("has no column 'rollout/loss'"), std::string::npos) << wrong.err;
+    EXPECT_EQ(run("plot nowhere").status, 2);
+    ASSERT_EQ(run(on_tanks("compare", "--policies noop,random --episodes 9 --png d.png")).status,
+              0);
+    EXPECT_EQ(png_size(read_file(folder_ / "d.png")), (std::pair{900, 600}));
+}
+
 TEST_F(LearningProgram, ExportsWhatItLearned) {
     ASSERT_EQ(
         run(on_tanks("train cgp", "--gens 5 --quiet --out c " + std::string(small_cgp))).status, 0);

@@ -40,6 +40,12 @@ def commands() -> list[str]:
     return [line.split()[0] for line in part.splitlines()]
 
 
+def inner_commands(command: str) -> list[str]:
+    """Of a command that has some itself: ppo and cgp of train."""
+    parts = output(BIN / "rddl", command, "--help").split("\nCommands:\n")[1:]
+    return [line.split()[0] for part in parts for line in part.split("\n\n")[0].splitlines()]
+
+
 def options(*words) -> set[str]:
     """The names of the options that --help lists."""
     part = output(BIN / words[0], *words[1:], "--help").split("\nOptions:\n")[1].split("\n\n")[0]
@@ -70,6 +76,8 @@ class Shell(unittest.TestCase):
     def test_bash_completes_commands(self):
         self.assertEqual(self.complete("rddl", "ru"), ["run"])
         self.assertEqual(self.complete("rddl", "help", "ve"), ["verify"])
+        self.assertEqual(self.complete("rddl", "train", "p"), ["ppo"])
+        self.assertEqual(self.complete("rddl", "train", "ppo"), ["ppo"])
         self.assertLessEqual({*commands(), "help", "--version"}, set(self.complete("rddl", "")))
 
     def test_bash_completes_options(self):
@@ -87,6 +95,8 @@ class Shell(unittest.TestCase):
         self.assertEqual(self.complete("rddl", "run", "--std", "=", "py"), ["pyrddlgym"])
         self.assertEqual(self.complete("rddl", "run", "--std", "="), ["pyrddlgym", "rddlc"])
         self.assertEqual(self.complete("rddlc", "--print", "ir"), ["ir", "ir-opt"])
+        self.assertEqual(self.complete("rddl", "train", "ppo", "P", "--preset", ""), ["fast", "sb3", "rllib"])
+        self.assertEqual(self.complete("rddl", "train", "cgp", "P", "--mutation", "=", "g"), ["gene"])
         self.assertIn("share_subexpressions", self.complete("rddl", "bench", "--without", "share"))
 
     def test_bash_completes_files_where_nothing_else_fits(self):
@@ -95,7 +105,9 @@ class Shell(unittest.TestCase):
         self.assertIn("-o default", self.completions("rddl", "bash").read_text())
 
     def test_every_option_is_everywhere(self):
-        for words in [("rddlc",), *(("rddl", command) for command in commands())]:
+        inner = [("rddl", command, name) for command in commands() for name in inner_commands(command)]
+        self.assertIn(("rddl", "train", "ppo"), inner)
+        for words in [("rddlc",), *(("rddl", command) for command in commands()), *inner]:
             expected = options(*words)
             self.assertGreater(len(expected), 2, words)
             self.assertEqual(set(self.complete(*words, "-")), expected, words)
@@ -127,6 +139,9 @@ class Shell(unittest.TestCase):
         self.assertEqual(complete("rddl ru")[0], "run")
         self.assertEqual(complete("rddl run --ep"), ["--episodes"])
         self.assertEqual(complete("rddl run --std py"), ["pyrddlgym"])
+        self.assertEqual(complete("rddl train c"), ["cgp"])
+        self.assertEqual(complete("rddl train ppo --pre"), ["--preset"])
+        self.assertEqual(complete("rddl train cgp --pre"), [])
         self.write("policy.rddl", "")
         self.assertEqual(complete("rddl run --policy no"), ["noop"])
         self.assertEqual(complete("rddl run --policy po"), ["policy.rddl"])

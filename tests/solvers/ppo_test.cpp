@@ -111,11 +111,15 @@ TEST(Ppo, UpdatesAsStableBaselines3Does) {
         PpoOptions options;
         options.minibatch = count;
         rddl::Team team(1);
-        Learner learner(model, options, team);
+        const Ranks alone;
+        Learner learner(model, options, team, alone);
+        Moments advantages;
+        for (const float advantage : experience.advantages)
+            advantages.add(static_cast<double>(advantage));
         std::vector<std::uint32_t> samples(static_cast<std::size_t>(count));
         std::iota(samples.begin(), samples.end(), 0u);
         for (int epoch = 0; epoch < each["epochs"].get<int>(); ++epoch)
-            learner.learn(experience, samples,
+            learner.learn(experience, samples, advantages,
                           {each["learning_rate"].get<double>(), each["entropy"].get<double>(), 0});
 
         PpoModel expected = model;

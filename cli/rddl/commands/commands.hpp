@@ -14,6 +14,7 @@ Command evaluate_command();
 Command compare_command();
 Command train_command();
 Command export_command();
+Command plot_command();
 Command replay_command();
 Command render_command();
 Command bench_command();

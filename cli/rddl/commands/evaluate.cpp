@@ -6,6 +6,7 @@
 #include "formats/records_json.hpp"
 #include "formats/table.hpp"
 #include "learning/learned_policy.hpp"
+#include "pictures/charts.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
@@ -29,6 +30,7 @@ struct EvaluationOptions {
     solvers::EpisodeOptions episodes;
     bool random = false;  // learned policies act at random, as they do while they learn
     bool json = false;
+    ChartFiles chart;
 };
 
 struct Evaluation {
@@ -124,7 +126,20 @@ void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
                                     {"policies", policies}}));
 }
 
+void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
+          const EvaluationOptions& options) {
+    IntervalChart chart;
+    chart.title = fmt::format("{}: {} episodes", problem.instance, options.episodes.episodes);
+    chart.x_title = "return: mean, 95 % confidence interval of it, least and greatest";
+    for (const Evaluation& one : all) {
+        const solvers::Estimate& e = one.summary.undiscounted_return;
+        chart.rows.push_back({one.policy, e.mean, e.half_width, e.minimum, e.maximum});
+    }
+    write_chart(chart, options.chart);
+}
+
 ExitStatus evaluate_all(const EvaluationOptions& options) {
+    if (options.chart.any()) require_writable_chart(options.chart);
     ProblemFiles files = options.problem.files();
     files.policy = options.policy_block;
     const LoadedProblem problem = load_problem(files, options.load);
@@ -136,6 +151,7 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     for (const std::string& name : options.policies)
         if (!is_interrupted()) all.push_back(evaluate(simulator, name, chosen));
     options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
+    if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
     if (!is_interrupted()) return success;
     tell("rddl: interrupted before all was evaluated\n");
     return interrupted_status();
@@ -189,13 +205,15 @@ Command compare_command() {
     command.summary = "Put several policies into one table, on the same seeds";
     command.details =
         "Examples:\n"
-        "  rddl compare MountainCar_ippc2023 1 --policies random,noop,runs/ppo,runs/cgp";
+        "  rddl compare MountainCar_ippc2023 1 --policies random,noop,runs/ppo,runs/cgp\n"
+        "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png";
     add_problem_arguments(command, options->problem);
     add_list_option(command, "--policies", "POLICY,...",
                     "random, noop, rddl (the policy block), policy files, folders of runs",
                     [options](const std::string& name) { options->policies.push_back(name); })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
+    add_chart_options(command, options->chart);
     command.run = [options] {
         if (options->policies.empty()) options->policies = {"noop", "random"};
         return evaluate_all(*options);

@@ -43,8 +43,10 @@ void require_an_end(const rddl_problem& problem) {
 }
 
 ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simulator,
-                        const solvers::Trainee& trainee) {
+                        const solvers::Trainee& trainee, const solvers::Ranks& ranks) {
     solvers::TrainingOptions training = options.training;
+    training.ranks = ranks;
+    training.quiet |= !ranks.is_first();
     training.stops = is_interrupted;
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
     const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
@@ -54,9 +56,18 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
                    training.folder.string());
     if (!training.quiet && trainee.summary) fmt::print("{}", trainee.summary());
     if (!result.interrupted) return success;
+    if (!ranks.is_first()) return interrupted_status();
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,
          training.folder.string());
     return interrupted_status();
+}
+
+ExitStatus train_on_ranks(TrainOptions& options,
+                          const std::function<ExitStatus(const solvers::Ranks&)>& train) {
+    return solvers::run_on_ranks("rddl", is_interrupted, [&](const solvers::Ranks& ranks) {
+        options.load.quiet = options.training.quiet || !ranks.is_first();
+        return train(ranks);
+    });
 }
 
 void add_common_options(Command& command, TrainOptions& options) {
@@ -86,13 +97,13 @@ struct TrainPpoOptions : TrainOptions {
     solvers::PpoOptions ppo;
 };
 
-ExitStatus train_ppo(const TrainPpoOptions& options) {
+ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     require_an_end(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
-    return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo));
+    return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks), ranks);
 }
 
 template <class Choice>
@@ -119,13 +130,15 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                    ppo.steps =
                        static_cast<std::int64_t>(number_of<double>("--steps", word, 1, 1e15));
                });
-    add_number_option(command, "--envs", "N", "Environments (64)", ppo.environments, 1, 1 << 20);
+    add_number_option(command, "--envs", "N", "Environments (64), of each rank of MPI",
+                      ppo.environments, 1, 1 << 20);
     add_number_option(command, "--rollout", "T", "Steps of each between updates (128)", ppo.rollout,
                       1, 1 << 20);
     add_number_option(command, "--epochs", "E", "Passes over what was collected (4)", ppo.epochs, 1,
                       10000);
-    add_number_option(command, "--minibatch", "M", "Samples of a step of descent (1024)",
-                      ppo.minibatch, 1, 1 << 30);
+    add_number_option(command, "--minibatch", "M",
+                      "Samples of a step of descent (1024), of each rank of MPI", ppo.minibatch, 1,
+                      1 << 30);
     add_number_option(command, "--lr", "RATE", "Learning rate (3e-4)", ppo.learning_rate, 0.0,
                       10.0);
     add_choice_option<LearningRate>(command, "--lr-schedule", "HOW",
@@ -196,8 +209,9 @@ Command ppo_command() {
     add_common_options(command, *options);
     add_ppo_options(command, options->ppo);
     command.run = [options] {
-        options->load.quiet = options->training.quiet;
-        return train_ppo(*options);
+        return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {
+            return train_ppo(*options, ranks);
+        });
     };
     return command;
 }
@@ -209,13 +223,13 @@ struct TrainCgpOptions : TrainOptions {
     std::vector<std::string> functions;
 };
 
-ExitStatus train_cgp(const TrainCgpOptions& options) {
+ExitStatus train_cgp(const TrainCgpOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
     solvers::CgpOptions cgp = options.cgp;
     cgp.seed = options.training.seed;
     if (!options.functions.empty()) cgp.functions = solvers::functions_named(options.functions);
-    return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp));
+    return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp, ranks), ranks);
 }
 
 void add_cgp_options(Command& command, TrainCgpOptions& options) {
@@ -265,7 +279,8 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
                             "(default), off",
                             cgp.parsimony, {{"on", true}, {"off", false}});
     add_flag(command, "--time-input", "Programs read how much of the episode is over", cgp.time);
-    add_number_option(command, "--islands", "N", "Populations (1)", cgp.islands, 1, 1 << 12);
+    add_number_option(command, "--islands", "N", "Populations (1, or one for each rank of MPI)",
+                      cgp.islands, 1, 1 << 12);
     add_number_option<std::int64_t>(command, "--migrate", "N",
                                     "Generations between migrations (50)", cgp.migrate_every, 0,
                                     std::int64_t{1} << 40);
@@ -285,8 +300,9 @@ Command cgp_command() {
     add_common_options(command, *options);
     add_cgp_options(command, *options);
     command.run = [options] {
-        options->load.quiet = options->training.quiet;
-        return train_cgp(*options);
+        return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {
+            return train_cgp(*options, ranks);
+        });
     };
     return command;
 }

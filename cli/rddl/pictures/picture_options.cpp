@@ -1,5 +1,7 @@
 #include "pictures/picture_options.hpp"
 
+#include "pictures/charts.hpp"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -9,15 +11,26 @@ namespace rddlc::cli {
 namespace {
 
 // "600x400"
-void read_size(const std::string& text, PictureOptions& options) {
+void read_size(const std::string& text, int& width, int& height) {
     const std::size_t by = text.find_first_of("xX");
     if (by == std::string::npos)
         throw UsageError(fmt::format("--size: '{}' is not WIDTHxHEIGHT, such as 600x400", text));
-    options.width = number_of<int>("--size", text.substr(0, by), 16, 8192);
-    options.height = number_of<int>("--size", text.substr(by + 1), 16, 8192);
+    width = number_of<int>("--size", text.substr(0, by), 16, 8192);
+    height = number_of<int>("--size", text.substr(by + 1), 16, 8192);
 }
 
 }  // namespace
+
+void add_size_option(Command& command, int& width, int& height, const std::string& explanation) {
+    add_option(command, "--size", "WxH", explanation,
+               [&width, &height](const std::string& text) { read_size(text, width, height); });
+}
+
+void add_chart_options(Command& command, ChartFiles& files) {
+    add_text_option(command, "--png", "FILE", "Write a picture", files.png);
+    add_text_option(command, "--svg", "FILE", "Write a vector graphic", files.svg);
+    add_size_option(command, files.width, files.height, "Pixels of the picture (900x600)");
+}
 
 void add_picture_options(Command& command, PictureOptions& options) {
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
@@ -36,8 +49,7 @@ void add_picture_options(Command& command, PictureOptions& options) {
                     options.visualizer);
     add_text_option(command, "--scene", "FILE.json",
                     "Draw the shapes that this file describes (docs/scenes.md)", options.scene);
-    add_option(command, "--size", "WxH", "Pixels of a picture (600x400)",
-               [&options](const std::string& text) { read_size(text, options); });
+    add_size_option(command, options.width, options.height, "Pixels of a picture (600x400)");
     add_number_option<double>(command, "--fps", "N", "Steps a second in movies (10)",
                               options.frames_per_second, 0.01, 1000);
     add_number_option<double>(command, "--real-time-factor", "X",
@@ -48,7 +60,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
                                     "At most so many pictures: every second, third, ... state of "
                                     "a longer episode (1000)",
                                     options.most_frames, 1, most);
-    add_number_option<std::int64_t>(command, "--environment", "K", "Which episode, from 0 on (0)",
+    add_number_option<std::int64_t>(command, "--environment", "K",
+                                    "Which episode, from 0 on (0; --watch shows all)",
                                     options.episode, 0, most);
     add_number_option<std::int64_t>(command, "--step", "K",
                                     "Which state a single picture shows (the last one)",

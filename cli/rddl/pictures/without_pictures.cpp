@@ -1,4 +1,5 @@
 // In place of the other files of this folder, where rddl is built without the library that draws.
+#include "pictures/charts.hpp"
 #include "pictures/picture_writer.hpp"
 #include "support/failure.hpp"
 
@@ -16,11 +17,23 @@ void require_pictures() {
                   "fonts-dejavu-core, and build it again");
 }
 
+void require_writable_chart(const ChartFiles&) {
+    require_pictures();
+}
+
+void write_chart(const CurveChart&, const ChartFiles&) {
+    require_pictures();
+}
+
+void write_chart(const IntervalChart&, const ChartFiles&) {
+    require_pictures();
+}
+
 std::string visualizer_list() {
     return {};
 }
 
-PictureWriter::PictureWriter(const LoadedProblem&, const PictureOptions&, std::string) {
+PictureWriter::PictureWriter(const LoadedProblem&, const PictureOptions&, const std::string&) {
     require_pictures();
 }
 
@@ -28,7 +41,7 @@ PictureWriter::~PictureWriter() = default;
 
 void PictureWriter::add_line(std::string_view) {}
 
-void PictureWriter::begin_second(std::string) {}
+void PictureWriter::begin_second(const std::string&) {}
 
 std::string PictureWriter::finish() {
     return {};

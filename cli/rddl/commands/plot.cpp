@@ -1,0 +1,130 @@
+// rddl plot: learning curves of runs.
+#include "commands/commands.hpp"
+#include "learning/learning_curves.hpp"
+#include "pictures/charts.hpp"
+#include "support/program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace rddlc::cli {
+
+namespace {
+
+struct PlotOptions {
+    std::vector<std::string> runs;
+    std::string x = "auto", y = "eval/mean_reward";
+    bool each = false;
+    ChartFiles files;
+};
+
+// Runs that make one curve.
+struct Group {
+    std::string name;
+    std::vector<RunProgress> runs;
+};
+
+// A folder of runs is a group; so are runs whose names differ in their seeds.
+std::vector<Group> groups_of(const PlotOptions& options) {
+    std::vector<Group> groups;
+    for (const std::string& word : options.runs) {
+        const std::vector<std::filesystem::path> folders = run_folders(word);
+        const bool is_run = folders.size() == 1 && folders[0] == word;
+        for (const std::filesystem::path& folder : folders) {
+            std::string name = is_run && !options.each ? without_seed(word) : word;
+            if (options.each && !is_run) name = folder.string();
+            const auto known = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+                return group.name == name && !options.each;
+            });
+            Group& group = known == groups.end() ? groups.emplace_back(Group{name, {}}) : *known;
+            group.runs.push_back(read_progress(folder));
+        }
+    }
+    // A run that has no others keeps the name that it has.
+    for (Group& group : groups)
+        if (group.runs.size() == 1) group.name = group.runs[0].folder.string();
+    return groups;
+}
+
+// What is a step to one solver is a generation to another: beside each other, they have but time
+// in common.
+std::string steps_title(const std::vector<Group>& groups) {
+    std::size_t searches = 0, all = 0;
+    for (const Group& group : groups)
+        for (const RunProgress& run : group.runs) {
+            all += 1;
+            searches += std::count(run.columns.begin(), run.columns.end(), "search/best") > 0;
+        }
+    return searches == 0 ? "steps" : searches == all ? "generations" : "";
+}
+
+ExitStatus plot(const PlotOptions& options) {
+    ChartFiles files = options.files;
+    if (!files.any()) files.png = "curves.png";
+    require_writable_chart(files);
+    const std::vector<Group> groups = groups_of(options);
+    const std::string steps = steps_title(groups);
+    const bool by_time = options.x == "time" || (options.x == "auto" && steps.empty());
+    const bool by_steps = options.x == "steps" || (options.x == "auto" && !steps.empty());
+    const std::string x = by_time    ? "time/time_elapsed"
+                          : by_steps ? "time/total_timesteps"
+                                     : options.x;
+    CurveChart chart{options.y,
+                     by_time    ? "seconds"
+                     : by_steps ? (steps.empty() ? "steps" : steps)
+                                : options.x,
+                     options.y,
+                     {}};
+    chart.title = fmt::format("{} by {}", options.y, chart.x_title);
+    for (const Group& group : groups)
+        chart.curves.push_back(curve_of(group.name, group.runs, x, options.y));
+    write_chart(chart, files);
+    for (const std::string& file : {files.png, files.svg})
+        if (!file.empty()) fmt::print("wrote {}\n", file);
+    return success;
+}
+
+}  // namespace
+
+Command plot_command() {
+    const auto options = std::make_shared<PlotOptions>();
+    Command command;
+    command.name = "plot";
+    command.summary = "Draw the learning curves of runs";
+    command.details =
+        "Runs of 'rddl train' whose names differ in the seed behind the last '_' are one curve, "
+        "as\n"
+        "are all runs in a folder: their mean, and a band of the standard deviation about it.\n\n"
+        "Examples:\n"
+        "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
+        "  rddl plot runs/a --y train/approx_kl --svg kl.svg";
+    add_argument(command, "RUNS", "Folders of runs, or folders that hold them",
+                 [options](const std::string& run) {
+                     std::string name = run;
+                     while (name.size() > 1 && name.back() == '/') name.pop_back();
+                     options->runs.push_back(name);
+                 });
+    command.options.back().is_required = true;
+    command.options.back().is_list = true;
+    add_text_option(command, "--y", "COLUMN", "Column of progress.csv (eval/mean_reward)",
+                    options->y)
+        .suggestions = {"eval/mean_reward",    "eval/mean_ep_length", "rollout/ep_rew_mean",
+                        "rollout/ep_len_mean", "train/approx_kl",     "train/value_loss",
+                        "search/best"};
+    add_text_option(command, "--x", "WHAT",
+                    "steps (of PPO; generations of CGP), time in seconds, or a column; auto "
+                    "(default): time where solvers differ",
+                    options->x)
+        .suggestions = {"auto", "steps", "time"};
+    add_flag(command, "--each", "A curve for each run", options->each);
+    add_chart_options(command, options->files);
+    command.run = [options] {
+        return plot(*options);
+    };
+    return command;
+}
+
+}  // namespace rddlc::cli
