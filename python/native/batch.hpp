@@ -37,6 +37,7 @@ class Batch {
 
     const rddl_simulator& simulator() const { return *simulator_; }
     const BatchSettings& settings() const { return settings_; }
+    rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
     // By the rows of action_records, or those of action_values.

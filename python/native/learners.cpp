@@ -1,0 +1,215 @@
+#include "native/learners.hpp"
+
+#include "learning/learned_policy.hpp"
+#include "native/batch.hpp"
+#include "native/options.hpp"
+#include "solvers/cgp/policy_file.hpp"
+#include "solvers/cgp/trainee.hpp"
+#include "solvers/evaluation/summary.hpp"
+#include "solvers/ppo/policy_file.hpp"
+#include "solvers/ppo/trainee.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace nb = nanobind;
+
+namespace rddlc::python {
+
+namespace {
+
+using cli::LoadedProblem;
+using cli::Simulator;
+
+// A policy, which acts in one batch at a time.
+class Policy {
+  public:
+    Policy(Simulator simulator, solvers::Policy policy)
+        : simulator_(std::move(simulator)), policy_(std::move(policy)) {}
+
+    // Writes the actions of all environments, which are at these steps of their episodes. Those of
+    // a new batch, and those at step 0, begin.
+    void act(Batch& batch, bool begins) {
+        const auto count = static_cast<std::size_t>(batch.settings().environments);
+        if (begins || !actor_ || running_.size() != count) {
+            actor_ = policy_.start(batch.settings().environments);
+            running_.assign(count, 1);
+            violated_.assign(count, -1);
+            episodes_.assign(count, 0);
+            steps_.assign(count, 0);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            std::tie(steps_[i], episodes_[i]) = batch.progress(static_cast<std::int64_t>(i));
+            running_[i] = batch.causes(static_cast<std::int64_t>(i)) == RDDL_RUNNING;
+        }
+        solvers::Decision decision{
+            batch.handle(), running_, episodes_, steps_, batch.arrays().actions.data(), violated_};
+        actor_(decision);
+    }
+
+    solvers::Summary evaluate(std::int64_t episodes, std::uint64_t seed, int threads) const {
+        solvers::EpisodeOptions options;
+        options.episodes = episodes;
+        options.seed = seed;
+        options.threads = threads;
+        const nb::gil_scoped_release released;
+        return summary_of(run_episodes(*simulator_, policy_, options, {}));
+    }
+
+  private:
+    Simulator simulator_;  // outlives the policy
+    solvers::Policy policy_;
+    solvers::Actor actor_;
+    std::vector<std::uint8_t> running_;
+    std::vector<std::int64_t> episodes_, steps_;
+    std::vector<std::int32_t> violated_;
+};
+
+// A learner at work.
+class Learner {
+  public:
+    Learner(Simulator simulator, solvers::Trainee trainee)
+        : simulator_(std::move(simulator)), trainee_(std::move(trainee)) {}
+
+    bool done() const { return trainee_.done(); }
+    void update() {
+        const nb::gil_scoped_release released;
+        trainee_.update();
+    }
+    std::int64_t steps() const { return trainee_.steps(); }
+    std::string policy_text() const { return trainee_.policy_text(); }
+    std::string summary() const { return trainee_.summary ? trainee_.summary() : ""; }
+    nb::dict row() const {
+        nb::dict row;
+        for (const auto& [name, value] : trainee_.row()) row[name.c_str()] = value;
+        return row;
+    }
+    nb::bytes save() const {
+        const std::string bytes = trainee_.save();
+        return nb::bytes(bytes.data(), bytes.size());
+    }
+    void load(const nb::bytes& bytes) { trainee_.load({bytes.c_str(), bytes.size()}); }
+
+  private:
+    Simulator simulator_;  // outlives the trainee
+    solvers::Trainee trainee_;
+};
+
+Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::dict& given) {
+    const auto known = solvers::preset(preset);
+    if (!known) throw Refused(fmt::format("there is no preset '{}': fast, sb3, rllib", preset));
+    solvers::PpoOptions ppo = *known;
+    Options options(given);
+    options.take("steps", ppo.steps);
+    options.take("environments", ppo.environments);
+    options.take("rollout", ppo.rollout);
+    options.take("epochs", ppo.epochs);
+    options.take("minibatch", ppo.minibatch);
+    options.take("learning_rate", ppo.learning_rate);
+    options.take("schedule", ppo.schedule,
+                 {{"linear", solvers::LearningRate::Linear},
+                  {"constant", solvers::LearningRate::Constant},
+                  {"kl", solvers::LearningRate::Kl}});
+    options.take("gamma", ppo.gamma);
+    options.take("gae_lambda", ppo.lambda);
+    options.take("clip", ppo.clip);
+    options.take("value_weight", ppo.value_weight);
+    options.take("gradient_norm", ppo.gradient_norm);
+    options.take("hidden", ppo.hidden);
+    options.take("stack", ppo.observations.stack);
+    options.take("seed", ppo.seed);
+    options.take("threads", ppo.threads);
+    options.finish();
+    return {problem.simulator, solvers::ppo_trainee(*problem.simulator, ppo)};
+}
+
+Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
+    solvers::CgpOptions cgp;
+    std::vector<std::string> functions;
+    Options options(given);
+    options.take("generations", cgp.generations);
+    options.take("children", cgp.children);
+    options.take("nodes", cgp.nodes);
+    options.take("constants", cgp.constants);
+    options.take("functions", functions);
+    options.take("episodes", cgp.episodes);
+    options.take("measure", cgp.measure,
+                 {{"mean", solvers::Measure::Mean},
+                  {"median", solvers::Measure::Median},
+                  {"min", solvers::Measure::Minimum},
+                  {"cvar", solvers::Measure::WorstFifth}});
+    options.take("restart_after", cgp.restart_after);
+    options.take("tune_every", cgp.tune_every);
+    options.take("islands", cgp.islands);
+    options.take("threads", cgp.threads);
+    options.take("time", cgp.time);
+    options.take("seed", cgp.seed);
+    options.finish();
+    if (!functions.empty()) cgp.functions = solvers::functions_named(functions);
+    return {problem.simulator, solvers::cgp_trainee(*problem.simulator, cgp)};
+}
+
+Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
+                      std::uint64_t seed) {
+    const rddl_simulator& simulator = *problem.simulator;
+    if (text.starts_with("rddl-cgp"))
+        return {problem.simulator,
+                solvers::program_policy(simulator, solvers::read_program(simulator, text), "cgp")};
+    return {problem.simulator,
+            solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random, seed,
+                                "ppo")};
+}
+
+nb::dict summary_dict(const solvers::Summary& summary) {
+    const auto estimate = [](const solvers::Estimate& of) {
+        nb::dict all;
+        all["mean"] = of.mean;
+        all["deviation"] = of.deviation;
+        all["minimum"] = of.minimum;
+        all["maximum"] = of.maximum;
+        all["half_width"] = of.half_width;
+        return all;
+    };
+    nb::dict all;
+    all["episodes"] = summary.episodes;
+    all["return"] = estimate(summary.undiscounted_return);
+    all["discounted_return"] = estimate(summary.discounted_return);
+    all["length"] = estimate(summary.length);
+    all["terminated"] = summary.terminated;
+    all["faulted"] = summary.faulted;
+    return all;
+}
+
+}  // namespace
+
+void add_learners(nb::module_& module) {
+    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+        .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
+        .def(
+            "evaluate",
+            [](const Policy& policy, std::int64_t episodes, std::uint64_t seed, int threads) {
+                return summary_dict(policy.evaluate(episodes, seed, threads));
+            },
+            nb::arg("episodes"), nb::arg("seed"), nb::arg("threads"));
+    nb::class_<Learner>(module, "Learner", "A learner at work.")
+        .def_prop_ro("done", &Learner::done)
+        .def_prop_ro("steps", &Learner::steps)
+        .def("update", &Learner::update)
+        .def("row", &Learner::row)
+        .def("policy_text", &Learner::policy_text)
+        .def("summary", &Learner::summary)
+        .def("save", &Learner::save)
+        .def("load", &Learner::load);
+    module.def("ppo", ppo, nb::arg("simulator"), nb::arg("preset"), nb::arg("options"));
+    module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
+    module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),
+               nb::arg("random"), nb::arg("seed"));
+}
+
+}  // namespace rddlc::python

@@ -1,0 +1,10 @@
+// The learners PPO and CGP, and the policies that they find.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace rddlc::python {
+
+void add_learners(nanobind::module_& module);
+
+}  // namespace rddlc::python

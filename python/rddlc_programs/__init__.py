@@ -1,0 +1,28 @@
+"""The programs `rddlc` and `rddl` that lie in the package `rddlc`, which is not imported: they start
+at once."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NoReturn
+
+
+def rddlc() -> NoReturn:
+    """The compiler."""
+    _become("rddlc")
+
+
+def rddl() -> NoReturn:
+    """Everything else: `rddl help`."""
+    _become("rddl")
+
+
+def _become(name: str) -> NoReturn:
+    package = find_spec("rddlc")
+    if package is None or package.origin is None:
+        sys.exit(f"{name}: the package rddlc is not installed")
+    program = Path(package.origin).parent / "bin" / name
+    os.execv(program, [name, *sys.argv[1:]])
