@@ -3,11 +3,13 @@
 #include "learning/learned_policy.hpp"
 #include "native/batch.hpp"
 #include "native/options.hpp"
+#include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainee.hpp"
+#include "support/files.hpp"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -166,6 +168,16 @@ Policy policy_of_text(const LoadedProblem& problem, const std::string& text, boo
                                 "ppo")};
 }
 
+std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {
+    const auto found = solvers::read_program(*problem.simulator, text);
+    return solvers::formula_text(solvers::simplified(found->genome), found->scope);
+}
+
+void write_policy(const std::string& path, const std::string& text) {
+    UsedFiles used;
+    write_file(path, text, used);
+}
+
 nb::dict summary_dict(const solvers::Summary& summary) {
     const auto estimate = [](const solvers::Estimate& of) {
         nb::dict all;
@@ -208,6 +220,8 @@ void add_learners(nb::module_& module) {
         .def("load", &Learner::load);
     module.def("ppo", ppo, nb::arg("simulator"), nb::arg("preset"), nb::arg("options"));
     module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
+    module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
+    module.def("write_file", write_policy, nb::arg("path"), nb::arg("text"));
     module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),
                nb::arg("random"), nb::arg("seed"));
 }

@@ -12,6 +12,7 @@ from typing import Any
 from . import _native, causes
 from .environment import RDDLEnv, State
 from .errors import ActionError, CompileError, EpisodeOver, Error
+from .learners import CGP, PPO, Estimate, Evaluation, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
 from .registration import register_environments
@@ -21,13 +22,18 @@ __version__: str = _native.version
 
 __all__ = [
     "ActionError",
+    "CGP",
     "CompileError",
     "Condition",
     "EpisodeOver",
     "Error",
+    "Estimate",
+    "Evaluation",
     "Fluent",
+    "Learner",
     "Model",
     "ObjectType",
+    "PPO",
     "Problem",
     "RDDLEnv",
     "RDDLVectorEnv",

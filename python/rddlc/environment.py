@@ -290,6 +290,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             renderer.begin(self._batch, self.horizon)
         return renderer.image_tag()
 
+    def replay_page(self) -> str:
+        """The episode so far as a page that replays it (docs/pictures.md), an HTML file of its own;
+        of environments with a render_mode."""
+        if self._renderer is None or self._seed is None:
+            raise Error("only an environment with a render_mode remembers its episode")
+        return self._renderer.page()
+
     def close(self) -> None:
         if self._renderer is not None:
             self._renderer.close()
