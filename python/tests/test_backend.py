@@ -1,0 +1,66 @@
+"""pyRDDLGym's environments with our simulator in place of its own."""
+
+from __future__ import annotations
+
+import unittest
+import warnings
+
+import numpy as np
+import pyRDDLGym
+from pyRDDLGym.core.debug.exception import RDDLActionPreconditionNotSatisfiedError
+from pyRDDLGym.core.policy import RandomAgent
+
+import rddlc
+from rddlc.backend import RDDLSimulator
+
+# Deterministic ones, with reals, bools, objects; and a partially observed one.
+PROBLEMS = ["HVAC_ippc2023", "MarsRover_ippc2023", "MountainCar_ippc2023", "Reacher_physics"]
+
+
+def pair(name: str, **options: object) -> tuple[pyRDDLGym.RDDLEnv, pyRDDLGym.RDDLEnv]:
+    """The environment with our simulator, and with its own."""
+    instance = next(each.instances[0] for each in rddlc.problems() if each.name == name)
+    problem = rddlc.Problem(name, instance, engine="interpreter")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ours = pyRDDLGym.make(
+            *problem.files, backend=RDDLSimulator, backend_kwargs={"problem": problem}, **options
+        )
+        return ours, pyRDDLGym.make(*problem.files, **options)
+
+
+class Backend(unittest.TestCase):
+    def test_steps_are_those_of_its_own_simulator(self) -> None:
+        for name in PROBLEMS:
+            for vectorized in (False, True):
+                ours, theirs = pair(name, vectorized=vectorized)
+                np.testing.assert_equal(ours.reset(seed=1), theirs.reset(seed=1))
+                self.assertEqual(ours.action_space, theirs.action_space)
+                noop = {}
+                for _ in range(10):
+                    found, expected = ours.step(noop), theirs.step(noop)
+                    for key, value in expected[0].items():
+                        np.testing.assert_allclose(found[0][key], value, rtol=1e-9)
+                        self.assertEqual(np.shape(found[0][key]), np.shape(value), key)
+                    self.assertAlmostEqual(found[1], expected[1])
+                    self.assertEqual(found[2:4], expected[2:4])
+
+    def test_nothing_is_observed_at_first(self) -> None:
+        ours, theirs = pair("SysAdmin_POMDP_ippc2011")
+        self.assertEqual(ours.reset(seed=1), theirs.reset(seed=1))
+        self.assertEqual(list(ours.step({})[0]), list(theirs.step({})[0]))
+
+    def test_agents_and_preconditions_work(self) -> None:
+        ours, _ = pair("Wildfire_MDP_ippc2014", enforce_action_constraints=True)
+        agent = RandomAgent(ours.action_space, num_actions=ours.max_allowed_actions, seed=1)
+        found = agent.evaluate(ours, episodes=2, seed=1)
+        self.assertTrue(np.isfinite(found["mean"]))
+        ours, _ = pair("MountainCar_ippc2023", enforce_action_constraints=True)
+        ours.reset(seed=1)
+        ours.step({"action": 0.5})
+        with self.assertRaises(RDDLActionPreconditionNotSatisfiedError):
+            ours.step({"action": 2.0})
+
+
+if __name__ == "__main__":
+    unittest.main()
