@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
+#include <render/gif.hpp>
 #include <render/png.hpp>
 #include <render/replay_page.hpp>
 #include <render/state_text.hpp>
@@ -73,18 +74,33 @@ class Painter {
     std::string page(double frames_per_second) {
         render::ReplayPage page(world_, width_, height_, frames_per_second);
         page.begin_run(simulator_->problem->instance);
+        for_each_moment([&](const render::Moment& then) { page.add(then, picture_); });
+        return page.html();
+    }
+
+    std::string gif(double frames_per_second) {
+        std::string bytes;
+        render::GifWriter writer(width_, height_, [&](std::string_view more) { bytes += more; });
+        for_each_moment(
+            [&](const render::Moment&) { writer.add(picture_, 1 / frames_per_second); });
+        writer.finish();
+        return bytes;
+    }
+
+  private:
+    // From the first step that is remembered, each with its picture drawn.
+    template <class Visit>
+    void for_each_moment(Visit&& visit) {
         std::deque<render::Step> shown;
         for (const render::Step& step : steps_) {
             shown.push_back(step);
             const render::Moment then(world_, shown, episode_, horizon_);
             render::draw_picture(canvas_, visualizer_, then);
             canvas_.read(picture_);
-            page.add(then, picture_);
+            visit(then);
         }
-        return page.html();
     }
 
-  private:
     const render::Visualizer& chosen(const std::string& name) const {
         if (name.empty()) return render::visualizer_for(world_);
         const render::Visualizer* const found = render::find_visualizer(name);
@@ -150,6 +166,11 @@ void add_painter(nb::module_& module) {
         .def("pixels", pixels)
         .def("png", png)
         .def("text", &Painter::text)
+        .def("write_gif",
+             [](Painter& painter, const std::string& path, double frames_per_second) {
+                 UsedFiles used;
+                 write_file(path, painter.gif(frames_per_second), used);
+             })
         .def("page", &Painter::page);
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -293,9 +294,17 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def replay_page(self) -> str:
         """The episode so far as a page that replays it (docs/pictures.md), an HTML file of its own;
         of environments with a render_mode."""
+        return self._remembered().page()
+
+    def save_gif(self, path: str | os.PathLike[str]) -> None:
+        """Writes the episode so far, but no more than its last 1,000 steps, as a movie; of
+        environments with a render_mode."""
+        self._remembered().write_gif(os.fspath(path))
+
+    def _remembered(self) -> Renderer:
         if self._renderer is None or self._seed is None:
             raise Error("only an environment with a render_mode remembers its episode")
-        return self._renderer.page()
+        return self._renderer
 
     def close(self) -> None:
         if self._renderer is not None:

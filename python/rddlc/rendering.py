@@ -48,6 +48,10 @@ class Renderer:
         """The replay page of the episode (docs/pictures.md): an HTML file of its own."""
         return self._painter.page(float(self._fps))
 
+    def write_gif(self, path: str) -> None:
+        """A movie of the episode."""
+        self._painter.write_gif(path, float(self._fps))
+
     def show(self) -> None:
         """Draws into a window."""
         try:

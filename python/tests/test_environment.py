@@ -5,11 +5,15 @@ from __future__ import annotations
 import copy
 import multiprocessing
 import pickle
+import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import PIL.Image
+import PIL.ImageSequence
 from gymnasium.utils.env_checker import check_env
 from support import EXAMPLES, example, written
 
@@ -215,6 +219,19 @@ class Pictures(unittest.TestCase):
         text = example("mountain_car", render_mode="ansi")
         text.reset(seed=1)
         self.assertIn("step 0", text.render())
+
+    def test_movies_and_replay_pages(self) -> None:
+        env = example("mountain_car", render_mode="rgb_array", render_size=(60, 40))
+        steps_of(env, 1, 3)
+        with tempfile.TemporaryDirectory() as folder:
+            movie = Path(folder) / "movie.gif"
+            env.save_gif(movie)
+            self.assertEqual(movie.read_bytes()[:6], b"GIF89a")
+            with PIL.Image.open(movie) as image:
+                self.assertEqual(len(list(PIL.ImageSequence.Iterator(image))), 4)
+        self.assertIn("<html", env.replay_page())
+        with self.assertRaisesRegex(rddlc.Error, "render_mode"):
+            example("mountain_car").replay_page()
 
     def test_a_notebook_shows_an_environment(self) -> None:
         env = example("mountain_car")
