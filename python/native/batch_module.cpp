@@ -122,6 +122,11 @@ void add_states(nb::class_<Batch>& batch) {
                 self.write_state(environment, reinterpret_cast<const std::byte*>(record.data()),
                                  steps);
             })
+        .def("read_interm",
+             [](Batch& self, std::int64_t environment, const Bytes& record) {
+                 self.read_interm(environment,
+                                  bytes_of(record, self.simulator().problem->interm_size));
+             })
         .def("progress", &Batch::progress, "Steps of the episode, and episodes ended before it.")
         .def("causes_of", &Batch::causes)
         .def("fault", &Batch::fault);

@@ -136,7 +136,7 @@ class Painter {
 };
 
 // (height, width, 3)
-nb::object pixels(Painter& painter) {
+nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<3>> pixels(Painter& painter) {
     const render::Picture& picture = painter.draw();
     auto bytes = std::make_unique<std::uint8_t[]>(3 * picture.pixels.size());
     std::uint8_t* out = bytes.get();
@@ -147,7 +147,7 @@ nb::object pixels(Painter& painter) {
     std::uint8_t* const data = bytes.release();
     const nb::capsule owner(
         data, [](void* array) noexcept { delete[] static_cast<std::uint8_t*>(array); });
-    return nb::cast(nb::ndarray<nb::numpy, std::uint8_t>(data, 3, shape, owner));
+    return {data, 3, shape, owner};
 }
 
 nb::bytes png(Painter& painter) {

@@ -64,8 +64,8 @@ class Learner:
     total: ClassVar[str]  # the option that tells how long to learn
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        is_env = isinstance(env_or_problem, (RDDLEnv, RDDLVectorEnv))
-        self.problem: Problem = env_or_problem.problem if is_env else env_or_problem
+        is_problem = isinstance(env_or_problem, Problem)
+        self.problem: Problem = env_or_problem if is_problem else env_or_problem.problem
         self._options = options
         self._native: _native.Learner | None = None
         self._text: str | None = None

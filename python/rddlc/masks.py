@@ -25,22 +25,21 @@ class ActionMasks:
         self._problem, self._batch = problem, batch
         self._space: spaces.Space[Any] = writer.space
         self._plan: ActionPlan | None = getattr(writer, "plan", None)
-        self._masks: NDArray[np.uint8] | None = None
+        self._is_prepared = False  # that takes a while, and few ask
 
     def rows(self) -> NDArray[np.bool_]:
         """(environments, sum of categories): those of one entry after those of the other."""
-        if self._masks is None:
-            self._prepare()
+        self._prepare()
         if not len(self._choices):
             raise Error("there is nothing to mask: the actions have no categories")
         self._batch.action_masks(self._masks.ravel())
-        return self._masks[:, self._choices].astype(bool) | (self._choices == ALWAYS)
+        allowed: NDArray[np.bool_] = self._masks[:, self._choices].astype(bool)
+        return allowed | (self._choices == ALWAYS)
 
     def for_space(self) -> Any:
         """Of the first environment as the action space's sample(mask) takes it: int8; None for what
         has no categories."""
-        if self._masks is None:
-            self._prepare()
+        self._prepare()
         if not len(self._choices):
             return None
         counts = [count for count in self._counts if count]
@@ -55,6 +54,9 @@ class ActionMasks:
         return parts[0] if isinstance(space, spaces.Discrete) else parts
 
     def _prepare(self) -> None:
+        if self._is_prepared:
+            return
+        self._is_prepared = True
         entries = self._entries()
         choice_of = self._choice_table()
         self._counts = [len(entry) for entry in entries]

@@ -55,11 +55,10 @@ class Problem:
             "extended": extended,
         }
         self.engine = _engine_at_hand(engine)
-        words = [os.fspath(domain), "" if instance is None else str(instance)]
-        folder = "" if _native.is_path(words[0]) else repository_folder()
         self.simulator = _native.load(
-            *words,
-            repository=folder,
+            os.fspath(domain),
+            "" if instance is None else str(instance),
+            repository="" if _native.is_path(os.fspath(domain)) else repository_folder(),
             interpreted=self.engine == "interpreter",
             externs=list(self._options["externs"]),
             extended=extended,

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .model import Fluent
 
-STORED = {"bool": np.dtype(np.int8), "int": np.dtype(np.int64), "real": np.dtype(np.float64)}
+STORED: dict[str, np.dtype[Any]] = {
+    "bool": np.dtype(np.int8),
+    "int": np.dtype(np.int64),
+    "real": np.dtype(np.float64),
+}
 """A byte of a bool is 0 or 1, so it may as well have a sign."""
 
 

@@ -40,7 +40,7 @@ class VecEnv(Base):
         seeds = [None if seed is None else int(seed) for seed in self._seeds]
         is_seeded = any(seed is not None for seed in seeds)
         observations, _ = self.env.reset(seed=seeds if is_seeded else None)
-        self.reset_infos = [{} for _ in range(self.num_envs)]
+        self.reset_infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         self._reset_seeds()
         self._reset_options()
         return observations

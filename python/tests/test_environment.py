@@ -150,6 +150,17 @@ class States(unittest.TestCase):
         np.testing.assert_equal(env.state, shown)
         np.testing.assert_equal(env.step(action), first)
 
+    def test_interm_fluents_of_the_last_step(self) -> None:
+        env = example("mountain_car")
+        env.reset(seed=1)
+        with self.assertRaises(rddlc.Error):
+            env.interm_fluents()
+        before = env.state
+        env.step({"throttle": 1.0})
+        found = env.interm_fluents()
+        self.assertEqual(list(found), ["slope", "speed"])
+        self.assertAlmostEqual(found["speed"][0], float(env.state["position"] - before["position"]))
+
     def test_episodes_begin_where_options_say(self) -> None:
         env = example("mountain_car")
         steps_of(env, 1, 5)
