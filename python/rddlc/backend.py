@@ -39,7 +39,7 @@ def make(
     )
 
 
-class RDDLSimulator(Interpreted):  # type: ignore[misc]
+class RDDLSimulator(Interpreted):
     """The simulator of an RDDLEnv: `backend=RDDLSimulator, backend_kwargs={"problem": problem}`,
     where the problem is loaded from the environment's files."""
 

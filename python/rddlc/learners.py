@@ -64,8 +64,9 @@ class Learner:
     total: ClassVar[str]  # the option that tells how long to learn
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        is_problem = isinstance(env_or_problem, Problem)
-        self.problem: Problem = env_or_problem if is_problem else env_or_problem.problem
+        self.problem: Problem = (
+            env_or_problem if isinstance(env_or_problem, Problem) else env_or_problem.problem
+        )
         self._options = options
         self._native: _native.Learner | None = None
         self._text: str | None = None

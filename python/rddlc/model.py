@@ -126,7 +126,7 @@ class Model:
 def model_of(described: dict[str, Any]) -> Model:
     """The model that a simulator's `describe()` tells."""
     types = {each["name"]: ObjectType(**each) for each in described.pop("types")}
-    conditions = {
+    conditions: dict[str, Any] = {
         kind: tuple(Condition(*each) for each in described.pop(kind))
         for kind in ("preconditions", "invariants", "terminations")
     }
@@ -138,7 +138,7 @@ def _fluent_of(described: dict[str, Any], types: dict[str, ObjectType]) -> Fluen
     described.pop("count")
     parameters = tuple(types[name] for name in described.pop("parameters"))
     shape = tuple(len(each.objects) for each in parameters)
-    bounds = {
+    bounds: dict[str, Any] = {
         which: None if (values := described.pop(which)) is None else np.reshape(values, shape)
         for which in ("lower", "upper")
     }
