@@ -66,7 +66,7 @@ def main() -> None:
     cgp = rddlc.CGP(env, seed=SEED)
     policies: dict[str, tuple[Policy, float]] = {
         "random": (lambda env: env.action_space.sample(), 0.0),
-        "PPO": learned(rddlc.PPO(env, seed=SEED), 100_000),
+        "PPO": learned(rddlc.PPO(env, seed=SEED), 400_000),
         "CGP": learned(cgp, 25),
     }
     print(f"\nCGP found\n  {cgp}\n".replace("\n", "\n  ").rstrip())

@@ -1,0 +1,72 @@
+"""rddlc.sb3 with Stable-Baselines3 itself, which is large and not among what scripts/test.sh installs:
+
+    pip install stable-baselines3 && PYTHONPATH=build/python python python/tests/test_sb3.py
+"""
+
+from __future__ import annotations
+
+import unittest
+
+import numpy as np
+from stable_baselines3 import A2C, PPO
+from stable_baselines3.common.env_checker import check_env
+from stable_baselines3.common.evaluation import evaluate_policy
+from support import example, problem_of
+
+import rddlc
+from rddlc.sb3 import VecEnv
+
+
+def vector(name: str, num_envs: int = 4, **options: object) -> VecEnv:
+    problem = example(name).problem
+    return VecEnv(
+        rddlc.make_vec(problem, num_envs=num_envs, autoreset_mode="SameStep", **options)
+    )
+
+
+class StableBaselines(unittest.TestCase):
+    def test_its_checker_accepts_learning_forms(self) -> None:
+        for name in ("network", "mountain_car", "reservoir", "cart_pole"):
+            for actions in ("simplified", "box"):
+                env = example(name, observations="flat", actions=actions, normalize=True)
+                check_env(env, warn=False)
+
+    def test_ends_are_told_as_it_wants_them(self) -> None:
+        envs = vector("network", horizon=3)
+        envs.seed(1)
+        envs.reset()
+        for _ in range(3):
+            observations, rewards, dones, infos = envs.step(np.zeros(4, int))
+        self.assertTrue(dones.all())
+        self.assertEqual(rewards.dtype, np.float32)
+        single = example("network", horizon=3, observations="flat", actions="simplified")
+        single.reset(seed=1)
+        for _ in range(3):
+            last = single.step(0)[0]
+        np.testing.assert_array_equal(infos[0]["terminal_observation"], last)
+        self.assertTrue(infos[0]["TimeLimit.truncated"])
+        self.assertFalse((observations[0] == last).all())
+
+    def test_its_learners_learn(self) -> None:
+        for learner, name, actions in ((PPO, "mountain_car", "box"), (A2C, "network", "simplified")):
+            envs = vector(name, actions=actions)
+            model = learner("MlpPolicy", envs, n_steps=32, seed=1, device="cpu")
+            model.learn(256)
+            mean, _ = evaluate_policy(model, envs, n_eval_episodes=2, warn=False)
+            self.assertTrue(np.isfinite(mean))
+
+    def test_masks_are_each_environments_own(self) -> None:
+        envs = VecEnv(
+            rddlc.make_vec(problem_of("refuses_some"), num_envs=2, autoreset_mode="SameStep")
+        )
+        envs.reset()
+        masks = envs.env_method("action_masks")
+        self.assertEqual([mask.tolist() for mask in masks], [[True, False, True]] * 2)
+
+    def test_other_autoreset_modes_are_refused(self) -> None:
+        with self.assertRaisesRegex(rddlc.Error, "SameStep"):
+            VecEnv(rddlc.make_vec(example("network").problem, num_envs=2))
+
+
+if __name__ == "__main__":
+    unittest.main()
