@@ -204,6 +204,19 @@ class Errors(PictureTest):
         self.assertNotIn("mistake", done.stderr)
         return done.stderr
 
+    def refuse_each_kind(self, complaint: str, *words) -> None:
+        """Nothing is left, and an older file stays as it was."""
+        kinds = ["gif", "png", "svg", "html"] + (["mp4", "webp"] if shutil.which("ffmpeg") else [])
+        before = self.left_behind()
+        for kind in kinds:
+            option = "--video" if kind in ("mp4", "webp") else f"--{kind}"
+            self.assertIn(complaint, self.refuse(*words, f"{option}=a.{kind}"))
+            self.assertEqual(self.left_behind(), before)
+            (self.folder / f"old.{kind}").write_text("older")
+            self.assertIn(complaint, self.refuse(*words, f"{option}=old.{kind}"))
+            self.assertEqual((self.folder / f"old.{kind}").read_text(), "older")
+            (self.folder / f"old.{kind}").unlink()
+
     def trace(self) -> list[str]:
         self.run_car("--trace=t.jsonl")
         return (self.folder / "t.jsonl").read_text().splitlines(keepends=True)
@@ -214,6 +227,7 @@ class Errors(PictureTest):
         text = self.refuse("render", "t.jsonl", "--gif=a.gif", "--png=a.png")
         self.assertIn("'t.jsonl', line 10: the line is cut off in the middle", text)
         self.assertEqual(self.left_behind(), ["t.jsonl"])
+        self.refuse_each_kind("the line is cut off in the middle", "render", "t.jsonl")
 
     def test_trace_cut_off_between_lines(self):
         (self.folder / "t.jsonl").write_text("".join(self.trace()[:9]))
@@ -228,6 +242,8 @@ class Errors(PictureTest):
                            "--gif=a.gif")
         self.assertIn("the trace is of instance", text)
         self.assertEqual(self.left_behind(), ["t.jsonl"])
+        self.refuse_each_kind("the trace is of instance", "render", "t.jsonl", other / "domain.rddl",
+                              other / "instance.rddl")
 
     def test_values_that_do_not_fit(self):
         for line, complaint in (('{"state": {"position": "far"}}', "'position' takes a number"),
