@@ -398,6 +398,21 @@ class Terminal(PictureTest):
         self.assertEqual((self.folder / "a.jsonl").read_bytes(), (self.folder / "b.jsonl").read_bytes())
         self.assertEqual(self.rddl("render", "a.jsonl", "--watch", "--quiet").stdout, both)
 
+    def test_values_that_are_no_numbers(self):
+        """They change once; pictures are drawn all the same."""
+        (self.folder / "odd.rddl").write_text(
+            "domain d { pvariables { x : { state-fluent, real, default = 1.0 };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { x' = (x - 1) / (x - x); }; reward = x; }"
+            " non-fluents n { domain = d; }"
+            " instance i { domain = d; non-fluents = n; horizon = 3; discount = 1.0; }")
+        done = self.rddl("run", "odd.rddl", "--engine=interpreter", "--quiet", "--watch", "--gif=a.gif")
+        self.assertEqual(re.findall(r"(.) x (\S+)$", done.stdout, re.M),
+                         [(" ", "1"), ("*", "nan"), (" ", "nan"), (" ", "nan")])
+        for visualizer in "chart", "heatmap", "text":
+            self.rddl("run", "odd.rddl", "--engine=interpreter", "--quiet", "--png=a.png", "--html=a.html",
+                      "--svg=a.svg", f"--visualizer={visualizer}")
+
     def test_one_thing_on_standard_output(self):
         for option in "--json", "--trace=-":
             refused = self.run_car("--watch", option, status=USAGE)
