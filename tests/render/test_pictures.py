@@ -170,6 +170,12 @@ class Movies(PictureTest):
         self.run_car("--gif=a.gif", "--max-frames=10")
         # Every fourth of 31 states: 0, 4, ... 28, and the last one.
         self.assertEqual(len(self.durations("a.gif")), 9)
+        for most in 1, 2, 3, 7, 16, 30, 31, 32:
+            self.run_car("--png=frames", f"--max-frames={most}")
+            names = sorted(path.stem for path in (self.folder / "frames").iterdir())
+            self.assertLessEqual(len(names), most)
+            self.assertEqual(names[-1], "000030")
+            shutil.rmtree(self.folder / "frames")
 
     def test_more_frames_than_players_show(self):
         self.run_car("--gif=a.gif", "--fps=200")
@@ -183,6 +189,9 @@ class Movies(PictureTest):
         self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
         self.assertIn("does not tell how long a step is", refused.stderr)
+        refused = self.run_car("--gif=b.gif", "--real-time-factor=1", "--fps=3", status=USAGE)
+        self.assertIn("--fps and --real-time-factor both", refused.stderr)
+        self.assertEqual(self.left_behind(), ["a.gif"])
 
     def test_videos(self):
         if not shutil.which("ffmpeg"):
