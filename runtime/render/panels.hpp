@@ -4,6 +4,7 @@
 #include "render/canvas.hpp"
 #include "render/moment.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,10 @@ std::vector<const rddl_fluent*> state_fluents(const rddl_problem& problem);
 struct Range {
     double low = 0, high = 1;
 
-    double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+    double part(double value) const {
+        if (high > low) return (value - low) / (high - low);
+        return std::isfinite(value) ? 0.5 : NAN;
+    }
 };
 Range range_of(const Moment& moment, const rddl_fluent& fluent);
 

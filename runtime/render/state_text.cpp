@@ -2,6 +2,8 @@
 
 #include "render/panels.hpp"
 
+#include <cmath>
+
 namespace rddl::render {
 
 namespace {
@@ -20,6 +22,11 @@ std::string true_objects(const Moment& moment, const Values& values) {
     return text.empty() ? "none" : text;
 }
 
+// Two values that are no numbers are the same.
+bool differ(double a, double b) {
+    return a != b && !(std::isnan(a) && std::isnan(b));
+}
+
 }  // namespace
 
 std::vector<TextLine> state_lines(const Moment& moment) {
@@ -36,7 +43,7 @@ std::vector<TextLine> state_lines(const Moment& moment) {
         }
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
             lines.push_back({moment.world().name_of(*fluent, static_cast<std::int64_t>(g)),
-                             value_text(values, g), values.numbers[g] != last.numbers[g]});
+                             value_text(values, g), differ(values.numbers[g], last.numbers[g])});
     }
     return lines;
 }

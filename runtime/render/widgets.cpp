@@ -25,6 +25,8 @@ std::vector<double> ticks(double low, double high, int wanted) {
         numbers.push_back(k * step);
         if (numbers.size() > 50) break;
     }
+    constexpr int enough = 8;  // a single number tells no scale
+    if (numbers.size() < 2 && wanted < enough) return ticks(low, high, 2 * std::max(wanted, 1));
     return numbers;
 }
 

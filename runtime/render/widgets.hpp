@@ -21,7 +21,7 @@ struct Scale {
     double clamped(double number) const;  // not beyond begin and end
 };
 
-// Round numbers between low and high, about `wanted` of them.
+// Round numbers between low and high, about `wanted` of them, and two if there are so many.
 std::vector<double> ticks(double low, double high, int wanted);
 // A range that holds a little more than the numbers, and has some width.
 Scale scale_around(double low, double high, double begin, double end, double margin = 0.05);

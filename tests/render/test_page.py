@@ -123,6 +123,8 @@ class Page(PictureTest):
         self.browser.evaluate("document.querySelector('#values button').focus()")
         self.browser.press("Enter")
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('canvas').length"), 3)
+        # A step is at the same place in all charts, whatever their limits are.
+        self.assertEqual(self.browser.evaluate("new Set(charts.map((chart) => chart.left)).size"), 1)
 
     def test_two_traces_side_by_side(self):
         other = self.trace("other.jsonl", "--seed=5")

@@ -170,6 +170,12 @@ class Movies(PictureTest):
         self.run_car("--gif=a.gif", "--max-frames=10")
         # Every fourth of 31 states: 0, 4, ... 28, and the last one.
         self.assertEqual(len(self.durations("a.gif")), 9)
+        for most in 1, 2, 3, 7, 16, 30, 31, 32:
+            self.run_car("--png=frames", f"--max-frames={most}")
+            names = sorted(path.stem for path in (self.folder / "frames").iterdir())
+            self.assertLessEqual(len(names), most)
+            self.assertEqual(names[-1], "000030")
+            shutil.rmtree(self.folder / "frames")
 
     def test_more_frames_than_players_show(self):
         self.run_car("--gif=a.gif", "--fps=200")
@@ -183,6 +189,9 @@ class Movies(PictureTest):
         self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
         self.assertIn("does not tell how long a step is", refused.stderr)
+        refused = self.run_car("--gif=b.gif", "--real-time-factor=1", "--fps=3", status=USAGE)
+        self.assertIn("--fps and --real-time-factor both", refused.stderr)
+        self.assertEqual(self.left_behind(), ["a.gif"])
 
     def test_videos(self):
         if not shutil.which("ffmpeg"):
@@ -204,6 +213,19 @@ class Errors(PictureTest):
         self.assertNotIn("mistake", done.stderr)
         return done.stderr
 
+    def refuse_each_kind(self, complaint: str, *words) -> None:
+        """Nothing is left, and an older file stays as it was."""
+        kinds = ["gif", "png", "svg", "html"] + (["mp4", "webp"] if shutil.which("ffmpeg") else [])
+        before = self.left_behind()
+        for kind in kinds:
+            option = "--video" if kind in ("mp4", "webp") else f"--{kind}"
+            self.assertIn(complaint, self.refuse(*words, f"{option}=a.{kind}"))
+            self.assertEqual(self.left_behind(), before)
+            (self.folder / f"old.{kind}").write_text("older")
+            self.assertIn(complaint, self.refuse(*words, f"{option}=old.{kind}"))
+            self.assertEqual((self.folder / f"old.{kind}").read_text(), "older")
+            (self.folder / f"old.{kind}").unlink()
+
     def trace(self) -> list[str]:
         self.run_car("--trace=t.jsonl")
         return (self.folder / "t.jsonl").read_text().splitlines(keepends=True)
@@ -214,6 +236,7 @@ class Errors(PictureTest):
         text = self.refuse("render", "t.jsonl", "--gif=a.gif", "--png=a.png")
         self.assertIn("'t.jsonl', line 10: the line is cut off in the middle", text)
         self.assertEqual(self.left_behind(), ["t.jsonl"])
+        self.refuse_each_kind("the line is cut off in the middle", "render", "t.jsonl")
 
     def test_trace_cut_off_between_lines(self):
         (self.folder / "t.jsonl").write_text("".join(self.trace()[:9]))
@@ -228,6 +251,8 @@ class Errors(PictureTest):
                            "--gif=a.gif")
         self.assertIn("the trace is of instance", text)
         self.assertEqual(self.left_behind(), ["t.jsonl"])
+        self.refuse_each_kind("the trace is of instance", "render", "t.jsonl", other / "domain.rddl",
+                              other / "instance.rddl")
 
     def test_values_that_do_not_fit(self):
         for line, complaint in (('{"state": {"position": "far"}}', "'position' takes a number"),
@@ -381,6 +406,21 @@ class Terminal(PictureTest):
         self.run_car("--episodes=2", "--trace=b.jsonl")
         self.assertEqual((self.folder / "a.jsonl").read_bytes(), (self.folder / "b.jsonl").read_bytes())
         self.assertEqual(self.rddl("render", "a.jsonl", "--watch", "--quiet").stdout, both)
+
+    def test_values_that_are_no_numbers(self):
+        """They change once; pictures are drawn all the same."""
+        (self.folder / "odd.rddl").write_text(
+            "domain d { pvariables { x : { state-fluent, real, default = 1.0 };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { x' = (x - 1) / (x - x); }; reward = x; }"
+            " non-fluents n { domain = d; }"
+            " instance i { domain = d; non-fluents = n; horizon = 3; discount = 1.0; }")
+        done = self.rddl("run", "odd.rddl", "--engine=interpreter", "--quiet", "--watch", "--gif=a.gif")
+        self.assertEqual(re.findall(r"(.) x (\S+)$", done.stdout, re.M),
+                         [(" ", "1"), ("*", "nan"), (" ", "nan"), (" ", "nan")])
+        for visualizer in "chart", "heatmap", "text":
+            self.rddl("run", "odd.rddl", "--engine=interpreter", "--quiet", "--png=a.png", "--html=a.html",
+                      "--svg=a.svg", f"--visualizer={visualizer}")
 
     def test_one_thing_on_standard_output(self):
         for option in "--json", "--trace=-":

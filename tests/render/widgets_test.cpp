@@ -13,6 +13,8 @@ TEST(Ticks, AreRoundAndWithinTheRange) {
         EXPECT_GE(tick, -1.2);
         EXPECT_LE(tick, 0.6);
     }
+    for (double high = 1.01; high < 10; high += 0.37)
+        EXPECT_GE(ticks(-0.02 * high, high, 1).size(), 2u) << high;
     EXPECT_TRUE(ticks(1, 1, 5).empty());
     EXPECT_TRUE(ticks(0, INFINITY, 5).empty());
     EXPECT_TRUE(ticks(NAN, 1, 5).empty());

@@ -45,15 +45,15 @@ class FullDisk(CommandTest):
                             "XDG_CACHE_HOME": str(self.folder / "cache"),
                             "TMPDIR": str(self.folder / "tmp")}
 
-    def fill_at_each_call(self, outputs, *words) -> int:
-        """The number of calls that need room."""
+    def fill_at_each_call(self, outputs, *words, of=None) -> int:
+        """The number of calls of the program that need room."""
         for older in None, "older\n":
             complete = self.complete(outputs, older, *words)
             for call in range(1, MOST_CALLS):
                 self.start_with(outputs, older)
                 result = self.run_command(*words, environment={
                     **self.environment, "LD_PRELOAD": str(LIBRARY), "FULL_DISK_AT": str(call),
-                    "FULL_DISK_OF": Path(words[0]).name})
+                    "FULL_DISK_OF": of or Path(words[0]).name})
                 if result.status == SUCCESS:
                     self.assertEqual(self.contents(outputs), complete)
                     break
@@ -120,6 +120,22 @@ class FullDisk(CommandTest):
         self.assertGreater(self.fill_at_each_call(
             ["a.gif", "a.png", "a.svg", "a.html"], RDDL, "run", *problem, "--horizon=3", "--quiet",
             "--size=60x40", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html"), 10)
+
+    def test_folders_of_pictures(self):
+        """Those that were drawn before stay; each is complete."""
+        problem = "domain.rddl", "instance.rddl", INTERPRET
+        for kind in "png", "svg":
+            (self.folder / kind).mkdir()
+            self.assertGreater(self.fill_at_each_call(
+                [f"{kind}/{step:06}.{kind}" for step in range(3)], RDDL, "run", *problem, "--horizon=2",
+                "--quiet", "--size=60x40", f"--{kind}={kind}"), 5)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "videos are made by ffmpeg")
+    def test_videos(self):
+        for of in "rddl", "ffmpeg":
+            self.assertGreater(self.fill_at_each_call(
+                ["a.mp4"], RDDL, "run", "domain.rddl", "instance.rddl", INTERPRET, "--horizon=2",
+                "--quiet", "--size=60x40", "--video=a.mp4", of=of), 2)
 
     def test_compiled_simulators(self):
         for words in ([RDDLC, "domain.rddl", "instance.rddl", "-o", "simulator.cpp"],

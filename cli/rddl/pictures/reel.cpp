@@ -42,11 +42,10 @@ void Reel::add_line(std::string_view line) {
 // When the first state is there, for the horizon is known then.
 void Reel::begin_episode() {
     const std::int64_t horizon = steps_->horizon();
-    const Pace pace = choose_pace(options_, world_, horizon);
-    stride_ = pace.stride;
+    pace_ = choose_pace(options_, world_, horizon);
     film_.emplace(world_, visualizer_, options_.width, options_.height, *steps_->episode(),
                   horizon);
-    for (const Output& output : outputs_) output.begin({world_, pace, trace_});
+    for (const Output& output : outputs_) output.begin({world_, pace_, trace_});
 }
 
 void Reel::draw(TraceStep&& step, bool is_last) {
@@ -54,7 +53,7 @@ void Reel::draw(TraceStep&& step, bool is_last) {
     if (!film_) begin_episode();
     film_->add({step.number, std::move(step.state), std::move(step.action), step.reward, step.total,
                 std::move(step.end)});
-    const bool in_movie = is_last || drawn_ % stride_ == 0;
+    const bool in_movie = is_last || pace_.shows(drawn_);
     ++drawn_;
     for (const Output& output : outputs_) output.add({*film_, in_movie, is_last});
 }

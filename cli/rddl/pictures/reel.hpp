@@ -44,7 +44,7 @@ class Reel {
     std::optional<TraceSteps> steps_;
     std::optional<TraceStep> pending_;        // the last one may turn out to be the end
     std::optional<rddl::render::Film> film_;  // of the episode that has begun
-    std::int64_t stride_ = 1;
+    Pace pace_;
     std::int64_t drawn_ = 0;  // states of the episode
     std::int64_t states_ = 0;
 };

@@ -36,18 +36,36 @@ std::vector<std::string> format_options(const std::filesystem::path& file) {
                   "--gif writes a GIF", usage_error);
 }
 
-// The child's standard input; what it says goes to `log`. Returns the error number.
-int start(const std::vector<std::string>& command, int input, const std::string& log,
-          pid_t& process) {
+// Two ends that are connected. A write to one does not end us by a signal, as with a pipe, if
+// ffmpeg has ended.
+struct Connection {
+    int ours = -1, theirs = -1;
+
+    Connection() {
+        int ends[2];
+        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+            throw Failure(fmt::format("cannot talk to ffmpeg: {}", std::strerror(errno)));
+        ours = ends[0];
+        theirs = ends[1];
+    }
+    ~Connection() {
+        for (const int end : {ours, theirs})
+            if (end >= 0) close(end);
+    }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+};
+
+// The child's standard input, and where it says what is wrong. Returns the error number.
+int start(const std::vector<std::string>& command, int input, int log, pid_t& process) {
     std::vector<char*> words;
     for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, log, STDOUT_FILENO);
     const int error = posix_spawnp(&process, words[0], &actions, nullptr, words.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     return error;
@@ -73,20 +91,18 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height,
     for (std::string& word : format_options(file_)) command.push_back(std::move(word));
     command.push_back(made_.string());
 
-    // A socket instead of a pipe: a write to it does not end us by a signal if ffmpeg has ended.
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw Failure(fmt::format("cannot talk to ffmpeg: {}", std::strerror(errno)));
-    const int error = start(command, ends[1], folder_.path() / "log", process_);
-    close(ends[1]);
-    pictures_ = ends[0];
+    // Not a file, for the disk may be full. Who says too much is not heard, but does not wait.
+    Connection pictures, log;
+    fcntl(log.theirs, F_SETFL, O_NONBLOCK);
+    const int error = start(command, pictures.theirs, log.theirs, process_);
     if (error != 0) {
         process_ = -1;
-        close(std::exchange(pictures_, -1));
         throw Failure(fmt::format("cannot start ffmpeg: {}", std::strerror(error)),
                       "videos are made by the program ffmpeg, which Debian has as a package of "
                       "that name; --gif needs nothing else");
     }
+    pictures_ = std::exchange(pictures.ours, -1);
+    log_ = std::exchange(log.ours, -1);
 }
 
 VideoWriter::~VideoWriter() {
@@ -95,6 +111,7 @@ VideoWriter::~VideoWriter() {
         kill(process_, SIGKILL);
         wait();
     }
+    if (log_ >= 0) close(log_);
 }
 
 int VideoWriter::wait() {
@@ -120,9 +137,10 @@ void VideoWriter::add(const rddl::render::Picture& picture) {
 void VideoWriter::finish(UsedFiles& used) {
     close(std::exchange(pictures_, -1));
     const int status = wait();
-    if (status != 0) {
-        std::string log = read_file(folder_.path() / "log");
-        while (!log.empty() && log.back() == '\n') log.pop_back();
+    std::string log = read_descriptor(log_, "what ffmpeg says");
+    while (!log.empty() && log.back() == '\n') log.pop_back();
+    // It may end well although the end of a file could not be written.
+    if (status != 0 || !log.empty()) {
         throw Failure(fmt::format("ffmpeg failed: {}", log.empty() ? "it says nothing" : log));
     }
     write_file(file_, read_file(made_), used);

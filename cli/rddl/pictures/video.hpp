@@ -36,6 +36,7 @@ class VideoWriter {
     std::filesystem::path made_;  // by ffmpeg
     pid_t process_ = -1;
     int pictures_ = -1;  // what ffmpeg reads
+    int log_ = -1;       // what it says is wrong
 };
 
 }  // namespace rddlc::cli

@@ -30,6 +30,7 @@ void write_chart(const IntervalChart&, const ChartFiles&) {
 }
 
 std::string visualizer_list() {
+    require_pictures();
     return {};
 }
 

@@ -102,6 +102,7 @@ function toggleChart(v) {
     addChart({ title: data.names[v], value: v, number: (frame) => numberOf(frame.values[v], words), words });
   }
   rows[v].pick.setAttribute("aria-pressed", String(at < 0));
+  drawCharts();
 }
 
 function addChart(chart) {
@@ -121,10 +122,32 @@ function addChart(chart) {
     go(event);
   });
   chart.canvas.addEventListener("pointermove", (event) => event.buttons && go(event));
-  drawChart(chart);
+  measureChart(chart);
 }
 
-function drawChart(chart) {
+const chartFont = "11px system-ui, sans-serif";
+
+// Its numbers, their limits, and the room that the names of these take: none of it changes.
+function measureChart(chart) {
+  chart.lines = data.runs.map((run) => run.frames.map(chart.number));
+  const finite = chart.lines.flat().filter(Number.isFinite);
+  let low = Math.min(...finite), high = Math.max(...finite);
+  if (finite.length === 0) [low, high] = [0, 1];
+  if (low === high) [low, high] = [low - 0.5, high + 0.5];
+  const name = (number) => (chart.words && chart.words.length ? chart.words[Math.round(number)] ?? "" : shown(number));
+  chart.limits = [low, high].map((number) => ({ number, name: name(number) }));
+  const pen = chart.canvas.getContext("2d");
+  pen.font = chartFont;
+  chart.room = Math.max(20, ...chart.limits.map((limit) => pen.measureText(limit.name).width)) + 8;
+}
+
+// One below the other, so a step is at the same place in all.
+function drawCharts() {
+  const room = Math.max(...charts.map((chart) => chart.room));
+  for (const chart of charts) drawChart(chart, room);
+}
+
+function drawChart(chart, room) {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(name).trim();
   const width = chart.canvas.clientWidth || 300, height = 96, ratio = window.devicePixelRatio || 1;
@@ -133,26 +156,21 @@ function drawChart(chart) {
   chart.canvas.style.height = height + "px";
   const pen = chart.canvas.getContext("2d");
   pen.scale(ratio, ratio);
-  pen.font = "11px system-ui, sans-serif";
-  const lines = data.runs.map((run) => run.frames.map(chart.number));
-  const finite = lines.flat().filter(Number.isFinite);
-  let low = Math.min(...finite), high = Math.max(...finite);
-  if (finite.length === 0) [low, high] = [0, 1];
-  if (low === high) [low, high] = [low - 0.5, high + 0.5];
-  const name = (number) => (chart.words && chart.words.length ? chart.words[Math.round(number)] ?? "" : shown(number));
-  chart.left = Math.min(Math.max(pen.measureText(name(low)).width, pen.measureText(name(high)).width, 20) + 8, width / 3);
+  pen.font = chartFont;
+  const [low, high] = chart.limits.map((limit) => limit.number);
+  chart.left = Math.min(room, width / 3);
   const x = (k) => chart.left + ((width - chart.left - 6) * k) / Math.max(places - 1, 1);
   const y = (number) => height - 8 - ((height - 18) * (number - low)) / (high - low);
   pen.strokeStyle = color("--rule");
   pen.fillStyle = color("--muted");
-  for (const number of [low, high]) {
+  for (const { number, name } of chart.limits) {
     pen.beginPath();
     pen.moveTo(chart.left, y(number));
     pen.lineTo(width - 6, y(number));
     pen.stroke();
-    pen.fillText(name(number), 0, y(number) + 4, chart.left - 4);
+    pen.fillText(name, 0, y(number) + 4, chart.left - 4);
   }
-  lines.forEach((line, r) => {
+  chart.lines.forEach((line, r) => {
     pen.strokeStyle = color(r ? "--second" : "--first");
     pen.lineWidth = 1.8;
     pen.setLineDash(r ? [6, 3] : []);
@@ -186,7 +204,7 @@ function show() {
   byId("scrubber").setAttribute("aria-valuetext", `step ${step}`);
   showPictures();
   showValues();
-  charts.forEach(drawChart);
+  drawCharts();
 }
 
 function moveTo(wanted) {
@@ -248,11 +266,11 @@ byId("theme").addEventListener("click", () => {
   const root = document.documentElement;
   const isDark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
   root.dataset.theme = isDark ? "light" : "dark";
-  charts.forEach(drawChart);
+  drawCharts();
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => charts.forEach(drawChart));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawCharts());
 document.addEventListener("keydown", press);
-addEventListener("resize", () => charts.forEach(drawChart));
+addEventListener("resize", () => drawCharts());
 
 byId("about").textContent = data.about;
 listRows();

@@ -167,8 +167,13 @@ void draw_key(Canvas& canvas, const Box& box, const Panel& panel, bool lines) {
         entries = {{number_text(panel.range.low), sequential_color(0)},
                    {number_text(panel.range.high), sequential_color(1)}};
     }
+    // Where names are long, each has as much room as the others, if that tells anything.
+    constexpr double swatch = 29, least = 20;
+    const double room = box.width / static_cast<double>(std::max<std::size_t>(entries.size(), 1));
     double width = 0;
-    for (const Entry& entry : entries) width += 29 + canvas.text_width(entry.name, 11);
+    for (const Entry& entry : entries) width += swatch + canvas.text_width(entry.name, 11);
+    if (width > box.width && room - swatch > least)
+        for (Entry& entry : entries) entry.name = shortened(canvas, entry.name, 11, room - swatch);
     legend(canvas, box.rightmost(std::min(width, box.width)), entries);
 }
 

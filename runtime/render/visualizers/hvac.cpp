@@ -28,7 +28,7 @@ std::vector<Box> row_of_boxes(const Box& area, std::size_t count) {
 }
 
 Color warmth(const Thermometer& zone) {
-    if (std::isnan(zone.low)) return colors::vermilion;
+    if (std::isnan(zone.low)) return colors::purple;
     return zone.temperature < zone.low    ? colors::sky
            : zone.temperature > zone.high ? colors::vermilion
                                           : colors::green;
@@ -43,6 +43,10 @@ void draw_thermometer(Canvas& canvas, const Box& box, const Thermometer& zone, c
             rgb(0xbfe3d6));
     const double top = y.clamped(zone.temperature);
     canvas.fill({box.x + 3, top, box.width - 6, box.bottom() - top}, warmth(zone));
+    if (!std::isnan(zone.low))
+        for (const double limit : {zone.low, zone.high})
+            canvas.dashed_line({box.x, y.clamped(limit)}, {box.right(), y.clamped(limit)},
+                               colors::ink, 1.5, 3);
     canvas.outline(box, colors::muted, 1, 3);
     const Box wide = box.inset(-22, 0);
     label(canvas, {wide.x, box.bottom() + 2, wide.width, 13}, zone.name,
@@ -82,7 +86,8 @@ void draw_zones(Canvas& canvas, const std::vector<Box>& boxes, const Values& adj
 void draw_key(Canvas& canvas, const Box& box) {
     const Entry entries[] = {{"comfortable", colors::green},
                              {"too cold", colors::sky},
-                             {"too warm, or a heater", colors::vermilion}};
+                             {"too warm", colors::vermilion},
+                             {"heater", colors::purple}};
     legend(canvas, box, entries);
 }
 

@@ -27,8 +27,12 @@ void draw_camera(Canvas& canvas, Point place, double size) {
     canvas.polygon(lens, colors::blue);
 }
 
+// Longer where it is faster, and to be seen wherever there is any.
 void draw_velocity(Canvas& canvas, Point at, double x, double y, const Plane& plane, Color color) {
-    arrow(canvas, at, {at.x + plane.length(x), at.y - plane.length(y)}, color, 2);
+    const double speed = std::hypot(x, y);
+    if (!(speed > 1e-9)) return;
+    const double length = std::clamp(plane.length(speed) * 6, 18.0, 40.0);
+    arrow(canvas, at, {at.x + length * x / speed, at.y - length * y / speed}, color, 2);
 }
 
 void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
@@ -68,8 +72,7 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
         draw_velocity(canvas, at, moment["intruder-vx"](i), moment["intruder-vy"](i), plane,
                       colors::vermilion);
         canvas.disc(at, 6, colors::vermilion);
-        canvas.text({at.x, at.y - 12}, x.object(0, i),
-                    {.size = 10, .color = colors::muted, .align = Align::Center});
+        canvas.text({at.x + 8, at.y + 10}, x.object(0, i), {.size = 10, .color = colors::muted});
     }
 }
 

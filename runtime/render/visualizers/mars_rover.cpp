@@ -43,8 +43,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         const Color ground = mix(rgb(0xfdebc8), colors::orange, most > 0 ? value(i) / most : 0);
         if (!harvested.is(i)) canvas.disc(place, radius, ground);
         canvas.ring(place, radius, harvested.is(i) ? colors::rule : rgb(0xb07a00), 1.5);
-        canvas.text({place.x, place.y},
-                    harvested.is(i) ? "done" : number_text(std::round(value(i) * 10) / 10),
+        // Rovers come to the middle.
+        const std::string worth = number_text(std::round(value(i) * 10) / 10);
+        canvas.text({place.x, place.y + std::max(radius - 14, 0.0)},
+                    harvested.is(i) ? worth + ", done" : worth,
                     {.size = 11,
                      .color = harvested.is(i) ? colors::muted : colors::ink,
                      .align = Align::Center});
@@ -68,8 +70,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         for (const double dx : {-6.0, 0.0, 6.0})
             canvas.disc({place.x + dx, place.y + 7}, 3, colors::ink);
         if (moment.acts() && moment["harvest"].is(i)) canvas.ring(place, 15, colors::green, 2.5);
-        canvas.text({place.x, place.y - 15}, x.object(0, i),
-                    {.size = 10, .color = colors::muted, .align = Align::Center});
+        canvas.text({place.x + 13, place.y + 13}, x.object(0, i),
+                    {.size = 10, .color = colors::ink});
     }
 }
 

@@ -21,6 +21,7 @@ struct Bar {
     double value, least, most;  // least and most: limits, or not a number
     double wanted;              // a mark, or not a number
     Color color;
+    std::string note = {};  // below the number
 };
 
 void draw_bar(Canvas& canvas, const Box& box, const Bar& bar, double top) {
@@ -42,6 +43,13 @@ void draw_bar(Canvas& canvas, const Box& box, const Bar& bar, double top) {
           {.size = 10, .color = colors::muted, .align = Align::Center});
     label(canvas, {wide.x, box.bottom() + 17, wide.width, 13},
           number_text(std::round(bar.value * 100) / 100), {.size = 11, .align = Align::Center});
+    label(canvas, {wide.x, box.bottom() + 31, wide.width, 12}, bar.note,
+          {.size = 10, .color = colors::muted, .align = Align::Center});
+}
+
+std::string cost_note(const Moment& moment, int plant) {
+    if (!moment.has("COST-PER-UNIT")) return {};
+    return "cost " + number_text(moment["COST-PER-UNIT"](plant));
 }
 
 void draw_bars(Canvas& canvas, const Box& area, const std::vector<Bar>& bars, double top) {
@@ -61,12 +69,12 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     double top = 1, total = 0;
     for (int i = 0; i < made.count(0); ++i) {
         plants.push_back({made.object(0, i), made(i), least(i), most(i),
-                          moment.acts() ? wanted(i) : NAN, colors::blue});
+                          moment.acts() ? wanted(i) : NAN, colors::blue, cost_note(moment, i)});
         top = std::max({top, most(i), made(i)});
         total += made(i);
     }
     const Box body = area.above(20).below(18);
-    const Box right = body.rightmost(230).above(34), left = body.before(250).above(34);
+    const Box right = body.rightmost(230).above(46), left = body.before(250).above(46);
     canvas.text({left.x, area.y + 6}, "made by each plant", {.size = 11, .color = colors::muted});
     draw_bars(canvas, left, plants, top * 1.05);
 

@@ -52,13 +52,20 @@ void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
         canvas.ring(at, 4 + 5 * part, colors::blue, 1);
     }
     const Values& pleased = moment["provider-satisfaction"];
+    std::vector<Point> named;  // a name that would lie on another is left out
     for (int p = 0; p < competence.count(0); ++p) {
         const Point at = place(competence, p);
         const double r = 5 + 7 * part_of(pleased(p), pleased);
         const Point shape[] = {
             {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y}};
         canvas.polygon(shape, colors::vermilion.with_alpha(0.85));
-        canvas.text({at.x + r + 3, at.y}, competence.object(0, p), {.size = 9});
+        const Point beside{at.x + r + 3, at.y};
+        if (std::any_of(named.begin(), named.end(), [&](const Point& other) {
+                return std::abs(other.x - beside.x) < 24 && std::abs(other.y - beside.y) < 11;
+            }))
+            continue;
+        canvas.text(beside, competence.object(0, p), {.size = 9});
+        named.push_back(beside);
     }
 }
 

@@ -65,6 +65,20 @@ void draw_flow(Canvas& canvas, Point from, Point to, double part, bool many) {
     if (part > 0.01) arrow(canvas, from, to, colors::blue, many ? 0.7 + part : 1.5 + 3 * part);
 }
 
+// Drops beside the name, more where more rain falls.
+void draw_rain(Canvas& canvas, const Box& box, const Moment& moment, int i) {
+    constexpr double room = 80;  // for the name and the drops
+    if (!moment.has("RAIN_VAR") || box.width < room) return;
+    const Values& variance = moment["RAIN_VAR"];
+    const double most = *std::max_element(variance.numbers.begin(), variance.numbers.end());
+    if (!(most > 0) || !(variance(i) > 0)) return;
+    const int drops = std::max(static_cast<int>(std::lround(5 * std::sqrt(variance(i) / most))), 1);
+    for (int d = 0; d < drops; ++d) {
+        const double x = box.right() - 4 - 5 * d;
+        canvas.line({x + 1.5, box.y - 13}, {x - 1.5, box.y - 6}, colors::sky, 2);
+    }
+}
+
 void draw_tank(Canvas& canvas, const Box& box, const Moment& moment, int i) {
     const Values& levels = moment["rlevel|water"];
     const double top = std::max(moment["TOP_RES|CAPACITY"](i), 1e-9), level = levels(i);
@@ -112,8 +126,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         if (flows_to_sea(moment, connected, a))
             draw_flow(canvas, mouth, {sea.x, mouth.y}, part, many);
     }
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
         draw_tank(canvas, tanks[static_cast<std::size_t>(i)], moment, i);
+        draw_rain(canvas, tanks[static_cast<std::size_t>(i)], moment, i);
+    }
     const Entry entries[] = {{"wanted level", rgb(0xe5f3ee)},
                              {"water", colors::sky},
                              {"water, too high or too low", colors::orange},
@@ -124,7 +140,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 }  // namespace
 
 const Visualizer visualizer{"reservoir",
-                            "levels and their limits, and what flows down to the sea",
+                            "levels and their limits, rain, and what flows down to the sea",
                             {"reservoir_control_cont", "reservoir_control_dis", "reservoir"},
                             {"rlevel|water", "TOP_RES|CAPACITY", "MIN_LEVEL|SAFE-LOW",
                              "MAX_LEVEL|SAFE-HIGH", "RES_CONNECT|FLOWS-TO"},

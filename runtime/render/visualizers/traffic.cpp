@@ -52,6 +52,23 @@ Lane lane_of(const Plane& plane, const Street& street, double offset, double gap
             uy};
 }
 
+// From the end of a lane to the beginning of another, as cars go.
+void draw_turn(Canvas& canvas, const Lane& from, const Lane& to, double reach, double thickness) {
+    const Point a = from.end, d = to.begin;
+    const Point b{a.x + from.ux * reach, a.y + from.uy * reach};
+    const Point c{d.x - to.ux * reach, d.y - to.uy * reach};
+    std::vector<Point> way;
+    constexpr int pieces = 12;
+    for (int k = 0; k < pieces; ++k) {
+        const double t = static_cast<double>(k) / pieces, s = 1 - t;
+        const double pa = s * s * s, pb = 3 * s * s * t, pc = 3 * s * t * t, pd = t * t * t;
+        way.push_back(
+            {pa * a.x + pb * b.x + pc * c.x + pd * d.x, pa * a.y + pb * b.y + pc * c.y + pd * d.y});
+    }
+    canvas.polyline(way, colors::green, thickness);
+    arrow(canvas, {d.x - to.ux * 8, d.y - to.uy * 8}, d, colors::green, thickness);
+}
+
 // Whether a turn has green light in the phase that is shown at an intersection.
 bool is_green(const Moment& moment, int intersection, int from, int to) {
     const Values &green = moment["GREEN"], &signal = moment["signal"];
@@ -105,7 +122,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
                       up.high + margin);
     const Values &turns = moment["TURN"], &enters = moment["LINK-TO"];
     const bool many = all.size() > 30;
-    const double width = many ? 5 : 9, gap = many ? 14 : 26;
+    const double width = many ? 5 : 12, gap = many ? 14 : 44;
     std::vector<Lane> lanes;
     for (const Street& street : all) lanes.push_back(lane_of(plane, street, width * 0.75, gap));
     for (std::size_t link = 0; link < lanes.size(); ++link) {
@@ -117,8 +134,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             if (!turns.is(from, to)) continue;
             for (int i = 0; i < enters.count(1); ++i)
                 if (enters.is(from, i) && is_green(moment, i, from, to))
-                    arrow(canvas, lanes[static_cast<std::size_t>(from)].end,
-                          lanes[static_cast<std::size_t>(to)].begin, colors::green, many ? 1.2 : 2);
+                    draw_turn(canvas, lanes[static_cast<std::size_t>(from)],
+                              lanes[static_cast<std::size_t>(to)], gap * 0.7, many ? 1.2 : 2);
         }
     const Entry entries[] = {{"flow, darker where denser", colors::sky},
                              {"waiting cars", colors::vermilion},
