@@ -11,19 +11,25 @@ from pathlib import Path
 from passes_check import Finding, is_contradictory
 from rddl_problem import Problem
 
-LEVELS = ("x86-64", "x86-64-v3", "x86-64-v4")  # SSE2, AVX2, AVX-512
+LEVELS = {"x86-64": "sse2", "x86-64-v3": "avx2", "x86-64-v4": "avx512vl"}  # each with a flag of processors that have it
 LANES = (16, 8, 32, 64, 1)
 STEPS = 12
 
 
+def levels_here() -> list[str]:
+    flags = Path("/proc/cpuinfo").read_text().split()
+    return [level for level, flag in LEVELS.items() if flag in flags]
+
+
 class CompiledChecker:
-    """Registers and lanes by seed: together all of them. -O1 takes most of the time already, and no
+    """Registers, of those that this processor has, and lanes by seed: together all of them. -O1 takes most of the time already, and no
     bit may depend on it."""
 
     def __init__(self, options, seed: int):
         self.options = options
-        self.level = LEVELS[seed // 12 % len(LEVELS)]
-        self.optimise = "-O0" if seed // 12 % 2 else "-O1"
+        levels = levels_here()
+        self.level = levels[seed // 12 % len(levels)]
+        self.optimise = "-O0" if seed // 12 // len(levels) % 2 else "-O1"
 
     def check(self, problems: dict[int, Problem], counts: Counter) -> dict[int, Finding]:
         """What is wrong, by seed."""
