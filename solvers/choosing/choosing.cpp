@@ -78,15 +78,11 @@ Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Nois
       noise_(keys_.size() * static_cast<std::size_t>(space.real_count())),
       has_noise_(keys_.size()) {
     const auto count = static_cast<std::size_t>(environments);
-    const auto columns = static_cast<std::size_t>(space.column_count);
     if (space.masked || space.may_be_illegal) actions_.resize(count * records_.record_size());
     if (space.masked)
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
-    if (space.may_be_illegal) {
-        violated_.resize(count);
-        saved_.resize(count * columns);
-    }
+    if (space.may_be_illegal) mending_ = MendingRoom(space, environments);
 }
 
 void Chooser::begin_episode(std::int64_t environment) {
@@ -249,8 +245,8 @@ void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
 
 void Chooser::mend(rddl_batch* batch, float* actions) {
     write_records(actions);
-    mended_ += mend_actions(simulator_, space_, records_, batch, environments_, actions,
-                            actions_.data(), violated_.data(), saved_.data());
+    mended_ +=
+        mend_actions(simulator_, space_, records_, batch, actions, actions_.data(), mending_);
 }
 
 }  // namespace rddlc::solvers

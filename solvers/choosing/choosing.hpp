@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solvers/spaces/actions.hpp"
+#include "solvers/spaces/mending.hpp"
 
 #include <rddl/simulator.h>
 
@@ -81,8 +82,7 @@ class Chooser {
     std::vector<std::uint8_t> has_noise_;
     std::vector<std::byte> actions_;          // records
     std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
-    std::vector<std::int32_t> violated_;
-    std::vector<float> saved_;  // of mending
+    MendingRoom mending_;
     std::int64_t mended_ = 0;
 };
 

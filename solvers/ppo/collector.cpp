@@ -57,13 +57,15 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
     discounts_.assign(environments, 1.0);
     feature_moments_.resize(environments * features);
     return_moments_.resize(environments);
+    seeds_.resize(environments);
+    // As many as there may be, so that nothing is allocated later.
+    finished_.reserve(environments * static_cast<std::size_t>(options.rollout));
 }
 
 void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
-    std::vector<std::uint64_t> seeds;
     for (std::int64_t e = 0; e < count_; ++e)
-        seeds.push_back(seed_of(seed, origin_ + first_ + e, update));
-    simulator_.set_seeds(batch_.get(), 0, count_, seeds.data());
+        seeds_[static_cast<std::size_t>(e)] = seed_of(seed, origin_ + first_ + e, update);
+    simulator_.set_seeds(batch_.get(), 0, count_, seeds_.data());
     std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
     std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
     finished_.clear();

@@ -73,6 +73,7 @@ class Collector {
     std::vector<double> running_returns_, sums_, discounted_sums_, discounts_;
     std::vector<Moments> feature_moments_, return_moments_;
     std::vector<FinishedEpisode> finished_;
+    std::vector<std::uint64_t> seeds_;
     double simulator_seconds_ = 0;
 };
 
