@@ -8,6 +8,7 @@
 
 #include <rddl/processor.hpp>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -238,6 +239,9 @@ std::optional<fs::path> runtime_include_folder() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     if (!program.empty()) candidates.push_back(program.parent_path() / RDDLC_INCLUDE_FROM_BIN);
+    Dl_info library;  // that this code is part of, in place of a program
+    if (::dladdr(reinterpret_cast<const void*>(&runtime_include_folder), &library) != 0)
+        candidates.push_back(fs::path(library.dli_fname).parent_path() / "include");
     candidates.push_back(RDDLC_SOURCE_INCLUDE);
     for (const fs::path& candidate : candidates) {
         if (holds_runtime(candidate)) return candidate.lexically_normal();

@@ -11,7 +11,7 @@
 namespace rddlc {
 
 // The folder that holds rddl/simulator.hpp: $RDDLC_INCLUDE, the one installed beside the running
-// program, or that of the source tree from which it was built. Nothing if there is none.
+// program or the library that this is part of, or that of the source tree from which it was built. Nothing if there is none.
 std::optional<std::filesystem::path> runtime_include_folder();
 
 // What is wrong with RDDLC_INCLUDE or RDDL_INSTRUCTION_SET, if they are set.

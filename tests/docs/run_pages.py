@@ -40,6 +40,7 @@ def environment(options: argparse.Namespace, home: Path) -> dict[str, str]:
         **os.environ, "HOME": str(home), "TMPDIR": str(home),
         "PATH": f"{options.bin.resolve()}:{options.python.absolute().parent}:{os.environ['PATH']}",
         "XDG_CACHE_HOME": str((options.cache or home / "cache").absolute()),
+        "PYTHONPATH": str(options.build.resolve() / "python"),
         "VIRTUAL_ENV": str(options.python.absolute().parents[1]), "REPOSITORY": str(home / REPOSITORY),
     }
     for name in "RDDL_REPOSITORY", "RDDLC_INCLUDE", "CXX", "MAKEFLAGS":

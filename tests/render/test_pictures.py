@@ -12,6 +12,7 @@ import os
 import pty
 import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -133,6 +134,21 @@ class Files(PictureTest):
         self.assertIn("mountain_car", names)
         shown = {shot.visualizer or shot.name for shot in gallery.SHOTS}
         self.assertEqual(shown, set(names), "each visualizer has a picture in scripts/gallery.py")
+
+
+    def test_an_episode_without_steps(self):
+        """Its initial state is drawn, in each form."""
+        (self.folder / "over.rddl").write_text(
+            "domain d { pvariables { x : { state-fluent, real, default = 1.0 };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { x' = x + 1; }; reward = x; termination { x >= 1; }; }"
+            " non-fluents n { domain = d; }"
+            " instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }")
+        done = self.rddl("run", "over.rddl", "--engine=interpreter", "--quiet", "--gif=a.gif", "--png=a.png",
+                         "--html=a.html", "--watch", "--episodes=2")
+        self.assertEqual(done.stdout, "i  step 0 / 5  return 0  ended: terminated\n  x 1\n\n"
+                         "i  episode 1  step 0 / 5  return 0  ended: terminated\n  x 1\n\n")
+        self.assertEqual(len(frames_of(self.folder / "a.gif")), 1)
 
 
 class Movies(PictureTest):
@@ -273,24 +289,33 @@ class Errors(PictureTest):
 
 
 class Terminal(PictureTest):
-    def watch(self, *words, size=(24, 80), **variables) -> str:
-        """What a terminal of so many rows and columns gets."""
+    def start(self, *words, size=(24, 80), **variables) -> tuple[subprocess.Popen, int]:
+        """The program in a terminal of so many rows and columns, and what reads its screen."""
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", *size, 0, 0))
         process = subprocess.Popen(
-            [RDDL, "run", *map(str, words), "--engine=interpreter", "--horizon=3", "--quiet", "--watch",
-             "--fps=50"], stdout=theirs, stderr=theirs, cwd=self.folder,
+            [RDDL, "run", *map(str, words), "--engine=interpreter", "--quiet", "--watch", "--fps=50"],
+            stdout=theirs, stderr=theirs, cwd=self.folder,
             env={**environment(), "TERM": "xterm", "TERM_PROGRAM": "", **variables})
         os.close(theirs)
+        return process, ours
+
+    def rest_of(self, screen: int) -> str:
         text = b""
         try:
-            while chunk := os.read(ours, 1 << 16):
+            while chunk := os.read(screen, 1 << 16):
                 text += chunk
         except OSError:  # how Linux tells that the other end is closed
             pass
-        os.close(ours)
-        self.assertEqual(process.wait(), SUCCESS, text)
+        os.close(screen)
         return text.decode().replace("\r\n", "\n")
+
+    def watch(self, *words, **options) -> str:
+        """What the terminal gets of three steps."""
+        process, screen = self.start(*words, "--horizon=3", **options)
+        text = self.rest_of(screen)
+        self.assertEqual(process.wait(), SUCCESS, text)
+        return text
 
     def test_text_in_place(self):
         text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl")
@@ -302,6 +327,25 @@ class Terminal(PictureTest):
         self.assertIn("  position -0.5", states[0])
         self.assertIn("* position", states[1])
         self.assertIn("ended: horizon", states[3])
+
+    def test_an_episode_without_end_is_seen_and_stopped(self):
+        process, screen = self.start(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--horizon=0",
+                                     "--policy=noop")
+        seen = b""
+        while b"step 5" not in seen:
+            seen += os.read(screen, 1 << 16)
+        process.send_signal(signal.SIGINT)
+        text = self.rest_of(screen)
+        self.assertEqual(process.wait(), 128 + signal.SIGINT)
+        self.assertTrue(text.endswith("rddl: interrupted after 0 of 1 episodes\n"), text)
+
+    def test_one_episode_after_the_other(self):
+        text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2", "--threads=2")
+        seen = re.findall(r"mountain_car_1  (episode 1  )?step (\d)", text)
+        self.assertEqual(seen, [(episode, str(k)) for episode in ("", "episode 1  ") for k in range(4)])
+        one = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2",
+                         "--environment=1")
+        self.assertEqual(one.split("\x1b[H")[1:], text.split("\x1b[H")[5:])
 
     def test_small_terminals(self):
         text = self.watch("CooperativeRecon_MDP_ippc2011", "3", size=(8, 40))
@@ -329,6 +373,19 @@ class Terminal(PictureTest):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
         self.assertEqual(len(re.findall(r"^mountain_car_1  step \d+ / 30", text, re.M)), 31)
+        # With files of one episode all are shown, too, and a trace is the same as ever.
+        both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
+        self.assertTrue(both.startswith(text))
+        self.assertEqual(len(re.findall(r"^mountain_car_1  episode 1  step \d+ / 30", both, re.M)), 31)
+        self.assertEqual(len(frames_of(self.folder / "a.gif")), 31)
+        self.run_car("--episodes=2", "--trace=b.jsonl")
+        self.assertEqual((self.folder / "a.jsonl").read_bytes(), (self.folder / "b.jsonl").read_bytes())
+        self.assertEqual(self.rddl("render", "a.jsonl", "--watch", "--quiet").stdout, both)
+
+    def test_one_thing_on_standard_output(self):
+        for option in "--json", "--trace=-":
+            refused = self.run_car("--watch", option, status=USAGE)
+            self.assertIn("both write to standard output", refused.stderr)
 
 
 class Scenes(PictureTest):

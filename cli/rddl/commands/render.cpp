@@ -95,7 +95,7 @@ ExitStatus render_trace(const RenderOptions& options) {
         pictures.begin_second(options.beside);
         while ((line = second->next())) pictures.add_line(*line);
     }
-    give_up_if_interrupted();
+    give_up_if_interrupted("drawing");
     const std::string what = pictures.finish();
     if (!options.quiet) fmt::print("{}\n", what);
     return success;

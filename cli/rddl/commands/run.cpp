@@ -189,10 +189,25 @@ void require_policy_block(const rddl_simulator& simulator) {
 
 void require_drawn_episode(const RunOptions& options) {
     require_pictures();
-    if (options.pictures.episode >= options.rollouts.episodes)
-        throw Failure(fmt::format("there is no episode {} to draw: {} run, counted from 0",
-                                  options.pictures.episode, options.rollouts.episodes),
+    const std::int64_t episode = options.pictures.episode.value_or(0);
+    if (episode >= options.rollouts.episodes)
+        throw Failure(fmt::format("there is no episode {} to draw: {} run, counted from 0", episode,
+                                  options.rollouts.episodes),
                       {}, usage_error);
+    if (options.pictures.watch && (options.json || options.trace == "-"))
+        throw Failure(fmt::format("{} and --watch both write to standard output",
+                                  options.json ? "--json" : "--trace -"),
+                      {}, usage_error);
+}
+
+// An episode that is over before its first step has no line in the trace; its state is drawn.
+void draw_initial_states(const Rollouts& rollouts, PictureWriter& pictures) {
+    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
+        const Episode& episode = rollouts.episodes[e];
+        if (episode.length == 0 && !(episode.causes & RDDL_FAULTED))
+            pictures.add_line(fmt::format(R"({{"episode":{},"state":{{}},"causes":{}}})", e,
+                                          causes_json(episode.causes)));
+    }
 }
 
 // Of the episode, for people.
@@ -233,17 +248,24 @@ ExitStatus run(const RunOptions& options) {
     if (trace || pictures) {
         sink = [&](const std::string& lines) {
             if (trace) trace->write(lines);
-            if (pictures)
+            if (pictures && !is_interrupted())
                 for_each_line(lines, [&](std::string_view line) { pictures->add_line(line); });
         };
         sink(header_line(options, problem, horizon));
     }
     RolloutOptions rollout_options = options.rollouts;
     rollout_options.memory_limit = files.memory_limit;
-    const Rollouts rollouts =
-        run_episodes(*problem.simulator, rollout_options, sink, !options.quiet);
+    if (options.pictures.watch) {  // step by step
+        rollout_options.threads = 1;
+        rollout_options.batch = 1;
+    }
+    const Rollouts rollouts = run_episodes(*problem.simulator, rollout_options, sink,
+                                           !options.quiet && !options.pictures.watch);
     if (trace) trace->finish();
-    if (pictures && !is_interrupted()) pictures->finish();
+    if (pictures && !is_interrupted()) {
+        draw_initial_states(rollouts, *pictures);
+        pictures->finish();
+    }
     if (rollouts.missing_threads > 0)
         tell("rddl: note: the system gives no more than {} of {} threads\n", rollouts.threads,
              rollouts.threads + rollouts.missing_threads);

@@ -31,49 +31,49 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-LoadedProblem interpreted(const ProblemFiles& files, const LoadOptions& options) {
+Compilation compile_to_interpret(const ProblemFiles& files, const LoadOptions& options) {
     if (options.real != RealType::Double)
         throw Failure("the interpreter computes with doubles",
                       "leave out --real=float, or use --engine=compiled", usage_error);
-    const ExternFiles externs = extern_files(options.externs);
-    const Stopwatch watch;
-    LoadCosts costs;
-    Compilation compilation =
-        compile_or_give_up(front_end_options(files, Stage::Optimise, options));
-    costs.compile_seconds = watch.seconds();
-    if (options.externs.empty())
+    Compilation compilation = compile(front_end_options(files, Stage::Optimise, options));
+    if (options.externs.empty() && compilation.program)
         report_undefined_externals(*compilation.program, {}, compilation.diagnostics);
-    give_up_on_errors(compilation);
-    ExternalLibrary library = external_library(*compilation.program, files, options);
-    Simulator simulator =
-        interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources),
-                              std::move(library), std::move(compilation.details));
-    costs.load_seconds = watch.seconds();
-    return {files, std::move(simulator), costs};
+    return compilation;
 }
 
-LoadedProblem compiled(const ProblemFiles& files, const LoadOptions& options) {
+Compilation compile_to_build(const ProblemFiles& files, const LoadOptions& options) {
     const ExternFiles externs = extern_files(options.externs);
     if (!externs.shared_objects.empty())
         throw Failure(fmt::format("the compiled engine takes external functions from a C++ header, "
                                   "not from '{}'",
                                   externs.shared_objects.front().string()),
                       "name the header, or use --engine=interpreter", usage_error);
-    const Stopwatch watch;
-    LoadCosts costs;
     CompileOptions emitting = front_end_options(files, Stage::Emit, options);
     emitting.real = options.real;
-    const Compilation compilation = compile_or_give_up(emitting);
-    costs.compile_seconds = watch.seconds();
+    return compile(emitting);
+}
+
+LoadedProblem interpreted(Compilation compilation, const ProblemFiles& files,
+                          const LoadOptions& options) {
+    ExternalLibrary library = external_library(*compilation.program, files, options);
+    return {files,
+            interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources),
+                                  std::move(library), std::move(compilation.details)),
+            LoadCosts{}};
+}
+
+LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
+                    const LoadOptions& options) {
+    LoadCosts costs;
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');
     costs.emitted_bytes = static_cast<std::int64_t>(text.size());
     const CompiledSimulator compiled = compiled_simulator(
-        text, {files.name, options.ignore_cache, options.quiet, externs.headers});
+        text,
+        {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers});
     costs.build_seconds = compiled.object.build_seconds;
     costs.object_bytes =
         static_cast<std::int64_t>(std::filesystem::file_size(compiled.object.path));
-    costs.load_seconds = watch.seconds();
     return {files, compiled.simulator, costs};
 }
 
@@ -97,10 +97,28 @@ CompileOptions front_end_options(const ProblemFiles& files, Stage last,
     return front_end;
 }
 
-LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
-    LoadedProblem problem = options.engine == Engine::Interpreter ? interpreted(files, options)
-                                                                  : compiled(files, options);
+Compilation compile_problem(const ProblemFiles& files, const LoadOptions& options) {
+    return options.engine == Engine::Interpreter ? compile_to_interpret(files, options)
+                                                 : compile_to_build(files, options);
+}
+
+LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& files,
+                               const LoadOptions& options) {
+    LoadedProblem problem = options.engine == Engine::Interpreter
+                                ? interpreted(std::move(compilation), files, options)
+                                : built(compilation, files, options);
     problem.used = used_files(files, options);
+    return problem;
+}
+
+LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {
+    const Stopwatch watch;
+    Compilation compilation = compile_problem(files, options);
+    const double compile_seconds = watch.seconds();
+    give_up_on_errors(compilation);
+    LoadedProblem problem = load_compilation(std::move(compilation), files, options);
+    problem.costs.compile_seconds = compile_seconds;
+    problem.costs.load_seconds = watch.seconds();
     return problem;
 }
 

@@ -55,7 +55,14 @@ struct LoadedProblem {
 // To compile the problem up to a stage, as it is loaded.
 CompileOptions front_end_options(const ProblemFiles& files, Stage last, const LoadOptions& options);
 
-// Prints the diagnostics and throws Diagnosed if there are errors; fails without a C++ compiler.
+// What the engine makes a simulator of; its diagnostics tell whether it can.
+Compilation compile_problem(const ProblemFiles& files, const LoadOptions& options);
+// From a compilation without errors. Fails without a C++ compiler. Costs are those after compiling;
+// load_seconds is 0.
+LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& files,
+                               const LoadOptions& options);
+
+// Both. Prints the diagnostics and throws Diagnosed if there are errors.
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options);
 
 }  // namespace rddlc::cli

@@ -169,9 +169,12 @@ void TraceLines::add(std::size_t i, std::int64_t episode, std::int64_t step,
     line += "}\n";
 }
 
-std::string TraceLines::text() const {
+std::string TraceLines::take() {
     std::string all;
-    for (const std::string& lines : lines_) all += lines;
+    for (std::string& lines : lines_) {
+        all += lines;
+        lines.clear();
+    }
     return all;
 }
 

@@ -67,8 +67,8 @@ class TraceLines {
     void add(std::size_t i, std::int64_t episode, std::int64_t step, const std::byte* action,
              double reward, std::uint8_t causes);
 
-    // All lines, episode by episode.
-    std::string text() const;
+    // The lines since it was asked last, episode by episode.
+    std::string take();
 
   private:
     const rddl_simulator& simulator_;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace rddlc::cli {
@@ -42,8 +43,10 @@ std::string end_in(const nlohmann::json& line) {
 
 }  // namespace
 
-TraceSteps::TraceSteps(const rddl_simulator& simulator, std::int64_t episode, std::string name)
-    : problem_(*simulator.problem),
+TraceSteps::TraceSteps(const rddl_simulator& simulator, std::optional<std::int64_t> episode,
+                       std::string name)
+    : simulator_(simulator),
+      problem_(*simulator.problem),
       episode_(episode),
       name_(std::move(name)),
       state_layout_(problem_, RDDL_STATE),
@@ -86,14 +89,21 @@ void TraceSteps::read_record(const RecordLayout& layout, const nlohmann::json& l
 }
 
 std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
-    if (count_in(line, "episode", 0) != episode_) return std::nullopt;
+    const std::int64_t episode = count_in(line, "episode", 0);
+    if (!episode_) episode_ = episode;
+    if (episode != *episode_) {
+        is_over_ = next_number_ > 0;
+        return std::nullopt;
+    }
     if (!line.contains("state") && !line.contains("next_state") && !line.contains("action"))
         fail("the line is no step: it has no state and no action");
     TraceStep step;
     step.number = count_in(line, "step", next_number_);
     if (step.number < next_number_)
-        fail(fmt::format("step {} of episode {} comes after step {}", step.number, episode_,
+        fail(fmt::format("step {} of episode {} comes after step {}", step.number, episode,
                          next_number_ - 1));
+    if (step.number == std::numeric_limits<std::int64_t>::max())
+        fail(fmt::format("there is no step after step {}", step.number));
     next_number_ = step.number + 1;
     read_record(state_layout_, line, "state", state_);
     step.state = state_;
@@ -107,9 +117,20 @@ std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
     step.total = total_;
     total_ += step.reward;
     end_ = end_in(line);
+    if (step.action.empty()) step.end = end_;
     has_next_state_ = line.contains("next_state");
     read_record(state_layout_, line, "next_state", state_);
     return step;
+}
+
+void TraceSteps::begin_next() {
+    --line_;
+    simulator_.initial_state(&simulator_, state_.data());
+    episode_.reset();
+    has_next_state_ = is_over_ = false;
+    next_number_ = 0;
+    total_ = 0;
+    end_.clear();
 }
 
 std::optional<TraceStep> TraceSteps::last() {

@@ -1,4 +1,4 @@
-// The steps of one episode of a trace, read back into records (docs/traces.md).
+// The steps of an episode of a trace, read back into records (docs/traces.md).
 #pragma once
 
 #include "formats/records_json.hpp"
@@ -27,9 +27,10 @@ struct TraceStep {
 
 class TraceSteps {
   public:
-    // Of the episode with that number. `name` is the file's in messages. `simulator` must outlive
-    // it.
-    TraceSteps(const rddl_simulator& simulator, std::int64_t episode, std::string name);
+    // Of the episode with that number, or without one of the first that comes. `name` is the file's
+    // in messages. `simulator` must outlive it.
+    TraceSteps(const rddl_simulator& simulator, std::optional<std::int64_t> episode,
+               std::string name);
 
     // The next line of the file. A state that is followed by an action, if the line tells one.
     // Throws a Failure with the line's number where it is no step of this problem; `cut_off` is
@@ -37,7 +38,14 @@ class TraceSteps {
     std::optional<TraceStep> read(std::string_view line);
     // The state that the last step led to, if the trace tells it.
     std::optional<TraceStep> last();
+    bool has_last() const { return has_next_state_; }
 
+    // The line that was read last is of another episode, which comes after steps of this one.
+    bool is_over() const { return is_over_; }
+    // Its episode is read from here on; the line is to be read again.
+    void begin_next();
+
+    std::optional<std::int64_t> episode() const { return episode_; }
     std::int64_t horizon() const { return horizon_; }  // of the header or the problem; 0: none
     bool has_ended() const { return !end_.empty(); }   // the last step says so
 
@@ -47,8 +55,9 @@ class TraceSteps {
                      std::vector<std::byte>& record) const;
     [[noreturn]] void fail(const std::string& message) const;
 
+    const rddl_simulator& simulator_;
     const rddl_problem& problem_;
-    std::int64_t episode_;
+    std::optional<std::int64_t> episode_;
     std::string name_;
     RecordLayout state_layout_, action_layout_;
     std::int64_t line_ = 0;  // the number of the last one, from 1 on
@@ -58,6 +67,7 @@ class TraceSteps {
     std::int64_t next_number_ = 0;
     double total_ = 0;
     std::string end_;
+    bool is_over_ = false;
 };
 
 }  // namespace rddlc::cli

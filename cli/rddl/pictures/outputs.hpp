@@ -1,6 +1,7 @@
 // The files that an episode is drawn into, one kind like the other.
 #pragma once
 
+#include "pictures/pace.hpp"
 #include "pictures/picture_options.hpp"
 #include "support/files.hpp"
 
@@ -14,17 +15,11 @@
 
 namespace rddlc::cli {
 
-// How quickly states are shown, and which of them.
-struct Pace {
-    double frames_per_second = 10;
-    std::int64_t stride = 1;  // every so manyth state
-};
-
 // What is known when the first state is there.
 struct Show {
     const rddl::render::World& world;
     Pace pace;
-    std::string name;  // of the episode
+    std::string name;  // of the trace
 };
 
 struct Drawn {

@@ -60,7 +60,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
                                     "At most so many pictures: every second, third, ... state of "
                                     "a longer episode (1000)",
                                     options.most_frames, 1, most);
-    add_number_option<std::int64_t>(command, "--environment", "K", "Which episode, from 0 on (0)",
+    add_number_option<std::int64_t>(command, "--environment", "K",
+                                    "Which episode, from 0 on (0; --watch shows all)",
                                     options.episode, 0, most);
     add_number_option<std::int64_t>(command, "--step", "K",
                                     "Which state a single picture shows (the last one)",

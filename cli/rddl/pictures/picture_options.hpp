@@ -20,13 +20,13 @@ struct PictureOptions {
     std::optional<double> frames_per_second;
     std::optional<double> real_time_factor;
     std::optional<std::int64_t> most_frames;
-    std::int64_t episode = 0;
-    std::optional<std::int64_t> step;  // of files of one state; the last one if absent
+    std::optional<std::int64_t> episode;  // absent: the first, and all on the screen
+    std::optional<std::int64_t> step;     // of files of one state; the last one if absent
 
-    bool any() const {
-        return watch ||
-               !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
+    bool any_file() const {
+        return !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
     }
+    bool any() const { return watch || any_file(); }
 };
 
 // --size

@@ -23,7 +23,8 @@ class PictureWriter {
   public:
     // Opens the files, so that what cannot be written is known before anything is run. `name` is
     // that of the trace in messages. Throws a Failure; so do the functions below.
-    PictureWriter(const LoadedProblem& problem, const PictureOptions& options, std::string name);
+    PictureWriter(const LoadedProblem& problem, const PictureOptions& options,
+                  const std::string& name);
     ~PictureWriter();
     PictureWriter(const PictureWriter&) = delete;
     PictureWriter& operator=(const PictureWriter&) = delete;
@@ -32,7 +33,7 @@ class PictureWriter {
     void add_line(std::string_view line);
     // The lines that follow are of another trace of the same problem. For pages only, which show
     // both episodes side by side.
-    void begin_second(std::string name);
+    void begin_second(const std::string& name);
 
     // The files have their names from here on. `what` was drawn in words: "201 pictures".
     std::string finish();

@@ -2,6 +2,7 @@
 
 #include "support/program.hpp"
 #include "support/utf8.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <render/base64.hpp>
@@ -85,7 +86,9 @@ std::string cut_off(std::string_view text, std::size_t columns) {
 
 std::string heading(const render::Moment& moment) {
     const render::Step& now = moment.now();
-    std::string text = fmt::format("{}  step {}", moment.problem().instance, now.number);
+    std::string text = moment.problem().instance;
+    if (moment.episode() > 0) text += fmt::format("  episode {}", moment.episode());
+    text += fmt::format("  step {}", now.number);
     if (moment.horizon() > 0) text += fmt::format(" / {}", moment.horizon());
     text += fmt::format("  return {}", render::number_text(now.total));
     if (moment.acts()) text += fmt::format("  reward {}", render::number_text(now.reward));
@@ -123,8 +126,19 @@ void show_in_place(const std::vector<std::string>& lines) {
     fmt::print("{}\x1b[J", text);
 }
 
+using Clock = std::chrono::steady_clock;
+
+// False after Ctrl-C, which is not waited out.
+bool wait_until(Clock::time_point time) {
+    constexpr Clock::duration at_most = std::chrono::milliseconds(50);
+    for (auto now = Clock::now(); now < time && !is_interrupted(); now = Clock::now())
+        std::this_thread::sleep_for(std::min(at_most, time - now));
+    return !is_interrupted();
+}
+
 struct Watch {
-    std::chrono::duration<double> pause{0.1};
+    Clock::duration pause{};
+    Clock::time_point next{};  // when the next state may be shown
     bool is_terminal = false;
     Images images = Images::None;
     bool has_begun = false;
@@ -136,8 +150,10 @@ struct Watch {
             for (const std::string& line : lines_of(moment, unlimited, false))
                 fmt::print("{}\n", line);
             fmt::print("\n");
+            std::fflush(stdout);
             return;
         }
+        if (!wait_until(next)) return;
         if (!std::exchange(has_begun, true)) fmt::print("\x1b[2J");
         if (images == Images::None) {
             show_in_place(lines_of(moment, terminal_size(), tells_in_color()));
@@ -146,7 +162,7 @@ struct Watch {
             fmt::print("\x1b[H{}", images == Images::Kitty ? kitty_image(png) : iterm_image(png));
         }
         std::fflush(stdout);
-        if (!drawn.is_last) std::this_thread::sleep_for(pause);
+        next = Clock::now() + pause;
     }
 };
 
@@ -158,7 +174,10 @@ Output watch_output(const PictureOptions& options) {
     if (options.visualizer != "text") watch->images = images_of_terminal();
     Output output;
     output.begin = [=](const Show& show) {
-        watch->pause = std::chrono::duration<double>(1 / show.pace.frames_per_second);
+        constexpr Clock::duration between_episodes = std::chrono::seconds(1);
+        if (watch->has_begun) watch->next += between_episodes;
+        watch->pause = std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(1 / show.pace.frames_per_second));
     };
     output.add = [=](const Drawn& drawn) {
         if (drawn.in_movie) watch->show(drawn);

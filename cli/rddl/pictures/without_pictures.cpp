@@ -33,7 +33,7 @@ std::string visualizer_list() {
     return {};
 }
 
-PictureWriter::PictureWriter(const LoadedProblem&, const PictureOptions&, std::string) {
+PictureWriter::PictureWriter(const LoadedProblem&, const PictureOptions&, const std::string&) {
     require_pictures();
 }
 
@@ -41,7 +41,7 @@ PictureWriter::~PictureWriter() = default;
 
 void PictureWriter::add_line(std::string_view) {}
 
-void PictureWriter::begin_second(std::string) {}
+void PictureWriter::begin_second(const std::string&) {}
 
 std::string PictureWriter::finish() {
     return {};

@@ -16,20 +16,22 @@ namespace {
 class TraceRecorder : public solvers::Recorder {
   public:
     TraceRecorder(const rddl_simulator& simulator, const TraceFormat& format,
-                  std::int64_t environments, const TraceSink& sink)
-        : lines_(simulator, format, environments), sink_(sink) {}
+                  std::int64_t environments, const TraceSink& sink, bool at_once)
+        : lines_(simulator, format, environments), sink_(sink), at_once_(at_once) {}
 
     void before_step(const rddl_batch& batch) override { lines_.before_step(batch); }
     void after_step(const rddl_batch& batch) override { lines_.after_step(batch); }
     void add(std::size_t i, std::int64_t episode, std::int64_t step, const std::byte* action,
              double reward, std::uint8_t causes) override {
         lines_.add(i, episode, step, action, reward, causes);
+        if (at_once_) sink_(lines_.take());
     }
-    void finish() override { sink_(lines_.text()); }
+    void finish() override { sink_(lines_.take()); }
 
   private:
     TraceLines lines_;
     const TraceSink& sink_;
+    bool at_once_;
 };
 
 solvers::Policy policy_of(const rddl_simulator& simulator, const RolloutOptions& options) {
@@ -80,8 +82,10 @@ Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& po
     std::optional<TraceFormat> format;
     if (trace) {
         format.emplace(*simulator.problem);
-        watch.record = [&](std::int64_t environments) {
-            return std::make_unique<TraceRecorder>(simulator, *format, environments, trace);
+        const bool at_once = options.threads == 1 && options.batch == 1;
+        watch.record = [&, at_once](std::int64_t environments) {
+            return std::make_unique<TraceRecorder>(simulator, *format, environments, trace,
+                                                   at_once);
         };
     }
     return solvers::run_episodes(simulator, policy, options, watch);

@@ -29,7 +29,8 @@ struct RolloutOptions : solvers::EpisodeOptions {
     std::filesystem::path learned = {};  // a policy file, or the folder of a run
 };
 
-// Receives the trace lines of consecutive episodes, in order; called by one thread at a time.
+// Receives the trace lines of consecutive episodes, in order; called by one thread at a time. With
+// one thread and batches of one it gets each line as soon as the step is made.
 using TraceSink = std::function<void(const std::string& lines)>;
 
 // Stops early, with what is finished, once is_interrupted(). `trace` may be empty.

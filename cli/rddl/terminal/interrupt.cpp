@@ -1,5 +1,6 @@
 #include "terminal/interrupt.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -53,8 +54,9 @@ ExitStatus interrupted_status() {
     return static_cast<ExitStatus>(status_of(signal_seen));
 }
 
-void give_up_if_interrupted() {
-    if (is_interrupted()) throw Failure("interrupted while compiling", "", interrupted_status());
+void give_up_if_interrupted(std::string_view doing) {
+    if (is_interrupted())
+        throw Failure(fmt::format("interrupted while {}", doing), "", interrupted_status());
 }
 
 }  // namespace rddlc::cli

@@ -3,6 +3,8 @@
 
 #include "support/failure.hpp"
 
+#include <string_view>
+
 namespace rddlc::cli {
 
 // From now on the first Ctrl-C (or SIGTERM, or the SIGHUP of a terminal that is closed) only makes
@@ -15,8 +17,8 @@ bool is_interrupted();
 // With which to end then: 128 and the number of the signal, 130 for Ctrl-C.
 ExitStatus interrupted_status();
 
-// While something is compiled: throws a Failure. Ctrl-C reaches the compiler, too, which then ends
-// as if it had failed.
-void give_up_if_interrupted();
+// Throws a Failure "interrupted while compiling". While something is compiled Ctrl-C reaches the
+// compiler, too, which then ends as if it had failed.
+void give_up_if_interrupted(std::string_view doing = "compiling");
 
 }  // namespace rddlc::cli

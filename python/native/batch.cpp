@@ -1,0 +1,194 @@
+#include "native/batch.hpp"
+
+#include <unistd.h>
+
+#include <new>
+
+namespace nb = nanobind;
+
+namespace rddlc::python {
+
+namespace {
+
+rddl_batch_options options_of(const BatchSettings& settings) {
+    rddl_batch_options options{};
+    options.struct_size = sizeof options;
+    options.thread_count = settings.threads;
+    options.environment_count = settings.environments;
+    options.autoreset = settings.autoreset;
+    options.horizon = settings.horizon;
+    options.keeps_steps = settings.environments == 1;
+    return options;
+}
+
+solvers::Batch copy_of(const rddl_simulator& simulator, const rddl_batch* batch) {
+    solvers::Batch copy(simulator.copy(batch), simulator.destroy);
+    if (!copy) throw std::bad_alloc();
+    return copy;
+}
+
+}  // namespace
+
+Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
+    : simulator_(std::move(simulator)),
+      settings_(settings),
+      batch_(nullptr, simulator_->destroy),
+      process_(::getpid()),
+      action_columns_(simulator_->action_value_count(simulator_.get())),
+      observation_columns_(simulator_->observation_value_count(simulator_.get())) {
+    solvers::require_room(*simulator_, settings.environments, default_memory_limit);
+    batch_ = solvers::create_batch(*simulator_, options_of(settings));
+    const rddl_problem& problem = *simulator_->problem;
+    const auto count = static_cast<std::size_t>(settings.environments);
+    const std::size_t size = settings.doubles ? sizeof(double) : sizeof(float);
+    const auto records = [&](std::int64_t bytes) {
+        return std::vector<std::byte>(count * static_cast<std::size_t>(bytes));
+    };
+    const auto matrix = [&](std::int64_t columns) {
+        return std::vector<std::byte>(count * static_cast<std::size_t>(columns) * size);
+    };
+    arrays_ = {records(problem.action_size),      records(problem.observation_size),
+               records(problem.observation_size), records(problem.state_size),
+               matrix(action_columns_),           matrix(observation_columns_),
+               matrix(observation_columns_),      std::vector<double>(count),
+               std::vector<std::uint8_t>(count),  std::vector<std::uint8_t>(count),
+               std::vector<std::uint8_t>(count)};
+}
+
+Batch::Batch(const Batch& other)
+    : simulator_(other.simulator_),
+      settings_(other.settings_),
+      batch_(copy_of(*other.simulator_, other.batch_.get())),
+      process_(::getpid()),
+      action_columns_(other.action_columns_),
+      observation_columns_(other.observation_columns_),
+      arrays_(other.arrays_) {}
+
+// A forked process has none of the threads of its parent: a copy has threads of its own. The old
+// batch is not destroyed there, since that waits for its threads.
+rddl_batch* Batch::live() {
+    if (settings_.threads == 1 || process_ == ::getpid()) return batch_.get();
+    solvers::Batch copy = copy_of(*simulator_, batch_.get());
+    static_cast<void>(batch_.release());
+    batch_ = std::move(copy);
+    process_ = ::getpid();
+    return batch_.get();
+}
+
+rddl_transition Batch::transition() {
+    rddl_transition out{};
+    out.struct_size = sizeof out;
+    if (settings_.shows_records) out.observations = arrays_.observations.data();
+    if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP) {
+        out.final_observations = arrays_.final_observations.data();
+        out.final_states = arrays_.final_states.data();
+    }
+    out.rewards = arrays_.rewards.data();
+    out.terminated = arrays_.terminated.data();
+    out.truncated = arrays_.truncated.data();
+    out.causes = arrays_.causes.data();
+    return out;
+}
+
+void Batch::reset(const std::uint8_t* mask) {
+    rddl_batch* const batch = live();
+    const nb::gil_scoped_release released;
+    check(*simulator_, simulator_->reset(batch, mask, arrays_.observations.data()));
+    read_values();
+}
+
+void Batch::read_values() {
+    if (settings_.shows_values)
+        check(*simulator_, simulator_->get_observation_values(batch_.get(), number(),
+                                                              arrays_.observation_values.data()));
+}
+
+void Batch::step() {
+    rddl_batch* const batch = live();
+    const rddl_transition out = transition();
+    const nb::gil_scoped_release released;
+    check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
+    read_values();
+}
+
+void Batch::step_values() {
+    rddl_batch* const batch = live();
+    rddl_transition out = transition();
+    if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP)
+        out.final_observation_values = arrays_.final_values.data();
+    const nb::gil_scoped_release released;
+    void* const values = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
+    check(*simulator_,
+          simulator_->step_values(batch, number(), arrays_.action_values.data(), values, &out));
+}
+
+void Batch::set_seed(std::uint64_t seed) {
+    check(*simulator_, simulator_->set_seed(live(), seed));
+}
+
+void Batch::set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds) {
+    check(*simulator_, simulator_->set_seeds(live(), begin, static_cast<std::int64_t>(seeds.size()),
+                                             seeds.data()));
+}
+
+void Batch::read_state(std::int64_t environment, std::byte* record) {
+    check(*simulator_, simulator_->get_state(live(), environment, 1, record));
+}
+
+void Batch::write_state(std::int64_t environment, const std::byte* record, std::int64_t steps) {
+    check(*simulator_, simulator_->set_state(live(), environment, 1, record, &steps));
+    if (settings_.shows_records)
+        check(*simulator_, simulator_->get_observation(batch_.get(), 0, settings_.environments,
+                                                       arrays_.observations.data()));
+    read_values();
+}
+
+void Batch::read_interm(std::int64_t environment, std::byte* record) {
+    check(*simulator_, simulator_->get_interm(live(), environment, 1, record));
+}
+
+std::pair<std::int64_t, std::int64_t> Batch::progress(std::int64_t environment) {
+    std::int64_t steps = 0, episodes = 0;
+    check(*simulator_, simulator_->get_progress(live(), environment, 1, &steps, &episodes));
+    return {steps, episodes};
+}
+
+std::uint8_t Batch::causes(std::int64_t environment) {
+    std::uint8_t causes = RDDL_RUNNING;
+    check(*simulator_, simulator_->get_causes(live(), environment, 1, &causes));
+    return causes;
+}
+
+std::string Batch::fault(std::int64_t environment) {
+    rddl_fault fault{};
+    fault.struct_size = sizeof fault;
+    check(*simulator_, simulator_->get_fault(live(), environment, &fault));
+    return fault.faulty ? fault.message : "";
+}
+
+std::vector<std::int32_t> Batch::violated_preconditions() {
+    std::vector<std::int32_t> violated(static_cast<std::size_t>(settings_.environments));
+    check(*simulator_,
+          simulator_->violated_preconditions(live(), arrays_.actions.data(), violated.data()));
+    return violated;
+}
+
+std::string Batch::explain_violation(std::int64_t environment) {
+    rddl_violation violation{};
+    violation.struct_size = sizeof violation;
+    const std::byte* const action =
+        arrays_.actions.data() + environment * simulator_->problem->action_size;
+    check(*simulator_, simulator_->explain_violation(live(), environment, action, &violation));
+    return violation.precondition < 0 ? "" : violation.message;
+}
+
+void Batch::action_masks(std::uint8_t* masks) {
+    check(*simulator_, simulator_->action_mask(live(), nullptr, masks));
+}
+
+void Batch::act() {
+    if (!simulator_->policy_act) throw Refused("the problem has no policy block");
+    check(*simulator_, simulator_->policy_act(live(), arrays_.actions.data()));
+}
+
+}  // namespace rddlc::python

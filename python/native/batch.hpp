@@ -1,0 +1,88 @@
+// Environments of one simulator, and the arrays that they read and fill.
+#pragma once
+
+#include "native/problem.hpp"
+#include "solvers/batches/batch.hpp"
+
+#include <rddl/simulator.h>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rddlc::python {
+
+struct BatchSettings {
+    std::int64_t environments = 1;
+    int threads = 0;  // 0: one per core
+    rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
+    std::int64_t horizon = 0;                        // 0: the instance's; RDDL_NO_HORIZON: none
+    bool doubles = false;                            // the matrices of numbers
+    bool shows_records = true, shows_values = true;  // what steps and resets fill
+};
+
+// Its arrays stay where they are, so that Python looks at them without copies. Values are the same
+// numbers as records, a column each. Functions that step release Python's lock.
+class Batch {
+  public:
+    Batch(cli::Simulator simulator, const BatchSettings& settings);
+    Batch(const Batch& other);
+    Batch& operator=(const Batch&) = delete;
+
+    const rddl_simulator& simulator() const { return *simulator_; }
+    const BatchSettings& settings() const { return settings_; }
+
+    void reset(const std::uint8_t* mask);
+    // By the rows of action_records, or those of action_values.
+    void step();
+    void step_values();
+    void set_seed(std::uint64_t seed);
+    void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
+
+    void read_state(std::int64_t environment, std::byte* record);
+    void write_state(std::int64_t environment, const std::byte* record, std::int64_t steps);
+    void read_interm(std::int64_t environment, std::byte* record);
+    std::pair<std::int64_t, std::int64_t> progress(std::int64_t environment);  // steps, episodes
+    std::uint8_t causes(std::int64_t environment);
+    std::string fault(std::int64_t environment);
+
+    // Of the actions in action_records: for each environment the first precondition, or -1.
+    std::vector<std::int32_t> violated_preconditions();
+    std::string explain_violation(std::int64_t environment);
+    void action_masks(std::uint8_t* masks);
+    // The action that the policy block chooses, into action_records.
+    void act();
+
+    struct Arrays {
+        std::vector<std::byte> actions, observations, final_observations, final_states;
+        std::vector<std::byte> action_values, observation_values, final_values;
+        std::vector<double> rewards;
+        std::vector<std::uint8_t> terminated, truncated, causes;
+    };
+    Arrays& arrays() { return arrays_; }
+    std::int64_t action_columns() const { return action_columns_; }
+    std::int64_t observation_columns() const { return observation_columns_; }
+
+  private:
+    rddl_number number() const { return settings_.doubles ? RDDL_DOUBLE : RDDL_FLOAT; }
+    rddl_transition transition();
+    rddl_batch* live();
+    void read_values();
+
+    cli::Simulator simulator_;  // outlives the batch
+    BatchSettings settings_;
+    solvers::Batch batch_;
+    std::int64_t process_;  // whose threads the batch has
+    std::int64_t action_columns_, observation_columns_;
+    Arrays arrays_;
+};
+
+void add_batch(nanobind::module_& module);
+
+}  // namespace rddlc::python

@@ -1,0 +1,185 @@
+// The batch as Python sees it.
+#include "native/batch.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+
+namespace nb = nanobind;
+
+namespace rddlc::python {
+
+namespace {
+
+using Array = nb::ndarray<nb::numpy>;
+using Bytes = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using ConstBytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+// The memory belongs to the batch, which lives as long as the array.
+Array rows(nb::handle owner, void* data, std::int64_t count, std::int64_t columns,
+           nb::dlpack::dtype type) {
+    const std::size_t shape[] = {static_cast<std::size_t>(count),
+                                 static_cast<std::size_t>(columns)};
+    return Array(data, 2, shape, owner, nullptr, type);
+}
+
+Array column(nb::handle owner, void* data, std::int64_t count, nb::dlpack::dtype type) {
+    const std::size_t shape[] = {static_cast<std::size_t>(count)};
+    return Array(data, 1, shape, owner, nullptr, type);
+}
+
+Batch& batch_of(nb::handle self) {
+    return nb::cast<Batch&>(self);
+}
+
+template <auto member>
+Array records(nb::handle self, std::int64_t size) {
+    Batch& batch = batch_of(self);
+    return rows(self, (batch.arrays().*member).data(), batch.settings().environments, size,
+                nb::dtype<std::uint8_t>());
+}
+
+template <auto member>
+Array matrix(nb::handle self, std::int64_t columns) {
+    Batch& batch = batch_of(self);
+    return rows(self, (batch.arrays().*member).data(), batch.settings().environments, columns,
+                batch.settings().doubles ? nb::dtype<double>() : nb::dtype<float>());
+}
+
+template <auto member, class T>
+Array numbers(nb::handle self) {
+    Batch& batch = batch_of(self);
+    return column(self, (batch.arrays().*member).data(), batch.settings().environments,
+                  nb::dtype<T>());
+}
+
+const rddl_problem& problem_of(nb::handle self) {
+    return *batch_of(self).simulator().problem;
+}
+
+std::byte* bytes_of(const Bytes& array, std::int64_t size) {
+    if (static_cast<std::int64_t>(array.size()) != size)
+        throw Refused(fmt::format("a record has {} bytes, not {}", size, array.size()));
+    return reinterpret_cast<std::byte*>(array.data());
+}
+
+void add_arrays(nb::class_<Batch>& batch) {
+    using Arrays = Batch::Arrays;
+    batch
+        .def_prop_ro("actions",
+                     [](nb::handle self) {
+                         return records<&Arrays::actions>(self, problem_of(self).action_size);
+                     })
+        .def_prop_ro("observations",
+                     [](nb::handle self) {
+                         return records<&Arrays::observations>(self,
+                                                               problem_of(self).observation_size);
+                     })
+        .def_prop_ro("final_observations",
+                     [](nb::handle self) {
+                         return records<&Arrays::final_observations>(
+                             self, problem_of(self).observation_size);
+                     })
+        .def_prop_ro("action_values",
+                     [](nb::handle self) {
+                         return matrix<&Arrays::action_values>(self,
+                                                               batch_of(self).action_columns());
+                     })
+        .def_prop_ro("observation_values",
+                     [](nb::handle self) {
+                         return matrix<&Arrays::observation_values>(
+                             self, batch_of(self).observation_columns());
+                     })
+        .def_prop_ro("final_values",
+                     [](nb::handle self) {
+                         return matrix<&Arrays::final_values>(self,
+                                                              batch_of(self).observation_columns());
+                     })
+        .def_prop_ro("rewards", numbers<&Arrays::rewards, double>)
+        .def_prop_ro("terminated", numbers<&Arrays::terminated, bool>)
+        .def_prop_ro("truncated", numbers<&Arrays::truncated, bool>)
+        .def_prop_ro("causes", numbers<&Arrays::causes, std::uint8_t>);
+}
+
+void add_states(nb::class_<Batch>& batch) {
+    batch
+        .def("read_state",
+             [](Batch& self, std::int64_t environment, const Bytes& record) {
+                 self.read_state(environment,
+                                 bytes_of(record, self.simulator().problem->state_size));
+             })
+        .def(
+            "write_state",
+            [](Batch& self, std::int64_t environment, const ConstBytes& record,
+               std::int64_t steps) {
+                const std::int64_t size = self.simulator().problem->state_size;
+                if (static_cast<std::int64_t>(record.size()) != size)
+                    throw Refused(fmt::format("a state has {} bytes, not {}", size, record.size()));
+                self.write_state(environment, reinterpret_cast<const std::byte*>(record.data()),
+                                 steps);
+            })
+        .def("progress", &Batch::progress, "Steps of the episode, and episodes ended before it.")
+        .def("causes_of", &Batch::causes)
+        .def("fault", &Batch::fault);
+}
+
+}  // namespace
+
+void add_batch(nb::module_& module) {
+    nb::class_<Batch> batch(module, "Batch",
+                            "Environments, and the arrays that they read and fill: a row each.");
+    batch.def(
+        "__init__",
+        [](Batch* self, const cli::LoadedProblem& problem, std::int64_t environments, int threads,
+           int autoreset, std::int64_t horizon, bool doubles, bool records, bool values) {
+            new (self) Batch(problem.simulator,
+                             {environments, threads, static_cast<rddl_autoreset>(autoreset),
+                              horizon, doubles, records, values});
+        },
+        nb::arg("simulator"), nb::arg("environments") = 1, nb::arg("threads") = 1,
+        nb::arg("autoreset") = 0, nb::arg("horizon") = 0, nb::arg("doubles") = false,
+        nb::arg("records") = true, nb::arg("values") = true);
+    batch.def("copy", [](const Batch& self) { return Batch(self); });
+    batch.def(
+        "reset",
+        [](Batch& self, std::optional<nb::ndarray<const bool, nb::ndim<1>, nb::c_contig>> mask) {
+            if (mask && static_cast<std::int64_t>(mask->size()) != self.settings().environments)
+                throw Refused(fmt::format("the mask has {} entries for {} environments",
+                                          mask->size(), self.settings().environments));
+            self.reset(mask ? reinterpret_cast<const std::uint8_t*>(mask->data()) : nullptr);
+        },
+        nb::arg("mask") = nb::none());
+    batch.def("step", &Batch::step);
+    batch.def("step_values", &Batch::step_values);
+    batch.def("set_seed", &Batch::set_seed);
+    batch.def("set_seeds",
+              [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
+                  self.set_seeds(begin, seeds);
+              });
+    batch.def("violated_preconditions", &Batch::violated_preconditions);
+    batch.def("explain_violation", &Batch::explain_violation);
+    batch.def("choice_count", [](const Batch& self) {
+        return self.simulator().action_choice_count(&self.simulator());
+    });
+    batch.def("choice", [](const Batch& self, std::int64_t choice) {
+        rddl_choice out{};
+        out.struct_size = sizeof out;
+        check(self.simulator(),
+              self.simulator().action_choice(&self.simulator(), choice, nullptr, &out));
+        return nb::make_tuple(out.fluent, out.grounding, out.value);
+    });
+    batch.def("action_masks", [](Batch& self, const Bytes& masks) {
+        const std::int64_t choices = self.simulator().action_choice_count(&self.simulator());
+        self.action_masks(reinterpret_cast<std::uint8_t*>(
+            bytes_of(masks, self.settings().environments * choices)));
+    });
+    batch.def("act", &Batch::act, "The policy block's actions, into `actions`.");
+    add_arrays(batch);
+    add_states(batch);
+}
+
+}  // namespace rddlc::python

@@ -1,0 +1,136 @@
+#include "native/problem.hpp"
+
+#include "driver/cpp_compiler.hpp"
+#include "driver/version.hpp"
+#include "native/describe.hpp"
+#include "problems/problem_lookup.hpp"
+#include "support/failure.hpp"
+#include "support/render.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+#include <vector>
+
+namespace nb = nanobind;
+
+namespace rddlc::python {
+
+namespace {
+
+using cli::LoadedProblem;
+
+cli::ProblemFiles files_of(const std::string& domain, const std::string& instance,
+                           const std::string& repository) {
+    if (repository.empty() || cli::is_path(domain)) return cli::find_files(domain, instance);
+    const cli::Repository scanned = cli::scan_repository(repository);
+    return cli::find_instance(cli::find_problem(scanned, domain), instance);
+}
+
+std::string text_of(const Compilation& compilation) {
+    std::string text = render(compilation.diagnostics, compilation.sources, {}) +
+                       closing_lines(compilation, "rddlc");
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+}
+
+LoadedProblem load(const std::string& domain, const std::string& instance,
+                   const std::string& repository, bool interpreted,
+                   const std::vector<std::string>& externs, bool extended) {
+    // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
+    const auto rethrow = [] {
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
+        throw;
+    };
+    try {
+        const nb::gil_scoped_release released;
+        cli::ProblemFiles files = files_of(domain, instance, repository);
+        if (extended) files.standard = Standard::Rddlc;
+        cli::LoadOptions options;
+        options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
+        options.externs = {externs.begin(), externs.end()};
+        options.details = true;
+        Compilation compilation = cli::compile_problem(files, options);
+        if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
+        return cli::load_compilation(std::move(compilation), files, options);
+    } catch (...) {
+        rethrow();
+        throw;
+    }
+}
+
+nb::list problems_in(const std::string& repository) {
+    nb::list all;
+    for (const cli::RepositoryProblem& problem : cli::scan_repository(repository).problems)
+        all.append(nb::make_tuple(problem.name, nb::cast(problem.instances), problem.description));
+    return all;
+}
+
+nb::list files_as_text(const LoadedProblem& problem) {
+    nb::list all;
+    for (const auto& file : problem.files.inputs()) all.append(file.string());
+    return all;
+}
+
+// Whose what() lacks the hint.
+void add_errors(nb::module_& module) {
+    const nb::object error = nb::exception<Failure>(module, "Error");
+    nb::exception<CompileError>(module, "CompileError", error);
+    nb::exception<Refused>(module, "Refused", error);
+    nb::register_exception_translator(
+        [](const std::exception_ptr& thrown, void* type) {
+            try {
+                std::rethrow_exception(thrown);
+            } catch (const Failure& failure) {
+                const std::string text = failure.hint.empty()
+                                             ? failure.what()
+                                             : fmt::format("{}: {}", failure.what(), failure.hint);
+                PyErr_SetString(static_cast<PyObject*>(type), text.c_str());
+            } catch (const Diagnosed&) {
+                PyErr_SetString(static_cast<PyObject*>(type),
+                                "the C++ compiler refuses the external functions; what it says "
+                                "stands on standard error");
+            }
+        },
+        error.ptr());
+}
+
+}  // namespace
+
+void check(const rddl_simulator& simulator, rddl_error error) {
+    if (error == RDDL_OK) return;
+    if (error == RDDL_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw Refused(simulator.last_error(&simulator));
+}
+
+void add_problem(nb::module_& module) {
+    add_errors(module);
+    module.attr("version") = version;
+    nb::class_<LoadedProblem>(module, "Simulator", "A problem that can be stepped.")
+        .def_prop_ro("files", files_as_text,
+                     "Paths of the domain and, apart from it, the instance.")
+        .def_prop_ro("name", [](const LoadedProblem& problem) { return problem.files.name; })
+        .def_prop_ro("lane_count",
+                     [](const LoadedProblem& problem) { return problem.simulator->lane_count; })
+        .def_prop_ro(
+            "interm_size",
+            [](const LoadedProblem& problem) { return problem.simulator->problem->interm_size; })
+        .def_prop_ro("instruction_set",
+                     [](const LoadedProblem& problem) {
+                         return std::string(problem.simulator->instruction_set);
+                     })
+        .def("describe", [](const LoadedProblem& problem) { return describe(*problem.simulator); })
+        .def("constants", [](const LoadedProblem& problem, std::int32_t fluent) {
+            return constants(*problem.simulator, fluent);
+        });
+    module.def("load", load, nb::arg("domain"), nb::arg("instance"), nb::arg("repository"),
+               nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"));
+    module.def("problems_in", problems_in, nb::arg("repository"),
+               "(name, instances, description) of each problem below a folder.");
+    module.def("is_path", cli::is_path, "Whether the text means a file or a folder.");
+    module.def("cpp_compiler", cpp_compiler, "The words of the C++ compiler's command.");
+}
+
+}  // namespace rddlc::python

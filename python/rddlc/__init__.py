@@ -1,0 +1,97 @@
+"""RDDL problems as Gymnasium environments, stepped by simulators that rddlc compiles.
+
+    import rddlc
+    env = rddlc.make("MountainCar_ippc2023", "1")
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from . import _native, causes
+from .environment import RDDLEnv, State
+from .errors import ActionError, CompileError, EpisodeOver, Error
+from .model import Condition, Fluent, Model, ObjectType
+from .problems import Problem, problems
+from .registration import register_environments
+from .vector import RDDLVectorEnv
+
+__version__: str = _native.version
+
+__all__ = [
+    "ActionError",
+    "CompileError",
+    "Condition",
+    "EpisodeOver",
+    "Error",
+    "Fluent",
+    "Model",
+    "ObjectType",
+    "Problem",
+    "RDDLEnv",
+    "RDDLVectorEnv",
+    "State",
+    "causes",
+    "make",
+    "make_vec",
+    "problems",
+]
+
+_OF_PROBLEM = ("engine", "externs", "extended")
+
+
+def make(
+    domain: str | os.PathLike[str] | Problem,
+    instance: str | int | os.PathLike[str] | None = None,
+    **options: Any,
+) -> RDDLEnv:
+    """A `gymnasium.Env` of a problem: two files, one file that holds both, a folder and an instance,
+    a problem and an instance of rddlrepository, or a `Problem`.
+
+    engine: "compiled" (default) or "interpreter"; externs, extended: see `Problem`.
+    vectorized: keys are fluents and values arrays, instead of a key for each grounding.
+    observations: "dict", or "flat": float32 (features,).
+    actions: "dict"; "simplified": Discrete, MultiDiscrete, Box or both in a Dict, as pyRDDLGym-rl
+        has them; "box": one Box of float32 from -1 to 1 for everything.
+    normalize: flat observations with two bounds, and all numbers of simplified actions, are from -1
+        to 1.
+    enforce_action_constraints: a step that violates a precondition raises ActionError.
+    enforce_action_count_non_bool: max-nondef-actions counts ints, objects and reals, too.
+    action_mask: info["action_mask"] tells which actions satisfy the preconditions, in the form that
+        action_space.sample(mask) takes.
+    horizon: steps; None: the instance's; 0: none.
+    render_mode: None, "rgb_array", "ansi" or "human" (a window, with pygame).
+    render_size: width and height in pixels (600, 400). visualizer: see `rddl render`.
+
+    Raises CompileError with the compiler's diagnostics, and Error where files are missing.
+    """
+    return RDDLEnv(_problem_of(domain, instance, options), **options)
+
+
+def make_vec(
+    domain: str | os.PathLike[str] | Problem,
+    instance: str | int | os.PathLike[str] | None = None,
+    num_envs: int = 1,
+    **options: Any,
+) -> RDDLVectorEnv:
+    """A `gymnasium.vector.VectorEnv` of `num_envs` environments in one batch; problems as in `make`.
+
+    engine, externs, extended, horizon, normalize: as in `make`.
+    observations: "flat" (default): float32 (num_envs, features); "dict": arrays (num_envs, *shape).
+    actions: "simplified" (default), "box", or "dict" of arrays.
+    autoreset_mode: "NextStep" (default), "SameStep" or "Disabled", or a Gymnasium AutoresetMode.
+    threads: 0: one for each core.
+    copy: whether arrays are copies; else they may be the engine's own memory, which the next step
+        changes.
+    """
+    return RDDLVectorEnv(_problem_of(domain, instance, options), num_envs, **options)
+
+
+def _problem_of(domain: Any, instance: Any, options: dict[str, Any]) -> Problem:
+    """Takes what is about loading out of the options."""
+    of_problem = {key: options.pop(key) for key in _OF_PROBLEM if key in options}
+    return domain if isinstance(domain, Problem) else Problem(domain, instance, **of_problem)
+
+
+register_environments()

@@ -1,0 +1,133 @@
+"""From files, or a name of rddlrepository, to a simulator."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib.util import find_spec
+from typing import Any
+
+from . import _native
+from .model import Model, model_of
+
+ENGINES = ("compiled", "interpreter")
+
+
+@dataclass(frozen=True)
+class ListedProblem:
+    """A problem of rddlrepository."""
+
+    name: str
+    instances: tuple[str, ...]
+    description: str
+
+
+class Problem:
+    """A problem that is loaded: what `rddlc.make` makes environments of. Pickled by its files."""
+
+    def __init__(
+        self,
+        domain: str | os.PathLike[str],
+        instance: str | int | os.PathLike[str] | None = None,
+        *,
+        engine: str = "compiled",
+        externs: Sequence[str | os.PathLike[str]] = (),
+        extended: bool = False,
+    ) -> None:
+        """`domain` and `instance` are two files, one file that holds both, a folder and the name of
+        its instance, or a problem and an instance of rddlrepository.
+
+        engine: "compiled" (kept in ~/.cache/rddlc) or "interpreter", which needs no C++ compiler.
+        externs: C++ headers that define external functions.
+        extended: whether the extensions of docs/dialects.md are allowed.
+
+        Raises CompileError with the compiler's diagnostics, and Error where files are missing.
+        """
+        if engine not in ENGINES:
+            raise ValueError(f"engine is '{engine}', which is none of {', '.join(ENGINES)}")
+        self._options: dict[str, Any] = {
+            "engine": engine,
+            "externs": tuple(os.fspath(each) for each in externs),
+            "extended": extended,
+        }
+        self.engine = _engine_at_hand(engine)
+        words = [os.fspath(domain), "" if instance is None else str(instance)]
+        folder = "" if _native.is_path(words[0]) else repository_folder()
+        self.simulator = _native.load(
+            *words,
+            repository=folder,
+            interpreted=self.engine == "interpreter",
+            externs=list(self._options["externs"]),
+            extended=extended,
+        )
+        self.name: str = self.simulator.name
+
+    @cached_property
+    def model(self) -> Model:
+        return model_of(self.simulator.describe())
+
+    @property
+    def files(self) -> list[str]:
+        """The domain's and, unless it is the same, the instance's."""
+        return [os.path.abspath(each) for each in self.simulator.files]
+
+    def constants(self, fluent: str) -> list[Any]:
+        """The values, row-major, that the instance fixes: of a non-fluent; of a state-fluent at the
+        start; the defaults of an action-fluent."""
+        return self.simulator.constants(self.model.fluents[fluent].index)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _load_again, (self.files, self._options)
+
+    def __repr__(self) -> str:
+        return f"Problem({self.name!r}, engine={self.engine!r})"
+
+
+def _load_again(files: list[str], options: dict[str, Any]) -> Problem:
+    return Problem(*files, **options)
+
+
+def repository_folder() -> str:
+    """The folder of rddlrepository: $RDDL_REPOSITORY, else the installed package; "" if none."""
+    if given := os.environ.get("RDDL_REPOSITORY"):
+        return given
+    spec = find_spec("rddlrepository")
+    if spec is None or not spec.submodule_search_locations:
+        return ""
+    return next(iter(spec.submodule_search_locations))
+
+
+def problems() -> list[ListedProblem]:
+    """All problems of rddlrepository, by name; none where it is not installed."""
+    folder = repository_folder()
+    return list(_problems_in(folder)) if folder else []
+
+
+@lru_cache(maxsize=4)
+def _problems_in(folder: str) -> tuple[ListedProblem, ...]:
+    listed = _native.problems_in(folder)
+    return tuple(ListedProblem(name, tuple(instances), text) for name, instances, text in listed)
+
+
+def _engine_at_hand(engine: str) -> str:
+    if engine == "compiled" and not _has_cpp_compiler():
+        return "interpreter"
+    return engine
+
+
+@lru_cache(maxsize=1)
+def _has_cpp_compiler() -> bool:
+    """Warns, once, where there is none."""
+    command = _native.cpp_compiler()[0]
+    if shutil.which(command):
+        return True
+    warnings.warn(
+        f"there is no C++ compiler '{command}': problems are interpreted, which is slower. "
+        "Install one, set CXX, or say engine='interpreter'",
+        stacklevel=5,
+    )
+    return False

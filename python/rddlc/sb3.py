@@ -1,0 +1,94 @@
+"""The batch engine as Stable-Baselines3 takes it.
+
+    from stable_baselines3 import PPO
+    PPO("MlpPolicy", rddlc.sb3.VecEnv(rddlc.make_vec("CartPole_Continuous_gym", "0", num_envs=8,
+        actions="box", autoreset_mode="SameStep"))).learn(100_000)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
+from stable_baselines3.common.vec_env import VecEnv as Base
+
+from .errors import Error
+from .vector import RDDLVectorEnv
+
+Indices = None | int | Iterable[int]
+
+
+class VecEnv(Base):
+    """Environments that start anew in the step that ends them: infos[i] then holds
+    "terminal_observation", "TimeLimit.truncated" and "cause"."""
+
+    def __init__(self, env: RDDLVectorEnv) -> None:
+        """`env` has autoreset_mode="SameStep", and actions that Stable-Baselines3 takes."""
+        if env.metadata["autoreset_mode"] != AutoresetMode.SAME_STEP:
+            raise Error("Stable-Baselines3 wants autoreset_mode='SameStep'")
+        if isinstance(env.single_action_space, spaces.Dict):
+            raise Error("Stable-Baselines3 takes no dictionaries of actions: say actions='box'")
+        self.env = env
+        self._actions: Any = None
+        super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
+
+    def reset(self) -> Any:
+        seeds = [None if seed is None else int(seed) for seed in self._seeds]
+        is_seeded = any(seed is not None for seed in seeds)
+        observations, _ = self.env.reset(seed=seeds if is_seeded else None)
+        self.reset_infos = [{} for _ in range(self.num_envs)]
+        self._reset_seeds()
+        self._reset_options()
+        return observations
+
+    def step_async(self, actions: NDArray[Any]) -> None:
+        self._actions = actions
+
+    def step_wait(self) -> tuple[Any, NDArray[Any], NDArray[Any], list[dict[str, Any]]]:
+        observations, rewards, terminated, truncated, info = self.env.step(self._actions)
+        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        if info:
+            for place in np.flatnonzero(info["_final_obs"]):
+                infos[place] = self._info_of_end(info, int(place), bool(terminated[place]))
+        return observations, rewards.astype(np.float32), terminated | truncated, infos
+
+    def _info_of_end(self, info: dict[str, Any], place: int, terminated: bool) -> dict[str, Any]:
+        final = info["final_obs"]
+        is_dict = isinstance(final, dict)
+        return {
+            "terminal_observation": {name: value[place] for name, value in final.items()}
+            if is_dict
+            else final[place],
+            "TimeLimit.truncated": not terminated,
+            "cause": info["final_info"]["cause"][place],
+        }
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """(num_envs, sum of categories)"""
+        return self.env.action_masks()
+
+    def close(self) -> None:
+        self.env.close()
+
+    def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
+        return [getattr(self.env, attr_name) for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
+        setattr(self.env, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: Indices = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """Of "action_masks" each environment's own row, as MaskablePPO asks for it."""
+        chosen = list(self._get_indices(indices))
+        result = getattr(self.env, method_name)(*method_args, **method_kwargs)
+        is_by_row = isinstance(result, np.ndarray) and len(result) == self.num_envs
+        return [result[place] if is_by_row else result for place in chosen]
+
+    def env_is_wrapped(self, wrapper_class: type[Any], indices: Indices = None) -> list[bool]:
+        return [False for _ in self._get_indices(indices)]
+

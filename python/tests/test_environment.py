@@ -1,0 +1,227 @@
+"""rddlc.make: dictionaries, spaces, seeds, ends, errors, copies, pictures."""
+
+from __future__ import annotations
+
+import copy
+import multiprocessing
+import pickle
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+from gymnasium.utils.env_checker import check_env
+from support import EXAMPLES, example, written
+
+import rddlc
+
+FORMS: list[dict[str, Any]] = [
+    {},
+    {"vectorized": True},
+    {"observations": "flat", "actions": "simplified"},
+    {"observations": "flat", "actions": "box", "normalize": True},
+]
+
+
+def steps_of(env: rddlc.RDDLEnv, seed: int, count: int) -> list[Any]:
+    env.reset(seed=seed)
+    env.action_space.seed(seed)
+    return [env.step(env.action_space.sample()) for _ in range(count)]
+
+
+class Checkers(unittest.TestCase):
+    def test_check_env_passes_in_all_forms(self) -> None:
+        for name in EXAMPLES:
+            for form in FORMS:
+                with self.subTest(name=name, form=form):
+                    check_env(example(name, render_mode="rgb_array", **form))
+
+    def test_observations_stay_in_their_space(self) -> None:
+        for name in EXAMPLES:
+            for form in FORMS:
+                env = example(name, **form)
+                for observation, *_ in steps_of(env, 1, 5):
+                    self.assertIn(observation, env.observation_space)
+
+
+class Dictionaries(unittest.TestCase):
+    def test_names_and_order_are_those_of_groundings(self) -> None:
+        env = example("network")
+        observation, _ = env.reset(seed=1)
+        computers = env.model.types["computer"].objects
+        self.assertEqual(list(observation), [f"running___{name}" for name in computers])
+
+    def test_lifted_and_grounded_names_set_the_same_values(self) -> None:
+        env = example("network")
+        env.reset(seed=1)
+        twin = copy.deepcopy(env)
+        count = len(env.model.types["computer"].objects)
+        one = np.arange(count) == 2
+        by_name = env.step({env.model.fluents["reboot"].groundings[2]: True})
+        self.assertEqual(twin.step({"reboot": one}), by_name)
+
+    def test_refused_actions_change_nothing(self) -> None:
+        env = example("mountain_car")
+        env.reset(seed=1)
+        name = next(iter(env.action_space))
+        bad = [{name: 7.0}, {"nothing": 1}, {name: float("nan")}, {name: "x"}, {name: None}, 3]
+        bad.append({name: np.zeros(2)})
+        before = env.get_state()
+        for action in bad:
+            with self.subTest(action=action), self.assertRaises(rddlc.ActionError):
+                env.step(action)
+        self.assertEqual(env.get_state(), before)
+
+    def test_more_changes_than_max_nondef_actions_are_refused(self) -> None:
+        env = example("network")
+        env.reset(seed=1)
+        self.assertEqual(env.model.max_nondef_actions, env.max_allowed_actions)
+        too_many = np.ones(env.model.fluents["reboot"].shape)
+        with self.assertRaisesRegex(rddlc.ActionError, "max-nondef-actions"):
+            env.step({"reboot": too_many})
+        for _ in range(20):
+            self.assertIn(env.action_space.sample(), env.action_space)
+
+
+class Episodes(unittest.TestCase):
+    def test_same_seed_gives_same_steps(self) -> None:
+        for form in FORMS:
+            env = example("network", **form)
+            first, again = steps_of(env, 7, 10), steps_of(env, 7, 10)
+            for one, two in zip(first, again):
+                np.testing.assert_equal(one, two)
+
+    def test_compiled_and_interpreted_agree(self) -> None:
+        for name in EXAMPLES:
+            compiled = steps_of(example(name), 3, 8)
+            interpreted = steps_of(example(name, engine="interpreter"), 3, 8)
+            np.testing.assert_equal(compiled, interpreted)
+
+    def test_the_horizon_truncates_with_its_cause(self) -> None:
+        env = example("network", horizon=3)
+        steps = steps_of(env, 1, 3)
+        self.assertEqual([step[3] for step in steps], [False, False, True])
+        self.assertEqual(steps[-1][4], {"cause": "horizon"})
+        with self.assertRaisesRegex(rddlc.EpisodeOver, "horizon"):
+            env.step({})
+
+    def test_no_horizon(self) -> None:
+        env = example("network", horizon=0)
+        self.assertFalse(any(step[3] for step in steps_of(env, 1, 200)))
+
+    def test_a_step_before_the_first_reset_is_refused(self) -> None:
+        with self.assertRaisesRegex(rddlc.EpisodeOver, "reset"):
+            example("network").step({})
+
+    def test_violated_preconditions_are_refused_if_enforced(self) -> None:
+        env = written("refuses", enforce_action_constraints=True)
+        env.reset(seed=1)
+        before = env.get_state()
+        with self.assertRaisesRegex(rddlc.ActionError, "filled"):
+            env.step({"pour": 5.0})
+        self.assertEqual(env.get_state(), before)
+        self.assertFalse(env.step({"pour": 0.5})[3])
+
+
+class States(unittest.TestCase):
+    def test_copies_and_pickles_go_on_alike(self) -> None:
+        for form in FORMS:
+            env = example("network", **form)
+            steps_of(env, 5, 4)
+            env.reset()  # not the first episode of the seed
+            env.step(env.action_space.sample())
+            for twin in (copy.deepcopy(env), pickle.loads(pickle.dumps(env))):
+                action = env.action_space.sample()
+                original = copy.deepcopy(env)
+                np.testing.assert_equal(twin.step(action), original.step(action))
+                np.testing.assert_equal(twin.reset(), original.reset())
+
+    def test_set_state_goes_back(self) -> None:
+        env = example("mountain_car")
+        steps_of(env, 1, 3)
+        state, shown = env.get_state(), env.state
+        action = env.action_space.sample()
+        first = env.step(action)
+        env.set_state(state)
+        np.testing.assert_equal(env.state, shown)
+        np.testing.assert_equal(env.step(action), first)
+
+    def test_episodes_begin_where_options_say(self) -> None:
+        env = example("mountain_car")
+        steps_of(env, 1, 5)
+        state, shown = env.get_state(), env.state
+        observation, _ = env.reset(options={"state": state})
+        np.testing.assert_equal(observation, shown)
+        self.assertEqual(env.timestep, 5)
+
+
+class Masks(unittest.TestCase):
+    def test_masks_tell_what_preconditions_allow(self) -> None:
+        env = written("refuses_some", actions="simplified", action_mask=True)
+        _, info = env.reset(seed=1)
+        mask = info["action_mask"]
+        self.assertEqual(mask.dtype, np.int8)
+        self.assertEqual(mask.tolist(), [1, 0, 1])  # open d1, open d2 (locked), nothing
+        np.testing.assert_array_equal(env.action_masks(), mask.astype(bool))
+        for _ in range(20):
+            self.assertNotEqual(env.action_space.sample(mask), 1)
+
+
+class Processes(unittest.TestCase):
+    def test_forked_and_spawned_processes_step(self) -> None:
+        env = example("network")
+        expected = [step[1] for step in steps_of(copy.deepcopy(env), 2, 5)]
+        for method in ("fork", "spawn"):
+            with multiprocessing.get_context(method).Pool(1) as pool:
+                self.assertEqual(pool.apply(rewards, (env, 2, 5)), expected)
+
+    def test_threads_step_environments_of_their_own(self) -> None:
+        problem = example("network").problem
+        with ThreadPoolExecutor(4) as pool:
+            all_rewards = list(pool.map(lambda _: rewards(rddlc.make(problem), 2, 30), range(4)))
+        self.assertTrue(all(each == all_rewards[0] for each in all_rewards))
+
+
+def rewards(env: rddlc.RDDLEnv, seed: int, count: int) -> list[float]:
+    return [step[1] for step in steps_of(env, seed, count)]
+
+
+class Errors(unittest.TestCase):
+    def test_the_compiler_says_what_is_wrong(self) -> None:
+        with self.assertRaises(rddlc.CompileError) as raised:
+            written("mistake")
+        text = str(raised.exception)
+        self.assertRegex(text, r"mistake\.rddl:\d+:\d+: error: ")
+        self.assertIn("^", text)
+
+    def test_missing_files_and_names(self) -> None:
+        with self.assertRaisesRegex(rddlc.Error, "No such file"):
+            rddlc.make("/nowhere/domain.rddl", "/nowhere/instance.rddl")
+
+    def test_options_that_are_none(self) -> None:
+        for option in ({"actions": "x"}, {"observations": "x"}, {"render_mode": "x"}):
+            with self.assertRaises(ValueError):
+                example("network", **option)
+
+
+class Pictures(unittest.TestCase):
+    def test_render_modes(self) -> None:
+        env = example("mountain_car", render_mode="rgb_array", render_size=(300, 200))
+        env.reset(seed=1)
+        before = env.render()
+        self.assertEqual((before.shape, before.dtype), ((200, 300, 3), np.uint8))
+        env.step(env.action_space.sample())
+        self.assertTrue((env.render() != before).any())
+        text = example("mountain_car", render_mode="ansi")
+        text.reset(seed=1)
+        self.assertIn("step 0", text.render())
+
+    def test_a_notebook_shows_an_environment(self) -> None:
+        env = example("mountain_car")
+        self.assertIn("reset()", env._repr_html_())
+        env.reset(seed=1)
+        self.assertIn("data:image/png;base64,", env._repr_html_())
+
+
+if __name__ == "__main__":
+    unittest.main()

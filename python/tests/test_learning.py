@@ -1,0 +1,119 @@
+"""What learners take: flat observations, simplified actions, one box for everything."""
+
+from __future__ import annotations
+
+import unittest
+
+import numpy as np
+from gymnasium import spaces
+from support import example, written
+
+import rddlc
+from rddlc.choices import Squash, plan_of
+from rddlc.learning import FlatReader
+
+
+class FlatObservations(unittest.TestCase):
+    def test_objects_are_a_feature_each(self) -> None:
+        env = written("counters", observations="flat")
+        env.reset(seed=1)
+        self.assertEqual(env.observation_space.shape, (6,))
+        self.assertEqual(env.observation_space.dtype, np.float32)
+        observation = env.step({"paint": "blue", "add___b": 2, "push": 0.5})[0]
+        np.testing.assert_array_equal(observation, [0, 2, 0, 0, 1, 0.5])
+
+    def test_names_tell_the_features(self) -> None:
+        problem = written("counters").problem
+        values = np.zeros((1, 4), np.float32)
+        reader = FlatReader(problem, values, values, normalize=False)
+        colors = ["shade=red", "shade=green", "shade=blue"]
+        self.assertEqual(reader.names, ["count___a", "count___b", *colors, "filled"])
+
+    def test_normalized_bounds_are_minus_one_and_one(self) -> None:
+        env = written("refuses", observations="flat", normalize=True)  # a glass from 0 to 4
+        self.assertEqual(env.observation_space, spaces.Box(-1, 1, (1,), np.float32))
+        self.assertEqual(env.reset(seed=1)[0], [-1])
+        self.assertEqual(env.step({"pour": 1.0})[0], [-0.5])
+
+
+class SimplifiedActions(unittest.TestCase):
+    def test_one_change_of_bools_is_discrete(self) -> None:
+        env = example("network", actions="simplified")
+        count = len(env.model.types["computer"].objects)
+        self.assertEqual(env.action_space, spaces.Discrete(count + 1))
+        twin = example("network")
+        for choice in (0, 3, count):
+            env.reset(seed=1)
+            twin.reset(seed=1)
+            names = env.model.fluents["reboot"].groundings
+            action = {names[choice]: True} if choice < count else {}
+            np.testing.assert_equal(env.step(choice), twin.step(action))
+
+    def test_categories_and_numbers_are_a_dictionary(self) -> None:
+        env = written("counters", actions="simplified")
+        self.assertEqual(env.action_space["discrete"], spaces.MultiDiscrete([3, 4, 4]))
+        self.assertEqual(env.action_space["continuous"].low.tolist(), [-np.inf, 0])
+        env.reset(seed=1)
+        action = {"discrete": [2, 3, 0], "continuous": [0.5, 0.25]}
+        observation = env.step(action)[0]
+        self.assertEqual(observation["shade"], 2)
+        self.assertEqual([observation["count___a"], observation["count___b"]], [2, -1])
+        self.assertAlmostEqual(float(observation["filled"]), 0.25)
+
+    def test_few_changes_are_picked_one_after_the_other(self) -> None:
+        env = written("counters_two", actions="simplified")
+        # Two other colours, three other counts of each counter, push and pull, nothing.
+        self.assertEqual(env.action_space["discrete"], spaces.MultiDiscrete([11, 11]))
+        env.reset(seed=1)
+        numbers = [0.5, 0.25]
+        for picks, color, counts, filled in (
+            ([10, 10], 1, [0, 0], 0),
+            ([1, 4], 2, [2, 0], 0),
+            ([8, 10], 1, [0, 0], 0.5),
+            ([9, 7], 1, [0, 2], -0.25),
+        ):
+            env.reset(seed=1)
+            shown = env.step({"discrete": picks, "continuous": numbers})[0]
+            self.assertEqual(shown["shade"], color)
+            self.assertEqual([shown["count___a"], shown["count___b"]], counts)
+            self.assertAlmostEqual(float(shown["filled"]), filled)
+
+    def test_refused_actions_change_nothing(self) -> None:
+        env = written("counters", actions="simplified")
+        env.reset(seed=1)
+        before = env.get_state()
+        good = {"discrete": [0, 0, 0], "continuous": [0, 0]}
+        for bad in (
+            {"discrete": [3, 0, 0]},
+            {"discrete": [0, 0]},
+            {"discrete": [0.5, 0, 0]},
+            {"continuous": [0, -1]},
+            {"continuous": [np.nan, 0]},
+        ):
+            with self.subTest(bad=bad), self.assertRaises(rddlc.ActionError):
+                env.step(good | bad)
+        self.assertEqual(env.get_state(), before)
+
+
+class Boxes(unittest.TestCase):
+    def test_everything_is_one_box(self) -> None:
+        env = written("counters", actions="box")
+        self.assertEqual(env.action_space, spaces.Box(-1, 1, (5,), np.float32))
+        env.reset(seed=1)
+        shown = env.step(np.array([1, -1, 1, 0, -1], np.float32))[0]
+        self.assertEqual(shown["shade"], 2)
+        self.assertEqual([shown["count___a"], shown["count___b"]], [-1, 2])
+        self.assertEqual(float(shown["filled"]), 0)
+
+    def test_squashed_numbers_keep_bounds_and_order(self) -> None:
+        plan = plan_of(written("counters").problem)
+        rows = np.repeat(np.linspace(-1, 1, 101)[:, np.newaxis], 2, axis=1)
+        values = Squash(plan).values(rows)
+        self.assertTrue((np.diff(values, axis=0) > 0).all())
+        self.assertEqual(values[0, 1], 0)  # of pull, which is not negative
+        self.assertEqual(values[50, 0], 0)  # of push: the default
+        self.assertTrue(np.isfinite(values).all())
+
+
+if __name__ == "__main__":
+    unittest.main()
