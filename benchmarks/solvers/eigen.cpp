@@ -1,8 +1,8 @@
 // The network of solvers/network beside the same computation with Eigen, in one run: rows of 64
 // samples go forward and backward through a tanh network of 64-64 units.
 //
-//   c++ -std=c++20 -O3 -mavx2 -mfma -fno-math-errno -ffp-contract=fast -I. -Iruntime 
-//       -I/usr/include/eigen3 benchmarks/solvers/eigen.cpp solvers/network/network.cpp 
+//   c++ -std=c++20 -O3 -mavx2 -mfma -fno-math-errno -ffp-contract=fast -I. -Iruntime
+//       -I/usr/include/eigen3 benchmarks/solvers/eigen.cpp solvers/network/network.cpp
 //       -o /tmp/eigen && /tmp/eigen
 //
 // With -DDYNAMIC Eigen does not know the sizes of layers when it is compiled, as --hidden wants it.

@@ -4,6 +4,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/files/archive.hpp"
 #include "solvers/ppo/experience.hpp"
+#include "solvers/ppo/state_noise.hpp"
 
 #include <rddl/simulator.h>
 
@@ -63,6 +64,7 @@ class Collector {
     std::int64_t first_, count_, origin_;
     Batch batch_;
     Chooser chooser_;
+    StateNoise state_noise_;
     std::vector<float> features_;      // rows as they are, of each environment
     std::vector<float> observations_;  // rows of the simulator's values
     std::vector<float> final_observations_, final_features_, normalised_;

@@ -40,6 +40,8 @@ void check(const PpoOptions& options) {
             "a minibatch is larger than what is collected for an update: it needs --minibatch at "
             "most --envs times --rollout");
     require(options.observations.stack >= 1, "PPO sees at least one observation");
+    require(!options.hidden.empty(), "PPO needs a hidden layer");
+    require(options.noise_steps > 0, "noise stays for at least one step");
     for (const int width : options.hidden) require(width > 0, "a layer needs units");
 }
 
@@ -284,9 +286,9 @@ struct PpoTrainer::State {
         progress.explained_variance =
             variance(returns) > 0 ? 1 - variance(errors) / variance(returns) : std::nan("");
         double deviation = 0;
-        for (int r = 0; r < model.actions.real_count(); ++r)
+        for (int r = 0; r < model.deviation_count(); ++r)
             deviation += std::exp(static_cast<double>(model.log_deviations()[r]));
-        progress.deviation = deviation / std::max(1, model.actions.real_count());
+        progress.deviation = deviation / std::max(1, model.deviation_count());
     }
 
     // Without a scale, the first update would see features of any size: the untrained policy makes

@@ -172,7 +172,7 @@ TEST(Choosing, GradientOfTheLossAgreesWithFiniteDifferences) {
                 std::vector<double> d(outputs.size()), dd(deviations.size());
                 double de = 0;
                 add_loss(space, weights, rows, 1, outputs.data(), space.output_count(),
-                         deviations.data(), &estimate, 1, d.data(), &de, dd.data(), sums);
+                         deviations.data(), 0, &estimate, 1, d.data(), &de, dd.data(), sums);
                 d_outputs = d;
                 d_deviations = dd;
                 d_estimate = de;
@@ -261,7 +261,7 @@ TEST(Choosing, DrawsAsItSays) {
     std::vector<float> before;
     for (std::int64_t t = 0; t < steps; ++t) {
         chooser.choose(
-            batch.get(), outputs.data(), 1, &log_deviation,
+            batch.get(), outputs.data(), 1, Deviations{&log_deviation},
             [&](std::int64_t e) {
                 return ChoiceKey{9, static_cast<std::uint64_t>(e), static_cast<std::uint64_t>(t)};
             },
