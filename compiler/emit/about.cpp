@@ -17,6 +17,10 @@
 namespace rddlc::cpp {
 namespace {
 
+// Values of one constant that a compiler computes: clang takes no more than 2^20 steps for it, g++
+// 2^18 turns of a loop.
+constexpr std::size_t most_computed = 100'000;
+
 std::string role_constant(Role role) {
     switch (role) {
         case Role::NonFluent:
@@ -185,11 +189,16 @@ class Describer {
         const std::string type = "std::array<double, " + std::to_string(values.size()) + ">";
         const std::vector<ir::Value> entries(values.begin(), values.end());
         if (entries.size() > 1 && are_equal(entries)) {
-            const std::string head = "inline constexpr auto " + name + " =";
-            const std::string value = "rddl::repeated<" + std::to_string(values.size()) + ">(" +
-                                      literal(entries.front()) + ");\n";
-            const bool fits = head.size() + value.size() <= line_width;
-            add(head + (fits ? " " : "\n    ") + value);
+            const std::string count = std::to_string(values.size());
+            const std::string value = literal(entries.front());
+            const bool computed = entries.size() <= most_computed;
+            const std::string head =
+                (computed ? "inline constexpr auto " : "inline const auto ") + name + " =";
+            const std::string table =
+                computed ? "rddl::repeated<" + count + ">(" + value + ");\n"
+                         : "rddl::made_at_start(rddl::repeated<" + count + ">, " + value + ");\n";
+            const bool fits = head.size() + table.size() <= line_width;
+            add(head + (fits ? " " : "\n    ") + table);
         } else {
             const auto count = static_cast<std::int64_t>(values.size());
             add(table("inline constexpr " + type + " " + name, std::span(&count, 1), entries));
@@ -279,11 +288,23 @@ class Describer {
 
     void default_action() {
         if (!has(ir::Storage::Action)) return;
-        add("inline constexpr Action<rddl::Scalar> default_action = [] {\n"
+        const std::string make =
+            "[] {\n"
             "    Action<rddl::Scalar> action{};\n" +
             assignments(unit_, ir::Storage::Action, "action", 1) +
             "    return action;\n"
-            "}();\n");
+            "}";
+        const bool computed = count_of(ir::Storage::Action) <= most_computed;
+        add(computed ? "inline constexpr Action<rddl::Scalar> default_action = " + make + "();\n"
+                     : "inline const Action<rddl::Scalar> default_action = rddl::made_at_start(" +
+                           make + ");\n");
+    }
+
+    std::size_t count_of(ir::Storage storage) const {
+        std::size_t count = 0;
+        for (const ir::Buffer& buffer : unit_.program.buffers)
+            if (buffer.storage == storage) count += static_cast<std::size_t>(buffer.count());
+        return count;
     }
 
     std::string size_of(ir::Storage storage, const std::string& record) const {

@@ -32,6 +32,12 @@ constexpr void assign(std::array<T, n>& target, const Source& source) {
     for (T& element : target) assign(element, source);
 }
 
+// What is too large for compilers to compute.
+template <class Make, class... Arguments>
+auto made_at_start(const Make& make, Arguments... arguments) {
+    return make(arguments...);
+}
+
 // A table of n equal values.
 template <std::size_t n>
 constexpr std::array<double, n> repeated(double value) {

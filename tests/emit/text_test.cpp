@@ -79,6 +79,24 @@ TEST(EmittedText, WrapsLargeTables) {
     EXPECT_NE(text.find("99999.5\n};"), std::string::npos);
 }
 
+// clang and g++ compute constants with so many steps and no more.
+TEST(EmittedText, LeavesLargeRecordsToTheStartOfThePrograms) {
+    const auto with_actions = [](int count) {
+        std::string text = problem(count);
+        text.replace(text.find("a(o) : { action-fluent, bool, default = false }"), 47,
+                     "a(o) : { action-fluent, real, default = 1.5 }");
+        text.replace(text.find("on(?o) ^ Bernoulli(0.5) | a(?o)"), 31, "on(?o) ^ (a(?o) > 1.0)");
+        return text.replace(text.find("reward ="), 8,
+                            "action-preconditions { forall_{?o : o} [a(?o) <= 2.0]; }; reward =");
+    };
+    const std::string few = emitted(with_actions(1'000));
+    EXPECT_EQ(count(few, "made_at_start"), 0u);
+    EXPECT_EQ(count(few, "inline constexpr Action<rddl::Scalar> default_action = [] {"), 1u);
+    const std::string many = emitted(with_actions(100'001));
+    EXPECT_EQ(count(many, "a_upper = rddl::made_at_start(rddl::repeated<100001>, 2.0);"), 1u);
+    EXPECT_EQ(count(many, "default_action = rddl::made_at_start([] {"), 1u);
+}
+
 // Of 0.5, 1.5, ... divided by 10.
 TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
     const auto with_chances = [](int count) {
