@@ -1,7 +1,7 @@
 """Trains PPO and CGP on the problems of rddlrepository and compares them with no-op and random actions.
 
     benchmarks/solvers/train_all.py --out results.jsonl                     all problems, smallest instance
-    benchmarks/solvers/train_all.py --out ippc2023.jsonl --context ippc2023 --instances 5
+    benchmarks/solvers/train_all.py --out ippc2023.jsonl --context ippc2023 --without 0 --instances 5
     benchmarks/solvers/train_all.py --out results.jsonl --table             the table of what is there
 
 It can be interrupted at any time: what is in the file already is not done again. --seconds is the time
@@ -85,6 +85,7 @@ def main():
     parser.add_argument("--context", help="only problems of this context, such as ippc2023")
     parser.add_argument("--only", help="only problems whose names contain this")
     parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
+    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is none of the competition's")
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--episodes", type=int, default=50)
     parser.add_argument("--seed", type=int, default=0)
@@ -103,7 +104,8 @@ def main():
             continue
         if arguments.only and arguments.only not in problem["name"]:
             continue
-        for instance in problem["instances"][:arguments.instances]:
+        instances = [instance for instance in problem["instances"] if instance not in arguments.without]
+        for instance in instances[:arguments.instances]:
             if (problem["name"], instance) in done:
                 continue
             try:

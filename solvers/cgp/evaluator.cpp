@@ -72,7 +72,7 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
     const Chosen chosen{numbers_.data(), shifts_.data(), spreads_.data(),
                         indices_.data(), masks_.data(),  log_probabilities_.data()};
     chooser_.choose(
-        batch, outputs_.data(), outputs, nullptr,
+        batch, outputs_.data(), outputs, {},
         [](std::int64_t) {
             return ChoiceKey{0, 0, 0};
         },

@@ -208,6 +208,13 @@ const CgpProgress& CgpSearch::progress() const {
     return state_->progress;
 }
 
+std::int64_t CgpSearch::steps_of_generation() const {
+    const CgpOptions& options = state_->options;
+    const std::int64_t horizon = state_->simulator.problem->horizon;
+    return std::int64_t{options.islands} * options.children * options.episodes *
+           std::max<std::int64_t>(horizon, 1);
+}
+
 std::string CgpSearch::save() const {
     SavingArchive archive;
     begin_checkpoint(archive, checkpoint, state_->simulator);

@@ -71,6 +71,8 @@ class CgpSearch {
     const ProgramScope& scope() const;
     const Genome& best() const;
     const CgpProgress& progress() const;
+    // Of all islands, at most.
+    std::int64_t steps_of_generation() const;
 
     std::string save() const;
     void load(std::string_view bytes);

@@ -40,6 +40,10 @@ TwoNormals normals(const ChoiceKey& key, std::uint32_t r) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+const float* log_deviations_of(const Deviations& deviations, std::size_t environment) {
+    return deviations.logarithms + environment * static_cast<std::size_t>(deviations.row);
+}
+
 int likeliest(int count, const float* logits, const std::uint8_t* mask) {
     int best = -1;
     for (int l = 0; l < count; ++l)
@@ -65,6 +69,14 @@ int draw(int count, const float* logits, const std::uint8_t* mask, float u) {
 
 }  // namespace
 
+void standard_normals(const ChoiceKey& key, std::span<float> numbers) {
+    for (std::size_t n = 0; n < numbers.size(); n += 2) {
+        const TwoNormals two = normals(key, static_cast<std::uint32_t>(n));
+        numbers[n] = two.first;
+        if (n + 1 < numbers.size()) numbers[n + 1] = two.second;
+    }
+}
+
 Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
                  double correlation, std::int64_t environments)
     : simulator_(simulator),
@@ -78,15 +90,11 @@ Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Nois
       noise_(keys_.size() * static_cast<std::size_t>(space.real_count())),
       has_noise_(keys_.size()) {
     const auto count = static_cast<std::size_t>(environments);
-    const auto columns = static_cast<std::size_t>(space.column_count);
     if (space.masked || space.may_be_illegal) actions_.resize(count * records_.record_size());
     if (space.masked)
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
-    if (space.may_be_illegal) {
-        violated_.resize(count);
-        saved_.resize(count * columns);
-    }
+    if (space.may_be_illegal) mending_ = MendingRoom(space, environments);
 }
 
 void Chooser::begin_episode(std::int64_t environment) {
@@ -100,10 +108,10 @@ void Chooser::write_records(const float* actions) {
 }
 
 void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row,
-                         const float* log_deviations, const Chosen& chosen, float* actions) {
-    const bool random = log_deviations != nullptr;
+                         const Deviations& deviations, const Chosen& chosen, float* actions) {
+    const bool random = deviations.logarithms != nullptr;
     for (std::int64_t i = 0; i < environments_; ++i)
-        choose_reals(static_cast<std::size_t>(i), outputs + i * output_row, log_deviations, chosen);
+        choose_reals(static_cast<std::size_t>(i), outputs + i * output_row, deviations, chosen);
     if (space_.picks > 0)
         choose_picks(batch, outputs, output_row, random, chosen, actions);
     else if (!space_.categories.empty())
@@ -117,7 +125,8 @@ void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row
         write_action(space_, numbers, index, actions + i * space_.column_count);
         if (!random) continue;
         chosen.log_probabilities[i] =
-            look_at_choice(space_, outputs + i * output_row, log_deviations, numbers,
+            look_at_choice(space_, outputs + i * output_row,
+                           log_deviations_of(deviations, static_cast<std::size_t>(i)), numbers,
                            chosen.shifts + i * reals, chosen.spreads[i], index,
                            mask > 0 ? chosen.masks + i * mask : nullptr)
                 .log_probability;
@@ -125,15 +134,23 @@ void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row
     if (space_.may_be_illegal) mend(batch, actions);
 }
 
-void Chooser::choose_reals(std::size_t i, const float* means, const float* log_deviations,
+void Chooser::choose_reals(std::size_t i, const float* means, const Deviations& deviations,
                            const Chosen& chosen) {
     const auto reals = static_cast<std::size_t>(space_.real_count());
     float* const numbers = chosen.numbers + i * reals;
     float* const shifts = chosen.shifts + i * reals;
-    if (!log_deviations) {
+    if (!deviations.logarithms) {
         std::copy_n(means, reals, numbers);
         return;
     }
+    if (deviations.noise) {
+        chosen.spreads[i] = 1;
+        std::fill_n(shifts, reals, 0.0f);
+        for (std::size_t r = 0; r < reals; ++r)
+            numbers[r] = means[r] + deviations.noise[i * reals + r];
+        return;
+    }
+    const float* const log_deviations = log_deviations_of(deviations, i);
     const bool goes_on = correlated_ && has_noise_[i];
     const float spread = goes_on ? fresh_ : 1.0f;
     chosen.spreads[i] = spread;
@@ -249,8 +266,8 @@ void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
 
 void Chooser::mend(rddl_batch* batch, float* actions) {
     write_records(actions);
-    mended_ += mend_actions(simulator_, space_, records_, batch, environments_, actions,
-                            actions_.data(), violated_.data(), saved_.data());
+    mended_ +=
+        mend_actions(simulator_, space_, records_, batch, actions, actions_.data(), mending_);
 }
 
 }  // namespace rddlc::solvers

@@ -2,16 +2,19 @@
 #pragma once
 
 #include "solvers/spaces/actions.hpp"
+#include "solvers/spaces/mending.hpp"
 
 #include <rddl/simulator.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rddlc::solvers {
 
-enum class Noise { White, Ar1 };  // of reals; Ar1: correlated in time
+// Of reals. Ar1 is correlated in time; Sde depends on the state (ppo/state_noise.hpp).
+enum class Noise { White, Ar1, Sde };
 
 // Where what was chosen for n environments goes: rows of the action space's
 // real_count numbers and shifts (by how much noise of the step before moved the mean), a spread
@@ -32,6 +35,16 @@ struct ChoiceKey {
     std::uint64_t step;
 };
 
+// Independent standard normal numbers.
+void standard_normals(const ChoiceKey& key, std::span<float> numbers);
+
+// By how much reals are changed at random.
+struct Deviations {
+    const float* logarithms = nullptr;  // rows of real_count; NULL: the likeliest is chosen
+    int row = 0;                        // from an environment's row to the next; 0: one for all
+    const float* noise = nullptr;       // rows of real_count: what was drawn; NULL: draw it
+};
+
 class Chooser {
   public:
     // All that is referred to must outlive this.
@@ -39,13 +52,13 @@ class Chooser {
             double correlation, std::int64_t environments);
 
     // For each environment i: reads a row of outputs, writes what was chosen and the row of action
-    // values. Without log_deviations the likeliest is chosen. key_of(i) is asked for a ChoiceKey.
+    // values. key_of(i) is asked for a ChoiceKey.
     template <class KeyOf>
     void choose(rddl_batch* batch, const float* outputs, int output_row,
-                const float* log_deviations, KeyOf key_of, const Chosen& chosen, float* actions) {
+                const Deviations& deviations, KeyOf key_of, const Chosen& chosen, float* actions) {
         for (std::int64_t i = 0; i < environments_; ++i)
             keys_[static_cast<std::size_t>(i)] = key_of(i);
-        choose_all(batch, outputs, output_row, log_deviations, chosen, actions);
+        choose_all(batch, outputs, output_row, deviations, chosen, actions);
     }
 
     // The next choice of the environment is the first of an episode.
@@ -59,8 +72,8 @@ class Chooser {
 
   private:
     void choose_all(rddl_batch* batch, const float* outputs, int output_row,
-                    const float* log_deviations, const Chosen& chosen, float* actions);
-    void choose_reals(std::size_t i, const float* means, const float* log_deviations,
+                    const Deviations& deviations, const Chosen& chosen, float* actions);
+    void choose_reals(std::size_t i, const float* means, const Deviations& deviations,
                       const Chosen& chosen);
     void choose_categories(rddl_batch* batch, const float* outputs, int output_row, bool random,
                            const Chosen& chosen);
@@ -81,8 +94,7 @@ class Chooser {
     std::vector<std::uint8_t> has_noise_;
     std::vector<std::byte> actions_;          // records
     std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
-    std::vector<std::int32_t> violated_;
-    std::vector<float> saved_;  // of mending
+    MendingRoom mending_;
     std::int64_t mended_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace rddlc::solvers {
 
@@ -48,6 +49,24 @@ Policy noop_policy(const rddl_simulator& simulator) {
                             action, problem->action_size,
                             decision.actions + i * static_cast<std::size_t>(problem->action_size));
                 };
+            }};
+}
+
+Policy plan_policy(const rddl_simulator& simulator, std::string name,
+                   std::vector<std::byte> actions) {
+    const auto plan = std::make_shared<const std::vector<std::byte>>(std::move(actions));
+    const auto act = [plan, problem = simulator.problem](Decision& decision) {
+        const auto size = static_cast<std::size_t>(problem->action_size);
+        for (std::size_t i = 0; i < decision.running.size(); ++i) {
+            const auto at = static_cast<std::size_t>(decision.steps[i]) * size;
+            const auto* const action = at + size <= plan->size()
+                                           ? plan->data() + at
+                                           : static_cast<const std::byte*>(problem->default_action);
+            std::copy_n(action, size, decision.actions + i * size);
+        }
+    };
+    return {std::move(name), [act](std::int64_t) -> Actor {
+                return act;
             }};
 }
 

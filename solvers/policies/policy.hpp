@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rddlc::solvers {
 
@@ -40,5 +41,9 @@ Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed);
 Policy noop_policy(const rddl_simulator& simulator);
 // The simulator's policy block, which must be there.
 Policy block_policy(const rddl_simulator& simulator);
+// A recorded plan: the t-th of these action records in step t of each episode, whatever the state;
+// after the last of them the default action.
+Policy plan_policy(const rddl_simulator& simulator, std::string name,
+                   std::vector<std::byte> actions);
 
 }  // namespace rddlc::solvers

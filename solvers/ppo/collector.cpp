@@ -38,7 +38,8 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
       count_(share.count),
       origin_(share.origin),
       batch_(create_batch(simulator, batch_options(share.count))),
-      chooser_(simulator, model.actions, options.noise, options.correlation, share.count) {
+      chooser_(simulator, model.actions, options.noise, options.correlation, share.count),
+      state_noise_(model, share.count) {
     const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
     const auto columns = static_cast<std::size_t>(model.observations.column_count());
@@ -57,13 +58,15 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
     discounts_.assign(environments, 1.0);
     feature_moments_.resize(environments * features);
     return_moments_.resize(environments);
+    seeds_.resize(environments);
+    // As many as there may be, so that nothing is allocated later.
+    finished_.reserve(environments * static_cast<std::size_t>(options.rollout));
 }
 
 void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
-    std::vector<std::uint64_t> seeds;
     for (std::int64_t e = 0; e < count_; ++e)
-        seeds.push_back(seed_of(seed, origin_ + first_ + e, update));
-    simulator_.set_seeds(batch_.get(), 0, count_, seeds.data());
+        seeds_[static_cast<std::size_t>(e)] = seed_of(seed, origin_ + first_ + e, update);
+    simulator_.set_seeds(batch_.get(), 0, count_, seeds_.data());
     std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
     std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
     finished_.clear();
@@ -77,6 +80,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
                        observations_.data() + e * model_.observations.column_count(), 0, true,
                        features_.data() + e * model_.features());
         chooser_.begin_episode(e);
+        state_noise_.begin_episode(e);
         const auto at = static_cast<std::size_t>(e);
         steps_[at] = 0;
         running_returns_[at] = sums_[at] = discounted_sums_[at] = 0;
@@ -85,6 +89,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
 }
 
 void Collector::collect(Experience& experience, std::uint64_t seed, std::int64_t update) {
+    if (state_noise_.is_used()) state_noise_.look_at_policy();
     for (int t = 0; t < experience.rollout; ++t) {
         act(experience, t, seed, update);
         step(experience, t);
@@ -100,6 +105,10 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
     float* const rows = experience.features.data() + begin * static_cast<std::size_t>(width);
     for (std::int64_t e = 0; e < count_; ++e)
         model_.normaliser.write(features_.data() + e * width, rows + e * width);
+    const auto key_of = [&](std::int64_t e) {
+        return ChoiceKey{seed, static_cast<std::uint64_t>(origin_ + first_ + e),
+                         static_cast<std::uint64_t>(update * experience.rollout + t)};
+    };
     const NetworkFunctions<float>& functions = network_functions();
     for (std::int64_t e = 0; e < count_; e += tile) {
         const int some = static_cast<int>(std::min<std::int64_t>(tile, count_ - e));
@@ -108,6 +117,11 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
         std::copy_n(activations_.data() +
                         model_.policy.layers.back().values * static_cast<std::size_t>(some),
                     some * output_row, outputs_.data() + e * output_row);
+        for (int i = 0; i < some && state_noise_.is_used(); ++i)
+            state_noise_.make(e + i,
+                              last_hidden(model_.policy, activations_.data(), some) +
+                                  i * hidden_row(model_.policy),
+                              key_of(e + i));
     }
     const auto at = [&](auto& values, int row) {
         return values.data() + begin * static_cast<std::size_t>(row);
@@ -119,12 +133,10 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
                         at(experience.indices, actions.index_count()),
                         at(experience.masks, actions.mask_size()),
                         at(experience.log_probabilities, 1)};
-    const auto key_of = [&](std::int64_t e) {
-        return ChoiceKey{seed, static_cast<std::uint64_t>(origin_ + first_ + e),
-                         static_cast<std::uint64_t>(update * experience.rollout + t)};
-    };
-    chooser_.choose(batch_.get(), outputs_.data(), output_row, model_.log_deviations(), key_of,
-                    chosen, actions_.data());
+    chooser_.choose(
+        batch_.get(), outputs_.data(), output_row,
+        state_noise_.is_used() ? state_noise_.deviations() : Deviations{model_.log_deviations()},
+        key_of, chosen, actions_.data());
 }
 
 void Collector::count_features(std::size_t e) {
@@ -186,6 +198,7 @@ void Collector::step(Experience& experience, std::int64_t t) {
         discounts_[e] = 1;
         steps_[e] = 0;
         chooser_.begin_episode(static_cast<std::int64_t>(e));
+        state_noise_.begin_episode(static_cast<std::int64_t>(e));
         write_features(model_.observations, values, 0, true, features);
     }
 }
@@ -242,6 +255,7 @@ void Collector::archive(Archive& archive) {
     archive(features_);
     archive(chooser_.noise());
     archive(chooser_.has_noise());
+    state_noise_.archive(archive);
     archive(steps_);
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);
     if constexpr (Archive::is_loading)

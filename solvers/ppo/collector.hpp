@@ -4,6 +4,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/files/archive.hpp"
 #include "solvers/ppo/experience.hpp"
+#include "solvers/ppo/state_noise.hpp"
 
 #include <rddl/simulator.h>
 
@@ -63,6 +64,7 @@ class Collector {
     std::int64_t first_, count_, origin_;
     Batch batch_;
     Chooser chooser_;
+    StateNoise state_noise_;
     std::vector<float> features_;      // rows as they are, of each environment
     std::vector<float> observations_;  // rows of the simulator's values
     std::vector<float> final_observations_, final_features_, normalised_;
@@ -73,6 +75,7 @@ class Collector {
     std::vector<double> running_returns_, sums_, discounted_sums_, discounts_;
     std::vector<Moments> feature_moments_, return_moments_;
     std::vector<FinishedEpisode> finished_;
+    std::vector<std::uint64_t> seeds_;
     double simulator_seconds_ = 0;
 };
 

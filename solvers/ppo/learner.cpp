@@ -1,5 +1,6 @@
 #include "solvers/ppo/learner.hpp"
 
+#include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +36,8 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
     const std::size_t chunks = parts(static_cast<std::size_t>(options.minibatch), chunk);
     gradients_.assign(chunks, std::vector<float>(model.parameters.size()));
     sums_.resize(chunks);
+    if (model.noise == Noise::Sde)
+        weight_variances_.resize(static_cast<std::size_t>(model.deviation_count()));
     for (Workplace& place : workplaces_) {
         const auto rows = [](auto& values, int row) {
             values.resize(static_cast<std::size_t>(tile * row));
@@ -42,6 +45,8 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
         rows(place.features, model.features());
         rows(place.numbers, model.actions.real_count());
         rows(place.shifts, model.actions.real_count());
+        rows(place.log_deviations, model.actions.real_count());
+        rows(place.d_log_deviations, model.actions.real_count());
         rows(place.indices, model.actions.index_count());
         rows(place.masks, model.actions.mask_size());
         for (auto* each : {&place.spreads, &place.log_probabilities, &place.advantages,
@@ -96,11 +101,27 @@ void Learner::learn_tile(const Experience& experience, std::span<const std::uint
         place.numbers.data(),    place.shifts.data(), place.spreads.data(),
         place.indices.data(),    place.masks.data(),  place.log_probabilities.data(),
         place.advantages.data(), place.values.data(), place.returns.data()};
+    // Noise that depends on the state has other deviations in each sample.
+    const int units = model_.noisy_units(), reals = model_.actions.real_count();
+    const float* const hidden = last_hidden(model_.policy, place.policy_activations.data(), count);
+    const auto hidden_of = [&](int s) {
+        return hidden + s * hidden_row(model_.policy);
+    };
+    for (int s = 0; s < count && units > 0; ++s)
+        state_log_deviations(units, reals, weight_variances_.data(), hidden_of(s),
+                             place.log_deviations.data() + s * reals);
+    std::fill(place.d_log_deviations.begin(), place.d_log_deviations.end(), 0.0f);
+    float* const d_deviations = gradient + model_.deviations_begin();
     add_loss(model_.actions, weights, rows, count, results(model_.policy, place.policy_activations),
-             model_.policy.padded_outputs(), model_.log_deviations(),
-             results(model_.value, place.value_activations), model_.value.padded_outputs(),
-             place.d_outputs.data(), place.d_values.data(), gradient + model_.deviations_begin(),
-             sums);
+             model_.policy.padded_outputs(),
+             units > 0 ? place.log_deviations.data() : model_.log_deviations(),
+             units > 0 ? reals : 0, results(model_.value, place.value_activations),
+             model_.value.padded_outputs(), place.d_outputs.data(), place.d_values.data(),
+             units > 0 ? place.d_log_deviations.data() : d_deviations, sums);
+    for (int s = 0; s < count && units > 0; ++s)
+        add_state_noise_gradient(units, reals, weight_variances_.data(), hidden_of(s),
+                                 place.log_deviations.data() + s * reals,
+                                 place.d_log_deviations.data() + s * reals, d_deviations);
     functions.backward(model_.policy, policy_rows_.data(), count, features, width,
                        place.policy_activations.data(), place.d_outputs.data(),
                        place.scratch.data(), gradient);
@@ -138,6 +159,9 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
     }
 
     const NetworkFunctions<float>& functions = network_functions();
+    if (model_.noisy_units() > 0)
+        weight_variances(model_.noisy_units(), model_.actions.real_count(), model_.log_deviations(),
+                         weight_variances_.data());
     functions.transpose(model_.policy, model_.parameters.data(), policy_rows_.data());
     functions.transpose(model_.value, model_.value_parameters(), value_rows_.data());
     const std::size_t chunks = parts(samples.size(), chunk);

@@ -35,7 +35,7 @@ class Learner {
     // What one thread needs for a tile of samples.
     struct Workplace {
         std::vector<float> features, numbers, shifts, spreads, log_probabilities, advantages,
-            values, returns;
+            values, returns, log_deviations, d_log_deviations;
         std::vector<std::int32_t> indices;
         std::vector<std::uint8_t> masks;
         std::vector<float> policy_activations, value_activations, scratch, d_outputs, d_values;
@@ -57,7 +57,8 @@ class Learner {
     std::vector<float> policy_rows_, value_rows_;  // transposed weights
     std::vector<std::vector<float>> gradients_;    // of each chunk of a minibatch
     std::vector<LossSums> sums_;
-    std::vector<float> message_;  // to the other ranks
+    std::vector<float> weight_variances_;  // of noise that depends on the state
+    std::vector<float> message_;           // to the other ranks
 };
 
 }  // namespace rddlc::solvers

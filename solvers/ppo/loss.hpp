@@ -37,17 +37,20 @@ struct LossSums {
 };
 
 // `outputs` are rows of output_row numbers, as d_outputs; estimates, of values, and their gradient
-// rows of value_row.
+// rows of value_row. Logarithms of deviations are rows of deviation_row numbers, or 0: one row for
+// all; so is their gradient, to which is added.
 template <class Real>
 void add_loss(const ActionSpace& space, const LossWeights& weights, const Samples<Real>& samples,
-              int count, const Real* outputs, int output_row, const Real* log_deviations,
-              const Real* estimates, int value_row, Real* d_outputs, Real* d_estimates,
-              Real* d_log_deviations, LossSums& sums) {
+              int count, const Real* outputs, int output_row, const Real* all_log_deviations,
+              int deviation_row, const Real* estimates, int value_row, Real* d_outputs,
+              Real* d_estimates, Real* d_all_log_deviations, LossSums& sums) {
     const int reals = space.real_count(), indices = space.index_count(), mask = space.mask_size();
     const auto weight = static_cast<Real>(weights.sample_weight);
     const auto clip = static_cast<Real>(weights.clip);
     for (int s = 0; s < count; ++s) {
         const Real* const output = outputs + s * output_row;
+        const Real* const log_deviations = all_log_deviations + s * deviation_row;
+        Real* const d_log_deviations = d_all_log_deviations + s * deviation_row;
         const Real* const number = samples.numbers + s * reals;
         const Real* const shift = samples.shifts + s * reals;
         const std::int32_t* const index = samples.indices + s * indices;

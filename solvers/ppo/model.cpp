@@ -74,7 +74,7 @@ void initialise(const Network& network, double last_gain, Normals& normals, floa
 void make_networks(PpoModel& model) {
     model.policy = make_network(model.features(), model.hidden, model.actions.output_count());
     model.value = make_network(model.features(), model.hidden, 1);
-    const int deviations = std::max(model.actions.real_count(), 1);
+    const int deviations = std::max(model.deviation_count(), 1);
     model.parameters.assign(model.deviations_begin() + static_cast<std::size_t>(padded(deviations)),
                             0.0f);
     model.normaliser = Normaliser(model.features());
@@ -87,13 +87,16 @@ PpoModel make_model(const ObservationSpace& observations, const ActionSpace& act
     model.actions = actions;
     model.noise = options.noise;
     model.correlation = options.correlation;
+    model.noise_steps = options.noise_steps;
     model.hidden = options.hidden;
     make_networks(model);
     Normals normals(options.seed);
     initialise(model.policy, 0.01, normals, model.parameters.data());
     initialise(model.value, 1, normals, model.parameters.data() + model.value_begin());
-    std::fill_n(model.parameters.data() + model.deviations_begin(), actions.real_count(),
-                static_cast<float>(options.log_deviation));
+    // Where it is a sum over units, so that the sum has about this deviation.
+    const double parts = std::max(model.noisy_units(), 1);
+    std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),
+                static_cast<float>(options.log_deviation - 0.5 * std::log(parts)));
     return model;
 }
 

@@ -7,6 +7,7 @@
 #include "solvers/spaces/actions.hpp"
 #include "solvers/spaces/observations.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,17 +17,24 @@ struct PpoModel {
     ObservationSpace observations;
     ActionSpace actions;
     Noise noise = Noise::Ar1;
-    double correlation = 0;
+    double correlation = 0;  // of Ar1
+    int noise_steps = 8;     // with the same weights, of Sde
     std::vector<int> hidden;
     Network policy, value;
     Normaliser normaliser{0};
-    // The policy's, the value's, and the logarithms of the reals' deviations.
+    // The policy's, the value's, and the logarithms of the reals' deviations: those of noise that
+    // depends on the state for each of noisy_units().
     std::vector<float> parameters;
 
     std::size_t value_begin() const { return policy.parameters; }
     std::size_t deviations_begin() const { return policy.parameters + value.parameters; }
     const float* value_parameters() const { return parameters.data() + value_begin(); }
     const float* log_deviations() const { return parameters.data() + deviations_begin(); }
+    // Units of the last hidden layer, of which noise is made that depends on the state; else 0.
+    int noisy_units() const {
+        return noise == Noise::Sde && actions.real_count() > 0 ? hidden.back() : 0;
+    }
+    int deviation_count() const { return actions.real_count() * std::max(noisy_units(), 1); }
     // The best that one step of the environment can be told: rows of features.
     int features() const { return observations.feature_count(); }
 };

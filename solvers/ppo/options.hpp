@@ -37,6 +37,7 @@ struct PpoOptions {
     bool normalises_advantages = true;
     Noise noise = Noise::Ar1;
     double correlation = 0.9;            // of Ar1, between a step and the next
+    int noise_steps = 8;                 // of Sde, with the same weights
     double log_deviation = 0;            // of noise, at the start
     std::vector<int> hidden = {64, 64};  // of the policy's network, and of the values'
     ObservationOptions observations;

@@ -1,10 +1,12 @@
 #include "solvers/ppo/policy_file.hpp"
 
+#include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -48,6 +50,17 @@ const char* name_of(RealHead::Range range) {
             break;
     }
     return "free";
+}
+
+const char* name_of(Noise noise) {
+    return noise == Noise::Sde ? "sde" : noise == Noise::Ar1 ? "ar1" : "white";
+}
+// Older files tell the correlation alone.
+Noise noise_of(const Json& json, double correlation) {
+    const std::string name = json.value("noise", correlation > 0 ? "ar1" : "white");
+    for (const Noise noise : {Noise::White, Noise::Ar1, Noise::Sde})
+        if (name == name_of(noise)) return noise;
+    throw Failure("its noise is unknown: '" + name + "'");
 }
 
 std::string text_of(const ActionSpace& space) {
@@ -144,6 +157,10 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         !stands("action", text_of(model->actions)))
         throw Failure("it is of another version of the problem: what is seen or done has changed");
     model->hidden = json.at("hidden").get<std::vector<int>>();
+    if (model->hidden.empty()) throw Failure("its layers do not fit");
+    model->correlation = json.at("correlation").get<double>();
+    model->noise = noise_of(json, model->correlation);
+    model->noise_steps = std::max(json.value("noise_steps", 1), 1);
     make_networks(*model);
     model->normaliser.means = seen.at("means").get<std::vector<float>>();
     model->normaliser.factors = seen.at("factors").get<std::vector<float>>();
@@ -153,11 +170,10 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
     read_layers(json.at("policy"), model->policy, model->parameters.data());
     read_layers(json.at("value"), model->value, model->parameters.data() + model->value_begin());
     const auto deviations = json.at("log_deviations").get<std::vector<float>>();
-    if (deviations.size() != model->actions.reals.size()) throw Failure("its actions do not fit");
+    if (deviations.size() != static_cast<std::size_t>(model->deviation_count()))
+        throw Failure("its actions do not fit");
     std::copy(deviations.begin(), deviations.end(),
               model->parameters.data() + model->deviations_begin());
-    model->correlation = json.at("correlation").get<double>();
-    model->noise = model->correlation > 0 ? Noise::Ar1 : Noise::White;
     return model;
 }
 
@@ -169,7 +185,9 @@ struct PpoActor {
           random(its_random),
           seed(its_seed),
           records(simulator),
-          chooser(simulator, model->actions, model->noise, model->correlation, environments) {
+          chooser(simulator, model->actions, model->noise, model->correlation, environments),
+          state_noise(*model, environments) {
+        if (state_noise.is_used()) state_noise.look_at_policy();
         const auto count = static_cast<std::size_t>(environments);
         const auto rows = [&](int row) {
             return count * static_cast<std::size_t>(row);
@@ -198,8 +216,15 @@ struct PpoActor {
                            observations.data() + e * model->observations.column_count(), steps,
                            steps == 0, features.data() + e * width);
             model->normaliser.write(features.data() + e * width, normalised.data() + e * width);
-            if (steps == 0) chooser.begin_episode(e);
+            if (steps > 0) continue;
+            chooser.begin_episode(e);
+            state_noise.begin_episode(e);
         }
+        const auto key_of = [&](std::int64_t e) {
+            const auto at = static_cast<std::size_t>(e);
+            return ChoiceKey{seed, static_cast<std::uint64_t>(decision.episodes[at]),
+                             static_cast<std::uint64_t>(decision.steps[at])};
+        };
         for (std::int64_t e = 0; e < count; e += tile) {
             const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
             network_functions().forward(model->policy, model->parameters.data(), some,
@@ -207,16 +232,19 @@ struct PpoActor {
             std::copy_n(activations.data() +
                             model->policy.layers.back().values * static_cast<std::size_t>(some),
                         some * output_row, outputs.data() + e * output_row);
+            for (int i = 0; i < some && random && state_noise.is_used(); ++i)
+                state_noise.make(e + i,
+                                 last_hidden(model->policy, activations.data(), some) +
+                                     i * hidden_row(model->policy),
+                                 key_of(e + i));
         }
         const Chosen chosen{numbers.data(), shifts.data(), spreads.data(),
                             indices.data(), masks.data(),  log_probabilities.data()};
-        const auto key_of = [&](std::int64_t e) {
-            const auto at = static_cast<std::size_t>(e);
-            return ChoiceKey{seed, static_cast<std::uint64_t>(decision.episodes[at]),
-                             static_cast<std::uint64_t>(decision.steps[at])};
-        };
         chooser.choose(decision.batch, outputs.data(), output_row,
-                       random ? model->log_deviations() : nullptr, key_of, chosen, actions.data());
+                       !random                 ? Deviations{}
+                       : state_noise.is_used() ? state_noise.deviations()
+                                               : Deviations{model->log_deviations()},
+                       key_of, chosen, actions.data());
         for (std::int64_t e = 0; e < count; ++e)
             records.write(actions.data() + e * model->actions.column_count,
                           decision.actions + static_cast<std::size_t>(e) * records.record_size());
@@ -228,6 +256,7 @@ struct PpoActor {
     std::uint64_t seed;
     ActionRecords records;
     Chooser chooser;
+    StateNoise state_noise;
     std::vector<float> observations, features, normalised, outputs, activations, numbers, shifts,
         spreads, log_probabilities, actions;
     std::vector<std::int32_t> indices;
@@ -251,9 +280,11 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
     text +=
         fmt::format(R"("policy":{},"value":{},)", text_of(model.policy, model.parameters.data()),
                     text_of(model.value, model.value_parameters()));
-    text += fmt::format(R"("log_deviations":{},"correlation":{:.17g}}})",
-                        array(model.log_deviations(), model.actions.reals.size()),
-                        model.noise == Noise::Ar1 ? model.correlation : 0.0);
+    text += fmt::format(
+        R"("log_deviations":{},"noise":"{}","noise_steps":{},"correlation":{:.17g}}})",
+        array(model.log_deviations(), static_cast<std::size_t>(model.deviation_count())),
+        name_of(model.noise), model.noise_steps,
+        model.noise == Noise::Ar1 ? model.correlation : 0.0);
     return text + "\n";
 }
 

@@ -14,8 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <numeric>
+#include <span>
 
 namespace rddlc::solvers {
 
@@ -40,6 +40,8 @@ void check(const PpoOptions& options) {
             "a minibatch is larger than what is collected for an update: it needs --minibatch at "
             "most --envs times --rollout");
     require(options.observations.stack >= 1, "PPO sees at least one observation");
+    require(!options.hidden.empty(), "PPO needs a hidden layer");
+    require(options.noise_steps > 0, "noise stays for at least one step");
     for (const int width : options.hidden) require(width > 0, "a layer needs units");
 }
 
@@ -85,6 +87,11 @@ struct PpoTrainer::State {
                 EnvironmentShare{share.begin, share.end - share.begin,
                                  std::int64_t{ranks.number} * options.environments}));
         }
+        // Nothing is allocated later.
+        episodes.reserve(remembered_episodes);
+        const std::size_t minibatches =
+            experience.count() / static_cast<std::size_t>(options.minibatch) + 1;
+        moments.reserve(std::max({feature_statistics.size() + 1, minibatches, std::size_t{3}}));
         entropy_weight =
             options.entropy_weight.value_or(model.actions.logit_count > 0 ? 0.01 : 0.0);
     }
@@ -105,20 +112,21 @@ struct PpoTrainer::State {
     }
 
     // Of all ranks.
-    void add_up(std::vector<Moments>& moments) const {
+    void add_up(std::vector<Moments>& sums) const {
         static_assert(sizeof(Moments) == 3 * sizeof(double));
-        ranks.add_up({&moments.front().count, 3 * moments.size()});
+        ranks.add_up({&sums.front().count, 3 * sums.size()});
     }
 
     // Environment by environment, so that shards do not matter.
     void learn_scales() {
         // Of each feature, and of the returns.
         const std::size_t features = feature_statistics.size();
-        std::vector<Moments> all(features + 1);
+        std::vector<Moments>& all = moments;
+        all.assign(features + 1, {});
         for (const auto& collector : collectors) {
             for (std::size_t i = 0; i < collector->feature_moments().size(); ++i)
                 all[i % features].add(collector->feature_moments()[i]);
-            for (const Moments& moments : collector->return_moments()) all[features].add(moments);
+            for (const Moments& each : collector->return_moments()) all[features].add(each);
         }
         add_up(all);
         if (options.normalises_observations)
@@ -156,13 +164,12 @@ struct PpoTrainer::State {
 
     // Of all ranks, as they are in `order`: what normalises the advantages of each minibatch is
     // known before the first of them is learned from.
-    std::vector<Moments> advantages_of_minibatches() const {
+    void sum_up_advantages() {
         const auto size = static_cast<std::size_t>(options.minibatch);
-        std::vector<Moments> all((order.size() + size - 1) / size);
+        moments.assign((order.size() + size - 1) / size, {});
         for (std::size_t s = 0; s < order.size(); ++s)
-            all[s / size].add(static_cast<double>(experience.advantages[order[s]]));
-        add_up(all);
-        return all;
+            moments[s / size].add(static_cast<double>(experience.advantages[order[s]]));
+        add_up(moments);
     }
 
     void learn(double rate) {
@@ -173,13 +180,13 @@ struct PpoTrainer::State {
         for (int epoch = 0; epoch < options.epochs && !stops; ++epoch) {
             shuffle(order, options.seed, static_cast<std::uint64_t>(progress.updates),
                     static_cast<std::uint64_t>(epoch), static_cast<std::uint64_t>(ranks.number));
-            const std::vector<Moments> advantages = advantages_of_minibatches();
+            sum_up_advantages();
             kl_sum = kl_samples = 0;
             const auto size = static_cast<std::size_t>(options.minibatch);
             for (std::size_t s = 0; s < order.size() && !stops; s += size) {
                 const std::span<const std::uint32_t> batch(order.data() + s,
                                                            std::min(size, order.size() - s));
-                const Moments& advantage = advantages[s / size];
+                const Moments& advantage = moments[s / size];
                 const LossSums some =
                     learner.learn(experience, batch, advantage, {rate, entropy_weight, kl_penalty});
                 const double count = advantage.count;
@@ -216,25 +223,38 @@ struct PpoTrainer::State {
         }
     }
 
+    void note(std::span<const FinishedEpisode> ended) {
+        progress.episodes += static_cast<std::int64_t>(ended.size());
+        ended = ended.last(std::min(ended.size(), remembered_episodes));
+        const std::size_t all = episodes.size() + ended.size();
+        if (all > remembered_episodes)
+            episodes.erase(episodes.begin(), episodes.begin() + static_cast<std::ptrdiff_t>(
+                                                                    all - remembered_episodes));
+        episodes.insert(episodes.end(), ended.begin(), ended.end());
+    }
+
+    // Of all ranks, in their order.
+    void note_episodes() {
+        if (ranks.count == 1) {
+            for (const auto& collector : collectors) note(collector->finished());
+            return;
+        }
+        SavingArchive own;
+        for (const auto& collector : collectors) own(collector->finished());
+        std::vector<FinishedEpisode> ended;
+        for (const std::string& theirs : ranks.gather(own.bytes()))
+            for (LoadingArchive archive(theirs); !archive.at_end(); note(ended)) archive(ended);
+    }
+
     void report() {
         std::int64_t mended_now = 0;
-        std::vector<FinishedEpisode> ended;
         progress.simulator_seconds = 0;
         progress.episodes = 0;
         for (const auto& collector : collectors) {
             mended_now += collector->mended();
             progress.simulator_seconds += collector->simulator_seconds();
-            ended.insert(ended.end(), collector->finished().begin(), collector->finished().end());
         }
-        SavingArchive own;
-        own(ended);
-        for (const std::string& theirs : ranks.gather(own.bytes())) {
-            LoadingArchive archive(theirs);
-            archive(ended);
-            episodes.insert(episodes.end(), ended.begin(), ended.end());
-            progress.episodes += static_cast<std::int64_t>(ended.size());
-        }
-        while (episodes.size() > remembered_episodes) episodes.pop_front();
+        note_episodes();
         const auto count = static_cast<double>(std::max<std::size_t>(episodes.size(), 1));
         progress.mean_return = progress.mean_discounted_return = progress.mean_length =
             progress.success_rate = 0;
@@ -248,8 +268,8 @@ struct PpoTrainer::State {
             progress.mean_return = progress.mean_discounted_return = progress.mean_length =
                 std::nan("");
 
-        std::vector<Moments> sums(3);
-        Moments &returns = sums[0], &errors = sums[1], &mending = sums[2];
+        moments.assign(3, {});
+        Moments &returns = moments[0], &errors = moments[1], &mending = moments[2];
         mending.count = static_cast<double>(experience.count());
         mending.sum = static_cast<double>(mended_now - mended);
         mended = mended_now;
@@ -258,7 +278,7 @@ struct PpoTrainer::State {
             errors.add(static_cast<double>(experience.returns[s]) -
                        static_cast<double>(experience.values[s]));
         }
-        add_up(sums);
+        add_up(moments);
         progress.mended_rate = mending.sum / mending.count;
         const auto variance = [](const Moments& m) {
             return m.squares / m.count - m.sum / m.count * (m.sum / m.count);
@@ -266,9 +286,9 @@ struct PpoTrainer::State {
         progress.explained_variance =
             variance(returns) > 0 ? 1 - variance(errors) / variance(returns) : std::nan("");
         double deviation = 0;
-        for (int r = 0; r < model.actions.real_count(); ++r)
+        for (int r = 0; r < model.deviation_count(); ++r)
             deviation += std::exp(static_cast<double>(model.log_deviations()[r]));
-        progress.deviation = deviation / std::max(1, model.actions.real_count());
+        progress.deviation = deviation / std::max(1, model.deviation_count());
     }
 
     // Without a scale, the first update would see features of any size: the untrained policy makes
@@ -279,7 +299,7 @@ struct PpoTrainer::State {
         learn_scales();
         // Once more, about a mean that is near.
         collect(0);
-        feature_statistics.assign(feature_statistics.size(), {});
+        std::fill(feature_statistics.begin(), feature_statistics.end(), RunningStatistics{});
         return_statistics = {0, return_statistics.mean, 1};
         learn_scales();
     }
@@ -318,9 +338,7 @@ struct PpoTrainer::State {
         archive(return_statistics);
         archive(learning_rate);
         archive(kl_penalty);
-        std::vector<FinishedEpisode> list(episodes.begin(), episodes.end());
-        archive(list);
-        episodes.assign(list.begin(), list.end());
+        archive(episodes);
         archive_environments(archive);
     }
 
@@ -355,7 +373,8 @@ struct PpoTrainer::State {
     std::vector<RunningStatistics> feature_statistics;
     RunningStatistics return_statistics;
     std::vector<std::uint32_t> order;
-    std::deque<FinishedEpisode> episodes;
+    std::vector<FinishedEpisode> episodes;  // the last ones
+    std::vector<Moments> moments;           // room for what is summed up
     double gamma, learning_rate, kl_penalty, entropy_weight = 0;
     std::int64_t mended = 0;
     PpoProgress progress;

@@ -7,37 +7,17 @@ namespace rddlc::solvers {
 
 namespace {
 
+using Search = MendingSearch;
+
 // How often a real is halved before it takes its default.
 constexpr int most_halves = 3;
 // How many values are mended one by one; after that all others take their default.
 constexpr int most_values = 16;
 
-// One environment's search, by questions whether an action is legal of which the first values are
-// as wanted and the others at their default.
-struct Search {
-    enum class Question {
-        All,     // is it legal now?
-        Middle,  // which value is at fault?
-        Value    // is the value, as it was halved, still at fault?
-    } question = Question::Middle;
-    bool active = false;
-    int legal = 0;  // with so many values it is legal
-    int end = 0;    // with so many it is not
-    int halves = 0, mended = 0;
-
-    int asked(int columns) const {
-        return question == Question::All     ? columns
-               : question == Question::Value ? legal + 1
-                                             : (legal + end) / 2;
-    }
-};
-
 class Mending {
   public:
-    Mending(const ActionSpace& space) : space_(space), is_real_(space.names.size()) {
-        for (const RealHead& head : space.reals)
-            is_real_[static_cast<std::size_t>(head.column)] = !head.rounds;
-    }
+    Mending(const ActionSpace& space, const std::vector<std::uint8_t>& is_real)
+        : space_(space), is_real_(is_real) {}
 
     void start(Search& search, float* wanted) const {
         search.end = space_.column_count;
@@ -92,15 +72,28 @@ class Mending {
     }
 
     const ActionSpace& space_;
-    std::vector<bool> is_real_;
+    const std::vector<std::uint8_t>& is_real_;
 };
 
 }  // namespace
 
+MendingRoom::MendingRoom(const ActionSpace& space, std::int64_t environments) {
+    const auto count = static_cast<std::size_t>(environments);
+    violated.resize(count);
+    wanted.resize(count * static_cast<std::size_t>(space.column_count));
+    searches.resize(count);
+    is_real.resize(space.names.size());
+    for (const RealHead& head : space.reals)
+        is_real[static_cast<std::size_t>(head.column)] = !head.rounds;
+}
+
 std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
-                          const ActionRecords& converter, rddl_batch* batch,
-                          std::int64_t environments, float* actions, std::byte* records,
-                          std::int32_t* violated, float* wanted) {
+                          const ActionRecords& converter, rddl_batch* batch, float* actions,
+                          std::byte* records, MendingRoom& room) {
+    std::vector<Search>& searches = room.searches;
+    const auto environments = static_cast<std::int64_t>(searches.size());
+    std::int32_t* const violated = room.violated.data();
+    float* const wanted = room.wanted.data();
     simulator.violated_preconditions(batch, records, violated);
     const std::int64_t illegal =
         std::count_if(violated, violated + environments, [](std::int32_t v) { return v >= 0; });
@@ -115,8 +108,8 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
         std::copy(space.defaults.begin() + count, space.defaults.end(), row + count);
         converter.write(row, records + static_cast<std::size_t>(i) * converter.record_size());
     };
-    const Mending mending(space);
-    std::vector<Search> searches(static_cast<std::size_t>(environments));
+    const Mending mending(space, room.is_real);
+    std::fill(searches.begin(), searches.end(), Search{});
     for (std::int64_t i = 0; i < environments; ++i)
         if (violated[i] >= 0) {
             searches[static_cast<std::size_t>(i)].active = true;

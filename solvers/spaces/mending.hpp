@@ -7,18 +7,49 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace rddlc::solvers {
+
+// One environment's search, by questions whether an action is legal of which the first values are
+// as wanted and the others at their default.
+struct MendingSearch {
+    enum class Question {
+        All,     // is it legal now?
+        Middle,  // which value is at fault?
+        Value    // is the value, as it was halved, still at fault?
+    } question = Question::Middle;
+    bool active = false;
+    int legal = 0;  // with so many values it is legal
+    int end = 0;    // with so many it is not
+    int halves = 0, mended = 0;
+
+    int asked(int columns) const {
+        return question == Question::All     ? columns
+               : question == Question::Value ? legal + 1
+                                             : (legal + end) / 2;
+    }
+};
+
+// What the work takes, so that nothing is allocated again and again.
+struct MendingRoom {
+    MendingRoom() = default;
+    MendingRoom(const ActionSpace& space, std::int64_t environments);
+
+    std::vector<std::int32_t> violated;   // a number an environment
+    std::vector<float> wanted;            // rows of values
+    std::vector<MendingSearch> searches;  // one an environment
+    std::vector<std::uint8_t> is_real;    // by column
+};
 
 // Values at fault fall back toward their default: a real by halves at first, then all the way.
 // Which values are at fault is found by asking about actions of which only the first ones are set.
 // Where not even the default action is legal, an action stays as it is.
 //
-// `actions` are rows of values, `records` the same as records; both are changed. The last two are
-// for work: a number an environment, and rows as `actions`. Returns how many actions were illegal.
+// `actions` are rows of values, `records` the same as records; both are changed. Returns how many
+// actions were illegal.
 std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
-                          const ActionRecords& converter, rddl_batch* batch,
-                          std::int64_t environments, float* actions, std::byte* records,
-                          std::int32_t* violated, float* wanted);
+                          const ActionRecords& converter, rddl_batch* batch, float* actions,
+                          std::byte* records, MendingRoom& room);
 
 }  // namespace rddlc::solvers

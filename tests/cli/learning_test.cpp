@@ -79,6 +79,27 @@ TEST_F(LearningProgram, CtrlCSavesAndEnds) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run/policy.json"));
 }
 
+// A trace is a plan: in a problem without chance it leads to where it was recorded.
+TEST_F(LearningProgram, ReplaysRecordedPlans) {
+    const std::string car = " " RDDL_EXAMPLES "/mountain_car/domain.rddl " RDDL_EXAMPLES
+                            "/mountain_car/instance.rddl --engine interpreter ";
+    ASSERT_EQ(run("run" + car + "--policy random --seed 4 --trace plan.jsonl --quiet").status, 0);
+    const json random = run_json("run" + car + "--policy random --seed 4 --json");
+    const json plan = run_json("run" + car + "--policy plan.jsonl --json");
+    EXPECT_EQ(plan["return"]["mean"], random["return"]["mean"]);
+    const json compared =
+        run_json("compare" + car + "--policies noop,plan.jsonl --episodes 3 --json");
+    EXPECT_EQ(compared["policies"][1]["return"]["max"], random["return"]["mean"]);
+    EXPECT_NE(compared["policies"][0]["return"]["max"], random["return"]["mean"]);
+    // What is recorded of another problem, or holds no action, is refused.
+    EXPECT_NE(run(on_tanks("evaluate", "--policy plan.jsonl")).err.find("plan.jsonl', line 1"),
+              std::string::npos);
+    write_file(folder_ / "empty.jsonl", "\n");
+    EXPECT_NE(
+        run(on_tanks("evaluate", "--policy empty.jsonl")).err.find("there is no action in it"),
+        std::string::npos);
+}
+
 // Width and height in the header of a PNG file.
 std::pair<int, int> png_size(const std::string& bytes) {
     const auto number = [&](std::size_t at) {

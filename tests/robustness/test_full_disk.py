@@ -137,6 +137,37 @@ class FullDisk(CommandTest):
                 ["a.mp4"], RDDL, "run", "domain.rddl", "instance.rddl", INTERPRET, "--horizon=2",
                 "--quiet", "--size=60x40", "--video=a.mp4", of=of), 2)
 
+    def test_checkpoints(self):
+        """What a run had before is whole at any time, and it goes on when there is room again."""
+        ppo = "train", "ppo", "--steps=3000", "--envs=4", "--rollout=50", "--minibatch=100", "--hidden=8", "--evaluations=2"
+        cgp = "train", "cgp", "--gens=40", "--lambda=2", "--cols=10", "--evaluations=2"
+        for policy, words in (("last.json", ppo), ("last.cgp", cgp)):
+            def train(folder, *more, words=words, **environment):
+                return self.run_command(RDDL, *words, "domain.rddl", "instance.rddl", INTERPRET, "--quiet", "--out",
+                                        folder, *more, environment={**self.environment, **environment})
+            self.assertEqual(train("whole").status, SUCCESS)
+            self.assertEqual(train("first", "--time=0.001").status, SUCCESS)
+            names = {path.name for path in (self.folder / "first").iterdir()}
+            # The last call fails that is one of the run's: the one after it is never made.
+            for call in range(1, MOST_CALLS):
+                shutil.rmtree(self.folder / "run", ignore_errors=True)
+                shutil.copytree(self.folder / "first", self.folder / "run")
+                result = train("run", "--resume", LD_PRELOAD=str(LIBRARY), FULL_DISK_AT=str(call), FULL_DISK_OF="rddl")
+                if result.status == SUCCESS:
+                    break
+                self.assertEqual(result.status, DIAGNOSED, result)
+                self.assertIn("No space left on device", result.errors)
+                self.assertEqual({path.name for path in (self.folder / "run").iterdir()}, names)
+                self.assertEqual((self.folder / "run/checkpoint").read_bytes(),
+                                 (self.folder / "first/checkpoint").read_bytes())
+                self.assertEqual(train("run", "--resume").status, SUCCESS)
+                self.assertEqual((self.folder / "run" / policy).read_bytes(), (self.folder / "whole" / policy).read_bytes())
+            else:
+                self.fail("the command has no end")
+            self.assertGreater(call, 5)
+            for folder in "whole", "first", "run":
+                shutil.rmtree(self.folder / folder)
+
     def test_compiled_simulators(self):
         for words in ([RDDLC, "domain.rddl", "instance.rddl", "-o", "simulator.cpp"],
                       ["c++", "-std=c++20", "-O0", "-shared", "-fPIC", "-I", ROOT / "runtime",

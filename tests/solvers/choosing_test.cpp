@@ -172,7 +172,7 @@ TEST(Choosing, GradientOfTheLossAgreesWithFiniteDifferences) {
                 std::vector<double> d(outputs.size()), dd(deviations.size());
                 double de = 0;
                 add_loss(space, weights, rows, 1, outputs.data(), space.output_count(),
-                         deviations.data(), &estimate, 1, d.data(), &de, dd.data(), sums);
+                         deviations.data(), 0, &estimate, 1, d.data(), &de, dd.data(), sums);
                 d_outputs = d;
                 d_deviations = dd;
                 d_estimate = de;
@@ -261,7 +261,7 @@ TEST(Choosing, DrawsAsItSays) {
     std::vector<float> before;
     for (std::int64_t t = 0; t < steps; ++t) {
         chooser.choose(
-            batch.get(), outputs.data(), 1, &log_deviation,
+            batch.get(), outputs.data(), 1, Deviations{&log_deviation},
             [&](std::int64_t e) {
                 return ChoiceKey{9, static_cast<std::uint64_t>(e), static_cast<std::uint64_t>(t)};
             },
@@ -298,7 +298,7 @@ TEST(Mending, MakesActionsLegal) {
     std::vector<float> actions(environments * columns), wanted;
     std::vector<std::byte> bytes(environments * records.record_size());
     std::vector<std::int32_t> violated(environments);
-    std::vector<float> work(actions.size());
+    MendingRoom room(space, environments);
     std::int64_t mended = 0;
     for (int step = 0; step < 20; ++step) {
         for (std::size_t i = 0; i < actions.size(); ++i)
@@ -309,8 +309,8 @@ TEST(Mending, MakesActionsLegal) {
                           bytes.data() + static_cast<std::size_t>(e) * records.record_size());
         std::vector<std::int32_t> before(environments);
         simulator.violated_preconditions(batch.get(), bytes.data(), before.data());
-        mended += mend_actions(simulator, space, records, batch.get(), environments, actions.data(),
-                               bytes.data(), violated.data(), work.data());
+        mended += mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(),
+                               room);
         simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
         for (std::size_t e = 0; e < violated.size(); ++e) {
             EXPECT_EQ(violated[e], -1);

@@ -5,6 +5,7 @@
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/learner.hpp"
 #include "solvers/ppo/policy_file.hpp"
+#include "solvers/ppo/state_noise.hpp"
 #include "solvers/ppo/trainer.hpp"
 #include "support/failure.hpp"
 
@@ -191,6 +192,90 @@ std::string complaint(const auto& work) {
         return failure.what();
     }
     return "";
+}
+
+// Of logarithms of deviations that depend on the state, against finite differences.
+TEST(StateNoise, GradientAgreesWithFiniteDifferences) {
+    constexpr int units = 5, reals = 2;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    std::vector<double> logarithms(units * reals), hidden(units), weights(reals),
+        gradient(units * reals);
+    for (auto* each : {&logarithms, &hidden, &weights})
+        for (double& number : *each) number = 0.5 * normal(random);
+    std::vector<double> variances(logarithms.size()), deviations(reals);
+    const auto value = [&] {
+        weight_variances(units, reals, logarithms.data(), variances.data());
+        state_log_deviations(units, reals, variances.data(), hidden.data(), deviations.data());
+        return weights[0] * deviations[0] + weights[1] * deviations[1];
+    };
+    value();
+    add_state_noise_gradient(units, reals, variances.data(), hidden.data(), deviations.data(),
+                             weights.data(), gradient.data());
+    for (std::size_t k = 0; k < logarithms.size(); ++k) {
+        const double before = logarithms[k], step = 1e-6;
+        logarithms[k] = before + step;
+        const double above = value();
+        logarithms[k] = before - step;
+        const double below = value();
+        logarithms[k] = before;
+        EXPECT_NEAR(gradient[k], (above - below) / (2 * step), 1e-8) << k;
+    }
+}
+
+// The noise has the deviation that its likelihood says, and is the same function for some steps.
+TEST(StateNoise, IsAsLikelyAsItSays) {
+    PpoOptions options = small_training();
+    options.noise = Noise::Sde;
+    options.noise_steps = 2;
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    const PpoModel model =
+        make_model(observation_space(car, options.observations), action_space(car), options);
+    const std::size_t units = static_cast<std::size_t>(model.noisy_units());
+    ASSERT_EQ(units, static_cast<std::size_t>(options.hidden.back()));
+    std::vector<float> hidden(units);
+    for (std::size_t u = 0; u < units; ++u) hidden[u] = std::sin(static_cast<float>(u));
+    constexpr std::int64_t environments = 2000;
+    StateNoise noise(model, environments);
+    noise.look_at_policy();
+    Moments squares;
+    for (std::uint64_t step = 0; step < 4; ++step)
+        for (std::int64_t e = 0; e < environments; ++e) {
+            const float before = noise.deviations().noise[e];
+            noise.make(e, hidden.data(), {5, static_cast<std::uint64_t>(e), step});
+            const Deviations now = noise.deviations();
+            EXPECT_EQ(step % 2 == 1, now.noise[e] == before);
+            squares.add(static_cast<double>(now.noise[e] / std::exp(now.logarithms[e])));
+        }
+    EXPECT_NEAR(squares.sum / squares.count, 0, 0.05);
+    EXPECT_NEAR(squares.squares / squares.count, 1, 0.05);
+}
+
+TEST(StateNoise, IsPartOfCheckpointsAndPolicies) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        PpoOptions options = small_training();
+        options.noise = Noise::Sde;
+        PpoTrainer whole(*simulator, options), first(*simulator, options);
+        for (int i = 0; i < 3; ++i) whole.update();
+        first.update();
+        options.threads = 2;
+        PpoTrainer threaded(*simulator, options);
+        for (int i = 0; i < 3; ++i) threaded.update();
+        EXPECT_EQ(whole.model().parameters, threaded.model().parameters);
+        options.threads = 1;
+        PpoTrainer second(*simulator, options);
+        second.load(first.save());
+        for (int i = 0; i < 2; ++i) second.update();
+        EXPECT_EQ(whole.model().parameters, second.model().parameters);
+        const std::string text = ppo_policy_text(*simulator, whole.model());
+        const auto model = read_ppo_policy(*simulator, text);
+        EXPECT_EQ(model->noise, Noise::Sde);
+        EXPECT_EQ(ppo_policy_text(*simulator, *model), text);
+        const Policy policy = ppo_policy(*simulator, model, true, 1, "ppo");
+        const Summary summary = summary_of(run_episodes(*simulator, policy, {}, {}));
+        EXPECT_TRUE(std::isfinite(summary.undiscounted_return.mean));
+    }
 }
 
 TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {

@@ -186,9 +186,11 @@ Command evaluate_command() {
         "  rddl evaluate MountainCar_ippc2023 1 --policy runs/a\n"
         "  rddl evaluate domain.rddl instance.rddl --policy random --episodes 1000 --json";
     add_problem_arguments(command, options->problem);
-    add_option(command, "--policy", "POLICY",
-               "random, noop, rddl (the policy block), a policy file or the folder of a run",
-               [options](const std::string& name) { options->policies = {name}; })
+    add_option(
+        command, "--policy", "POLICY",
+        "random, noop, rddl (the policy block), a policy file, the folder of a run, or a trace "
+        "(.jsonl), whose first episode is a plan",
+        [options](const std::string& name) { options->policies = {name}; })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     command.run = [options] {
@@ -208,9 +210,11 @@ Command compare_command() {
         "  rddl compare MountainCar_ippc2023 1 --policies random,noop,runs/ppo,runs/cgp\n"
         "  rddl compare MountainCar_ippc2023 1 --policies noop,runs/ppo --png returns.png";
     add_problem_arguments(command, options->problem);
-    add_list_option(command, "--policies", "POLICY,...",
-                    "random, noop, rddl (the policy block), policy files, folders of runs",
-                    [options](const std::string& name) { options->policies.push_back(name); })
+    add_list_option(
+        command, "--policies", "POLICY,...",
+        "random, noop, rddl (the policy block), policy files, folders of runs, traces (.jsonl) "
+        "as plans",
+        [options](const std::string& name) { options->policies.push_back(name); })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);
     add_chart_options(command, options->chart);

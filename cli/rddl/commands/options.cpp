@@ -18,10 +18,11 @@ ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
 }
 
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
-    add_argument(command, "DOMAIN",
-                 "Domain file, or one that holds the instance, too; folder of a domain.rddl and its "
-                 "instances; or NAME of a problem of rddlrepository",
-                 arguments.first)
+    add_argument(
+        command, "DOMAIN",
+        "Domain file, or one that holds the instance, too; folder of a domain.rddl and its "
+        "instances; or NAME of a problem of rddlrepository",
+        arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
     add_standard_option(command, arguments.standard);
@@ -106,12 +107,14 @@ void choose_policy(const std::string& name, Policy& policy,
 
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
                        std::filesystem::path* learned) {
-    add_option(command, "--policy", "POLICY",
-               "random (default): legal random actions; noop: default actions; rddl: the policy "
-               "block of the problem; FILE: the policy block in it, or what a solver has learned",
-               [&policy, &file, learned](const std::string& name) {
-                   choose_policy(name, policy, file, learned);
-               })
+    add_option(
+        command, "--policy", "POLICY",
+        "random (default): legal random actions; noop: default actions; rddl: the policy "
+        "block of the problem; FILE: the policy block in it, what a solver has learned, or the "
+        "actions of a trace (.jsonl)",
+        [&policy, &file, learned](const std::string& name) {
+            choose_policy(name, policy, file, learned);
+        })
         .suggestions = {"random", "noop", "rddl"};
 }
 

@@ -167,8 +167,13 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                       "never",
                       ppo.kl_stop, 0.0, 1e9);
     add_choice_option<Noise>(command, "--noise", "NOISE",
-                             "Of reals: ar1 (default), correlated in time, or white", ppo.noise,
-                             {{"ar1", Noise::Ar1}, {"white", Noise::White}});
+                             "Of reals: ar1 (default), correlated in time; sde, a function of the "
+                             "state that changes every "
+                             "few steps; or white",
+                             ppo.noise,
+                             {{"ar1", Noise::Ar1}, {"sde", Noise::Sde}, {"white", Noise::White}});
+    add_number_option(command, "--sde-steps", "N", "Steps with the same function, of sde (8)",
+                      ppo.noise_steps, 1, 1 << 20);
     add_number_option(command, "--correlation", "R", "Of ar1 between steps (0.9)", ppo.correlation,
                       0.0, 0.9999);
     add_number_option(command, "--log-std", "X", "Logarithm of the noise's deviation at first (0)",

@@ -1,5 +1,8 @@
 #include "learning/learned_policy.hpp"
 
+#include "formats/line_stream.hpp"
+#include "formats/trace.hpp"
+#include "formats/trace_steps.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "support/failure.hpp"
@@ -17,12 +20,45 @@ std::filesystem::path policy_file(const std::filesystem::path& path) {
 
 bool is_learned_policy(const std::filesystem::path& path) {
     const std::filesystem::path file = policy_file(path);
-    return (file.extension() == ".json" || file.extension() == ".cgp") && is_there(file);
+    const std::string ending = file.extension();
+    return (ending == ".json" || ending == ".cgp" || ending == ".jsonl") && is_there(file);
 }
+
+namespace {
+
+constexpr std::int64_t longest_plan = 10'000'000;  // steps
+
+// The actions of the first episode of a trace.
+solvers::Policy recorded_plan(const rddl_simulator& simulator, const std::filesystem::path& path) {
+    const rddl_problem& problem = *simulator.problem;
+    UsedFiles used;
+    LineReader lines(path.string(), used, longest_line(TraceFormat(problem)));
+    TraceSteps steps(simulator, {}, path.string());
+    const auto* const none = static_cast<const std::byte*>(problem.default_action);
+    std::vector<std::byte> actions;
+    while (const std::optional<std::string> line = lines.next()) {
+        const std::optional<TraceStep> step = steps.read(*line);
+        if (steps.is_over()) break;
+        if (!step || step->action.empty()) continue;
+        if (step->number >= longest_plan)
+            throw Failure(
+                fmt::format("'{}' is no plan: it has a step {}", path.string(), step->number));
+        const auto size = static_cast<std::size_t>(problem.action_size);
+        while (actions.size() < static_cast<std::size_t>(step->number) * size)
+            actions.insert(actions.end(), none, none + size);  // steps that are not told
+        actions.insert(actions.end(), step->action.begin(), step->action.end());
+    }
+    if (actions.empty())
+        throw Failure(fmt::format("'{}' is no plan: there is no action in it", path.string()));
+    return solvers::plan_policy(simulator, path.string(), std::move(actions));
+}
+
+}  // namespace
 
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
                                bool random, std::uint64_t seed) {
     const std::filesystem::path file = policy_file(path);
+    if (file.extension() == ".jsonl") return recorded_plan(simulator, file);
     const std::string text = read_file(file);
     try {
         if (text.starts_with("rddl-cgp"))
@@ -46,10 +82,10 @@ solvers::Policy policy_named(const rddl_simulator& simulator, const std::string&
         return solvers::block_policy(simulator);
     }
     if (!is_there(name))
-        throw Failure(
-            fmt::format("'{}' is neither random, noop, rddl, a policy file nor the folder of a run",
-                        name),
-            {}, usage_error);
+        throw Failure(fmt::format("'{}' is neither random, noop, rddl, a policy file, a trace nor "
+                                  "the folder of a run",
+                                  name),
+                      {}, usage_error);
     return learned_policy(simulator, name, random, seed);
 }
 

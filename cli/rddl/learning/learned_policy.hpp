@@ -12,13 +12,14 @@ namespace rddlc::cli {
 // The file that holds the policy: the best one of a run's folder.
 std::filesystem::path policy_file(const std::filesystem::path& path);
 
-// A policy file of a solver, or the folder of a run, whose best policy it is.
+// A policy file of a solver, the folder of a run, whose best policy it is, or a recorded plan: the
+// first episode of a trace (.jsonl).
 bool is_learned_policy(const std::filesystem::path& path);
 // Throws a Failure that names the file. The simulator must outlive the policy.
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
                                bool random, std::uint64_t seed);
 
-// "random", "noop", "rddl" (the policy block) or a learned policy.
+// "random", "noop", "rddl" (the policy block), a learned policy or a recorded plan.
 solvers::Policy policy_named(const rddl_simulator& simulator, const std::string& name, bool random,
                              std::uint64_t seed);
 

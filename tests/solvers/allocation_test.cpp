@@ -1,0 +1,94 @@
+// What learners do again and again allocates nothing.
+#include "simulators.hpp"
+#include "solvers/cgp/evaluator.hpp"
+#include "solvers/ppo/trainer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace {
+std::atomic<std::int64_t> allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+    if (void* memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded))
+        return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+    return counted(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace rddlc::solvers {
+namespace {
+
+TEST(Allocations, NoneInUpdatesOfPpo) {
+    for (const rddl_simulator* simulator : simulators())
+        for (const int threads : {1, 2}) {
+            SCOPED_TRACE(simulator->problem->domain);
+            PpoOptions options;
+            options.environments = 16;
+            options.rollout = 40;
+            options.minibatch = 300;
+            options.threads = threads;
+            PpoTrainer trainer(*simulator, options);
+            trainer.update();  // warms up, too
+            const std::int64_t before = allocations;
+            std::int64_t episodes = 0;
+            for (int i = 0; i < 5; ++i) {
+                trainer.update();
+                episodes += trainer.progress().episodes;
+            }
+            EXPECT_EQ(allocations, before);
+            EXPECT_GT(episodes, 0);
+        }
+}
+
+TEST(Allocations, NoneInEpisodesOfPrograms) {
+    for (const rddl_simulator* simulator : simulators()) {
+        SCOPED_TRACE(simulator->problem->domain);
+        const ProgramScope scope = program_scope(*simulator, Lifting::Auto, true, 3);
+        const GenomeShape shape{scope.input_count(),  4, 50,
+                                scope.output_count(), 0, default_functions()};
+        Random random(7, 0);
+        std::vector<Program> programs;
+        for (int p = 0; p < 4; ++p) programs.emplace_back(random_genome(shape, random));
+        std::vector<const Program*> pointers;
+        for (const Program& program : programs) pointers.push_back(&program);
+        Evaluator evaluator(*simulator, scope, 4, 3);
+        const std::vector<std::uint64_t> seeds = {1, 2, 3};
+        std::vector<double> returns(12), lengths(12);
+        evaluator.evaluate(pointers, seeds, returns.data(), lengths.data());
+        const std::int64_t before = allocations;
+        for (int i = 0; i < 3; ++i)
+            evaluator.evaluate(pointers, seeds, returns.data(), lengths.data());
+        EXPECT_EQ(allocations, before);
+        EXPECT_GT(lengths[0], 0);
+    }
+}
+
+}  // namespace
+}  // namespace rddlc::solvers
