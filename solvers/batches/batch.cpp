@@ -6,6 +6,10 @@
 
 namespace rddlc::solvers {
 
+void require_done(const rddl_simulator& simulator, rddl_error error) {
+    if (error != RDDL_OK) throw Failure(simulator.last_error(&simulator));
+}
+
 // Two states, as a step needs them, and what is known about each episode.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator) {
     constexpr std::int64_t bytes_of_episode = 80;  // with the stream of its random numbers

@@ -19,6 +19,9 @@ inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_opti
     return batch;
 }
 
+// Fails with the simulator's own sentence where it has refused a call: nothing has been done then.
+void require_done(const rddl_simulator& simulator, rddl_error error);
+
 // Where users say 0 for no horizon, and problems do.
 inline std::int64_t horizon_option(std::int64_t horizon) {
     return horizon == 0 ? RDDL_NO_HORIZON : horizon;

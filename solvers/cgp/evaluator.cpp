@@ -130,8 +130,8 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
         }
         if (!any) return;
         actor_.act(batch_.get(), programs_, running_, observations_.data(), step, actions_.data());
-        simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(), observations_.data(),
-                               &out);
+        require_done(simulator_, simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(),
+                                                        observations_.data(), &out));
         for (std::int64_t i = 0; i < environments; ++i) {
             const auto at = static_cast<std::size_t>(i);
             if (ended_[at]) continue;

@@ -332,7 +332,8 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
             batch.get(), actions.data(), [](std::size_t) { return true; },
             [](std::size_t i) { return static_cast<std::int64_t>(i); },
             [&](std::size_t) { return t; });
-        simulator.step(batch.get(), actions.data(), nullptr);
+        rddl_transition unread{};
+        require_done(simulator, simulator.step(batch.get(), actions.data(), &unread));
     }
     for (const int i : all) {
         const auto at = static_cast<std::size_t>(i);
@@ -340,7 +341,8 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
         const double deviation = std::sqrt(std::max(squares[at] / count - mean * mean, 0.0));
         // What hardly moves about a mean that is near 0 stays as it is.
         scope.inputs[at].shift = std::abs(mean) < 0.3 * deviation ? 0 : rounded(mean);
-        scope.inputs[at].scale = deviation > 1e-9 ? rounded(1 / deviation) : 1;
+        const bool is_spread = deviation > 1e-9 && std::isfinite(deviation);
+        scope.inputs[at].scale = is_spread ? rounded(1 / deviation) : 1;
     }
 }
 

@@ -117,7 +117,7 @@ class EpisodeBatch {
         rddl_transition out{};
         out.rewards = rewards_.data();
         out.causes = causes_.data();
-        simulator_.step(batch_.get(), actions_.data(), &out);
+        require_done(simulator_, simulator_.step(batch_.get(), actions_.data(), &out));
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (!episodes_[i].finished) record(i);
     }

@@ -158,7 +158,8 @@ void Collector::step(Experience& experience, std::int64_t t) {
     out.causes = causes_.data();
     out.final_observation_values = final_observations_.data();
     const auto begin = std::chrono::steady_clock::now();
-    simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(), observations_.data(), &out);
+    require_done(simulator_, simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(),
+                                                    observations_.data(), &out));
     simulator_seconds_ +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 

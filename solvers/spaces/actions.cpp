@@ -207,7 +207,8 @@ bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& spac
         simulator.violated_preconditions(batch.get(), actions.data(), violated.data());
         if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
             return true;
-        simulator.step(batch.get(), actions.data(), nullptr);
+        rddl_transition unread{};
+        require_done(simulator, simulator.step(batch.get(), actions.data(), &unread));
     }
     return false;
 }
@@ -276,8 +277,10 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
                   float* values) {
     std::copy(space.defaults.begin(), space.defaults.end(), values);
     const auto set_real = [&](std::size_t r) {
-        values[space.reals[r].column] =
-            static_cast<float>(real_value(space.reals[r], static_cast<double>(numbers[r])));
+        constexpr double most = std::numeric_limits<float>::max();
+        const double value = real_value(space.reals[r], static_cast<double>(numbers[r]));
+        if (!std::isnan(value))  // else the default: simulators refuse actions that are none
+            values[space.reals[r].column] = static_cast<float>(std::clamp(value, -most, most));
     };
     if (space.picks > 0) {
         for (int p = 0; p < space.picks && indices[p] > 0; ++p) {
