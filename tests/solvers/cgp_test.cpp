@@ -88,6 +88,15 @@ TEST(Cgp, SimplifiedFormulasHaveTheSameValues) {
     EXPECT_GT(smaller, 300);
 }
 
+// The levels of all first states are the same: only steps show how far they spread.
+TEST(Cgp, ScalesInputsByTheStatesOfRandomSteps) {
+    const ProgramScope scope =
+        program_scope(*rddl_simulator_reservoir_reservoir_1(), Lifting::Auto, false, 0);
+    int scaled = 0;
+    for (const ProgramInput& input : scope.inputs) scaled += !input.is_known && input.scale != 1;
+    EXPECT_GT(scaled, 0);
+}
+
 // What rddl export writes, by the C++ compiler.
 TEST(Cgp, CompiledFormulasHaveTheSameValues) {
     const ProgramScope scope =

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace rddlc::solvers {
@@ -283,6 +284,26 @@ TEST(Choosing, DrawsAsItSays) {
 }
 
 // What is mended is legal wherever doing nothing is, and what is legal stays as it is.
+// Simulators refuse a step of which one action is no number.
+TEST(Actions, AreTheDefaultWhereAPolicyHasNoNumber) {
+    const float infinite = std::numeric_limits<float>::infinity();
+    for (const rddl_simulator* const simulator : simulators()) {
+        const ActionSpace space = action_space(*simulator);
+        const std::vector<std::int32_t> indices(static_cast<std::size_t>(space.index_count()));
+        std::vector<float> values(static_cast<std::size_t>(space.column_count));
+        for (const float number : {std::nanf(""), infinite, -infinite}) {
+            const std::vector<float> numbers(space.reals.size(), number);
+            write_action(space, numbers.data(), indices.data(), values.data());
+            for (const float value : values) EXPECT_TRUE(std::isfinite(value)) << number;
+            if (std::isnan(number))
+                for (const RealHead& head : space.reals) {
+                    const auto column = static_cast<std::size_t>(head.column);
+                    EXPECT_EQ(values[column], space.defaults[column]);
+                }
+        }
+    }
+}
+
 TEST(Mending, MakesActionsLegal) {
     const rddl_simulator& simulator = *rddl_simulator_reservoir_reservoir_1();
     const ActionSpace space = action_space(simulator);
