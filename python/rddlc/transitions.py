@@ -58,7 +58,12 @@ class Transitions:
         """
         if problem.model.partially_observed:
             raise Error("the problem is partially observed: planners would see what is hidden")
-        self._options = {"levels": levels, "samples": samples, "horizon": horizon, "seed": seed}
+        self._options: dict[str, Any] = {
+            "levels": levels,
+            "samples": samples,
+            "horizon": horizon,
+            "seed": seed,
+        }
         self.problem = problem
         self.horizon = problem.model.horizon if horizon is None else horizon
         self._values = _action_values(problem, levels)
