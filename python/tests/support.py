@@ -90,9 +90,13 @@ def example(name: str, engine: str = "interpreter", **options: Any) -> rddlc.RDD
 
 def problem_of(name: str) -> rddlc.Problem:
     """One of TEXTS."""
+    return problem_of_text(TEXTS[name], name)
+
+
+def problem_of_text(text: str, name: str = "problem") -> rddlc.Problem:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / f"{name}.rddl"
-        file.write_text(TEXTS[name])
+        file.write_text(text)
         return rddlc.Problem(file, engine="interpreter")
 
 

@@ -6,14 +6,20 @@
 from __future__ import annotations
 
 import unittest
+from importlib.util import find_spec
 
 import numpy as np
-from stable_baselines3 import A2C, PPO
-from stable_baselines3.common.env_checker import check_env
-from stable_baselines3.common.evaluation import evaluate_policy
 from support import example, problem_of
 
 import rddlc
+
+if find_spec("stable_baselines3") is None:
+    raise unittest.SkipTest("Stable-Baselines3 is not installed")
+
+from stable_baselines3 import A2C, PPO
+from stable_baselines3.common.env_checker import check_env
+from stable_baselines3.common.evaluation import evaluate_policy
+
 from rddlc.sb3 import VecEnv
 
 

@@ -1,0 +1,230 @@
+"""Steps from any state, for planners that ask what an action would do. Needs no scikit-decide."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native, causes
+from .choices import ActionPlan, plan_of
+from .environment import NO_HORIZON, State
+from .errors import EpisodeOver, Error
+from .problems import Problem
+from .records import columns_of, grounded_view
+
+MOST_ACTIONS = 10_000
+MOST_REMEMBERED = 100_000
+"""States, and pairs of a state and an action."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Where an action may lead. `reward` is the mean of all ways there."""
+
+    state: State
+    probability: float
+    reward: float
+
+
+class Transitions:
+    """A problem with finitely many actions, which are numbers from 0 on, stepped from any state.
+
+    A state is over if its `causes` are not 0. It knows the steps made, so the horizon ends episodes,
+    and the same fluents at another step are another state.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        *,
+        levels: int = 3,
+        samples: int = 0,
+        horizon: int | None = None,
+        seed: int = 0,
+    ) -> None:
+        """levels: values of each number of an action, evenly between its bounds.
+        samples: draws from which next states of a stochastic problem are estimated; 0: they are not.
+        horizon: steps; None: the instance's; 0: none.
+
+        Raises Error for a partially observed problem, and where actions are too many or have no
+        bounds.
+        """
+        if problem.model.partially_observed:
+            raise Error("the problem is partially observed: planners would see what is hidden")
+        self._options: dict[str, Any] = {
+            "levels": levels,
+            "samples": samples,
+            "horizon": horizon,
+            "seed": seed,
+        }
+        self.problem = problem
+        self.horizon = problem.model.horizon if horizon is None else horizon
+        self._values = _action_values(problem, levels)
+        self._records = _action_records(problem, self._values)
+        self._single = self._new_batch(1)
+        self._drawn = 0
+        self.outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
+        self.applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
+
+    def _new_batch(self, environments: int) -> _native.Batch:
+        return _native.Batch(
+            self.problem.simulator,
+            environments=environments,
+            horizon=self.horizon or NO_HORIZON,
+            records=False,
+            values=False,
+        )
+
+    @property
+    def action_count(self) -> int:
+        return len(self._values)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether `outcomes` are the true ones, which those of stochastic problems are not."""
+        return not self.problem.model.stochastic
+
+    def action(self, number: int) -> dict[str, Any]:
+        """The action as environments with actions="dict" take it."""
+        columns = columns_of(self.problem.model.actions)
+        return {
+            column.name: value if column.fluent.scalar == "real" else round(value)
+            for column, value in zip(columns, self._values[number].tolist())
+        }
+
+    def start(self) -> State:
+        """Of the first episode of `seed`."""
+        self._single.set_seed(self._options["seed"])
+        self._single.reset()
+        return self._state_of(self._single, 0, self._single.causes_of(0))
+
+    def sample(self, state: State, action: int) -> Outcome:
+        """One draw of what the action leads to."""
+        _refuse_end(state)
+        self._drawn += 1
+        batch = self._single
+        batch.set_seed(self._options["seed"] + self._drawn)
+        self._step(batch, state, self._records[action])
+        return Outcome(self._state_of(batch, 0, int(batch.causes[0])), 1.0, float(batch.rewards[0]))
+
+    def _new_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
+        """All that the action may lead to, the likeliest first; of a stochastic problem what `samples`
+        draws have led to, the same ones each time. Raises Error if no draws are allowed."""
+        _refuse_end(state)
+        if self.is_exact:
+            return (self.sample(state, action),)
+        if not self._options["samples"]:
+            raise Error(
+                "the problem draws at random, and the exact distribution of its next states is not "
+                "known: say samples=1000 for an estimate from so many draws, or take a planner that "
+                "draws itself"
+            )
+        batch = self._many
+        batch.set_seed(self._options["seed"])
+        self._step(batch, state, self._records[action])
+        rewards: defaultdict[State, list[float]] = defaultdict(list)
+        for place, (cause, reward) in enumerate(zip(batch.causes.tolist(), batch.rewards.tolist())):
+            rewards[self._state_of(batch, place, cause)].append(reward)
+        found = [
+            Outcome(to, len(earned) / len(batch.rewards), sum(earned) / len(earned))
+            for to, earned in rewards.items()
+        ]
+        return tuple(sorted(found, key=lambda each: -each.probability))
+
+    def _new_applicable(self, state: State) -> tuple[int, ...]:
+        """The actions that satisfy the preconditions; none after the end."""
+        if state.causes:
+            return ()
+        if not self.problem.model.preconditions:
+            return tuple(range(self.action_count))
+        batch = self._all_actions
+        self._enter(batch, state)
+        batch.actions[:] = self._records
+        violated = batch.violated_preconditions()
+        return tuple(action for action, which in enumerate(violated) if which < 0)
+
+    @property
+    def _many(self) -> _native.Batch:
+        return self._kept("samples", self._options["samples"])
+
+    @property
+    def _all_actions(self) -> _native.Batch:
+        return self._kept("actions", self.action_count)
+
+    def _kept(self, name: str, environments: int) -> _native.Batch:
+        batches: dict[str, _native.Batch] = self.__dict__.setdefault("_batches", {})
+        if name not in batches:
+            batches[name] = self._new_batch(environments)
+            batches[name].set_seed(self._options["seed"])
+            batches[name].reset()
+        return batches[name]
+
+    def _step(self, batch: _native.Batch, state: State, action: NDArray[np.uint8]) -> None:
+        self._enter(batch, state)
+        batch.actions[:] = action
+        batch.step()
+
+    def _enter(self, batch: _native.Batch, state: State) -> None:
+        record = np.frombuffer(state.record, np.uint8)
+        for place in range(len(batch.rewards)):
+            batch.write_state(place, record, state.steps)
+
+    def _state_of(self, batch: _native.Batch, place: int, cause: int) -> State:
+        record = np.zeros(self.problem.model.state_size, np.uint8)
+        batch.read_state(place, record)
+        return State(record.tobytes(), batch.progress(place)[0], cause)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self.problem, self._options)
+
+
+def _again(problem: Problem, options: dict[str, Any]) -> Transitions:
+    return Transitions(problem, **options)
+
+
+def _refuse_end(state: State) -> None:
+    if state.causes:
+        raise EpisodeOver(f"nothing follows this state: the episode is over ({causes.text_of(state.causes)})")
+
+
+def _action_values(problem: Problem, levels: int) -> NDArray[np.float64]:
+    """(actions, columns), each of which is another."""
+    plan = plan_of(problem)
+    choices: list[Sequence[float]] = [range(count) for count in plan.category_counts]
+    choices += _levels_of(plan, levels)
+    count = int(np.prod([len(each) for each in choices], dtype=float))
+    if count > MOST_ACTIONS:
+        raise Error(f"there are {count} actions, and planners take no more than {MOST_ACTIONS}")
+    rows = np.array(list(product(*choices)), np.float64)
+    categories, numbers = np.split(rows, [len(plan.category_counts)], axis=1)
+    values = np.tile(plan.defaults, (count, 1))
+    plan.write(categories.astype(np.int64), numbers, values)
+    _, first = np.unique(values, axis=0, return_index=True)
+    return values[np.sort(first)]
+
+
+def _levels_of(plan: ActionPlan, levels: int) -> list[Sequence[float]]:
+    if plan.numbers and levels < 2:
+        raise Error(f"levels is {levels}, but an action has numbers: 2 or more are needed")
+    for column in plan.numbers:
+        if not np.isfinite(column.bounds).all():
+            raise Error(f"action '{column.name}' has no two bounds, so there are no levels between them")
+    return [np.linspace(*column.bounds, levels).tolist() for column in plan.numbers]
+
+
+def _action_records(problem: Problem, values: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """(actions, bytes)"""
+    fluents = problem.model.actions
+    records = np.zeros((len(values), problem.model.action_size), np.uint8)
+    view = grounded_view(records, fluents)
+    is_real = [column.fluent.scalar == "real" for column in columns_of(fluents)]
+    for place, row in enumerate(values.tolist()):
+        view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
+    return records

@@ -1,0 +1,143 @@
+"""What planners ask about: steps from any state, applicable actions, next states."""
+
+from __future__ import annotations
+
+import pickle
+import unittest
+from typing import Any
+
+import numpy as np
+from support import example, problem_of, problem_of_text
+
+import rddlc
+from rddlc.transitions import Transitions
+
+COINS = """
+domain coins {
+    types { coin : object; };
+    pvariables {
+        heads(coin) : { state-fluent, bool, default = false };
+        toss(coin) : { action-fluent, bool, default = false };
+    };
+    cpfs { heads'(?c) = if (toss(?c)) then Bernoulli(0.25) else heads(?c); };
+    reward = sum_{?c : coin} heads(?c);
+}
+non-fluents two { domain = coins; objects { coin : {a, b}; }; }
+instance coins_1 { domain = coins; non-fluents = two; max-nondef-actions = 2; horizon = 3; discount = 1.0; }
+"""
+
+
+def number_of(transitions: Transitions, **changes: Any) -> int:
+    """The action that sets these values, and leaves the others at 0."""
+    for number in range(transitions.action_count):
+        action = transitions.action(number)
+        if {name: value for name, value in action.items() if value} == changes:
+            return number
+    raise AssertionError(f"no action sets {changes}")
+
+
+class TransitionsTest(unittest.TestCase):
+    def test_steps_are_those_of_an_environment(self) -> None:
+        env = example("mountain_car")
+        transitions = Transitions(env.problem, levels=5)
+        self.assertEqual(transitions.action_count, 5)
+        env.reset(seed=0)
+        state = transitions.start()
+        self.assertEqual(state, env.get_state())
+        over = False
+        while not over:
+            number = 4 if env.state["velocity"] > 0 else 0
+            (outcome,) = transitions.outcomes(state, number)
+            _, reward, terminated, truncated, _ = env.step(transitions.action(number))
+            self.assertEqual(outcome.reward, reward)
+            self.assertEqual(outcome.state, env.get_state())
+            state, over = outcome.state, terminated or truncated
+        self.assertEqual(transitions.applicable(state), ())
+        with self.assertRaisesRegex(rddlc.EpisodeOver, "terminated"):
+            transitions.sample(state, 0)
+
+    def test_earlier_states_can_be_asked_about_again(self) -> None:
+        transitions = Transitions(example("mountain_car").problem)
+        state = transitions.start()
+        first = transitions.sample(state, 2)
+        for _ in range(10):
+            transitions.sample(transitions.sample(first.state, 0).state, 1)
+        self.assertEqual(transitions.sample(state, 2), first)
+
+    def test_actions_that_break_preconditions_are_not_applicable(self) -> None:
+        transitions = Transitions(problem_of("refuses_some"))  # d2 is locked
+        allowed = [transitions.action(each) for each in transitions.applicable(transitions.start())]
+        self.assertEqual(allowed, [{"open___d1": 1, "open___d2": 0}, {"open___d1": 0, "open___d2": 0}])
+
+    def test_applicable_actions_depend_on_the_state(self) -> None:
+        env = rddlc.make(problem_of_text(GATE))
+        transitions = Transitions(env.problem)
+        start = transitions.start()
+        go = number_of(transitions, go=1)
+        self.assertIn(go, transitions.applicable(start))
+        gone = transitions.sample(start, go).state
+        self.assertNotIn(go, transitions.applicable(gone))
+        self.assertIn(number_of(transitions), transitions.applicable(gone))
+
+    def test_a_changed_action_is_counted_once(self) -> None:
+        """Two picks of three changes are nine pairs, but three sets and the empty one."""
+        transitions = Transitions(problem_of_text(COINS))
+        self.assertEqual(transitions.action_count, 4)
+
+    def test_draws_have_the_problems_law(self) -> None:
+        transitions = Transitions(problem_of_text(COINS), samples=20_000)
+        start, both = transitions.start(), number_of(transitions, toss___a=1, toss___b=1)
+        outcomes = transitions.outcomes(start, both)
+        self.assertAlmostEqual(sum(each.probability for each in outcomes), 1)
+        expected = [9 / 16, 3 / 16, 3 / 16, 1 / 16]
+        np.testing.assert_allclose([each.probability for each in outcomes], expected, atol=0.015)
+        drawn = [transitions.sample(start, both).state for _ in range(2000)]
+        share = np.mean([each == outcomes[0].state for each in drawn])
+        self.assertAlmostEqual(share, 9 / 16, delta=0.05)
+
+    def test_no_distribution_is_made_up(self) -> None:
+        transitions = Transitions(problem_of_text(COINS))
+        self.assertFalse(transitions.is_exact)
+        with self.assertRaisesRegex(rddlc.Error, "exact distribution.*samples=1000"):
+            transitions.outcomes(transitions.start(), 0)
+
+    def test_what_cannot_be_planned_is_refused(self) -> None:
+        with self.assertRaisesRegex(rddlc.Error, "'push' has no two bounds"):
+            Transitions(problem_of("counters"))
+        with self.assertRaisesRegex(rddlc.Error, "2 or more"):
+            Transitions(example("mountain_car").problem, levels=1)
+        with self.assertRaisesRegex(rddlc.Error, "no more than 10000"):
+            Transitions(example("mountain_car").problem, levels=10_001)
+
+    def test_the_horizon_ends_episodes(self) -> None:
+        transitions = Transitions(example("mountain_car").problem, horizon=2)
+        state = transitions.start()
+        for steps in (1, 2):
+            state = transitions.sample(state, 0).state
+            self.assertEqual(state.steps, steps)
+        self.assertEqual(rddlc.causes.text_of(state.causes), "horizon")
+
+    def test_it_can_be_pickled(self) -> None:
+        transitions = Transitions(example("mountain_car").problem, levels=5)
+        again = pickle.loads(pickle.dumps(transitions))
+        self.assertEqual(again.action_count, 5)
+        self.assertEqual(again.sample(again.start(), 0), transitions.sample(transitions.start(), 0))
+
+
+GATE = """
+domain gate {
+    pvariables {
+        gone : { state-fluent, bool, default = false };
+        go : { action-fluent, bool, default = false };
+    };
+    cpfs { gone' = gone | go; };
+    reward = gone;
+    action-preconditions { go => ~gone; };
+}
+non-fluents none { domain = gate; }
+instance gate_1 { domain = gate; non-fluents = none; max-nondef-actions = 1; horizon = 5; discount = 1.0; }
+"""
+
+
+if __name__ == "__main__":
+    unittest.main()
