@@ -59,7 +59,7 @@ def main():
             rddl("run", "--policy", str(folder / solver), "--trace", str(folder / "trace.jsonl"), "--quiet")
             for line in (folder / "trace.jsonl").read_text().splitlines()[1:]:
                 step = json.loads(line)
-                state, action = step["state"], step["action"]["throttle"]
+                state, action = step["state"], step["action"].get("throttle", 0.0)  # traces leave out defaults
                 if solver == "ppo":
                     found = network.act(state, step["step"])["throttle"]
                     rows.append(network.features(state, step["step"]))
