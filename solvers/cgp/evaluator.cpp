@@ -106,13 +106,15 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
     for (std::size_t i = 0; i < seeds_.size(); ++i)
         seeds_[i] = seeds[i % static_cast<std::size_t>(episodes_)];
     const auto all = static_cast<std::int64_t>(seeds_.size());
-    if (simulator_.problem->stochastic) simulator_.set_seeds(batch_.get(), 0, all, seeds_.data());
-    simulator_.reset(batch_.get(), nullptr, nullptr);
-    simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data());
+    if (simulator_.problem->stochastic)
+        require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, all, seeds_.data()));
+    require_done(simulator_, simulator_.reset(batch_.get(), nullptr, nullptr));
+    require_done(simulator_,
+                 simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data()));
     std::fill_n(returns, environments, 0.0);
     std::fill_n(lengths, environments, 0.0);
     std::fill(ended_.begin(), ended_.end(), 0);
-    simulator_.get_causes(batch_.get(), 0, all, causes_.data());
+    require_done(simulator_, simulator_.get_causes(batch_.get(), 0, all, causes_.data()));
     for (std::int64_t i = 0; i < all; ++i)
         ended_[static_cast<std::size_t>(i)] =
             i >= environments || causes_[static_cast<std::size_t>(i)] != RDDL_RUNNING;

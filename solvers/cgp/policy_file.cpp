@@ -1,5 +1,6 @@
 #include "solvers/cgp/policy_file.hpp"
 
+#include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "support/failure.hpp"
@@ -74,7 +75,8 @@ struct FoundActor {
           actions(programs.size() * static_cast<std::size_t>(found->scope.actions.column_count)) {}
 
     void act(Decision& decision) {
-        simulator.get_observation_values(decision.batch, RDDL_FLOAT, observations.data());
+        require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
+                                                                 observations.data()));
         std::int64_t steps = 0;  // of all that run: their episodes have begun together
         for (std::size_t i = 0; i < running.size(); ++i) {
             running[i] = decision.running[i];

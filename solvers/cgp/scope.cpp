@@ -312,7 +312,8 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
                                    ? std::min<std::int64_t>(simulator.problem->horizon, 100)
                                    : 100;
     for (std::int64_t t = 0; t < steps; ++t) {
-        simulator.get_observation_values(batch.get(), RDDL_FLOAT, values.data());
+        require_done(simulator,
+                     simulator.get_observation_values(batch.get(), RDDL_FLOAT, values.data()));
         for (std::int64_t e = 0; e < environments; ++e) {
             write_features(scope.observations,
                            values.data() + static_cast<std::size_t>(e) * columns, t, true,

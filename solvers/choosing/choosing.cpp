@@ -1,5 +1,6 @@
 #include "solvers/choosing/choosing.hpp"
 
+#include "solvers/batches/batch.hpp"
 #include "solvers/choosing/probabilities.hpp"
 #include "solvers/spaces/mending.hpp"
 
@@ -173,7 +174,7 @@ void Chooser::choose_categories(rddl_batch* batch, const float* outputs, int out
     const auto logits = static_cast<std::size_t>(space_.logit_count);
     const std::size_t choices = space_.logit_of_mask.size();
     if (space_.masked) {
-        simulator_.action_mask(batch, nullptr, choice_masks_.data());
+        require_done(simulator_, simulator_.action_mask(batch, nullptr, choice_masks_.data()));
         for (std::size_t i = 0; i < keys_.size(); ++i) {
             std::uint8_t* const mask = chosen.masks + i * logits;
             std::fill_n(mask, logits, std::uint8_t{1});
@@ -215,7 +216,8 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
                              actions + i * static_cast<std::size_t>(space_.column_count));
             write_records(actions);
         }
-        simulator_.action_mask(batch, p > 0 ? actions_.data() : nullptr, choice_masks_.data());
+        require_done(simulator_, simulator_.action_mask(batch, p > 0 ? actions_.data() : nullptr,
+                                                        choice_masks_.data()));
         picking = false;
         for (std::size_t i = 0; i < keys_.size(); ++i) {
             std::int32_t* const index = chosen.indices + i * picks;

@@ -84,7 +84,7 @@ class EpisodeBatch {
             set_default_action(i);
             numbers_[i] = number_of(i);
         }
-        simulator_.get_causes(batch_.get(), 0, count, causes_.data());
+        require_done(simulator_, simulator_.get_causes(batch_.get(), 0, count, causes_.data()));
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (causes_[i] != RDDL_RUNNING) end_episode(i);
     }
@@ -104,11 +104,13 @@ class EpisodeBatch {
                           actions_.data(), violated_, false};
         actor_(decision);
         // Where a policy block faults, the episode is over, and the action does not matter.
-        simulator_.get_causes(batch_.get(), 0, static_cast<std::int64_t>(causes_.size()),
-                              causes_.data());
+        require_done(simulator_, simulator_.get_causes(batch_.get(), 0,
+                                                       static_cast<std::int64_t>(causes_.size()),
+                                                       causes_.data()));
         if (problem_.precondition_count == 0) return;
         if (!decision.knows_violated && options_.preconditions != Preconditions::Ignore)
-            simulator_.violated_preconditions(batch_.get(), actions_.data(), violated_.data());
+            require_done(simulator_, simulator_.violated_preconditions(
+                                         batch_.get(), actions_.data(), violated_.data()));
         for (std::size_t i = 0; i < episodes_.size(); ++i)
             if (is_illegal(i)) treat_illegal_action(i);
     }
@@ -183,7 +185,8 @@ class EpisodeBatch {
         if (first && first->episode <= episode) return;
         Violation violation;
         violation.state.resize(static_cast<std::size_t>(problem_.state_size));
-        simulator_.get_state(batch_.get(), static_cast<std::int64_t>(i), 1, violation.state.data());
+        require_done(simulator_, simulator_.get_state(batch_.get(), static_cast<std::int64_t>(i), 1,
+                                                      violation.state.data()));
         violation.action.assign(action(i), action(i) + action_size_);
         violation.context.key =
             rddl::stream_key(options_.seed, static_cast<std::uint64_t>(episode), 0);

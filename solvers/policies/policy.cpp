@@ -1,5 +1,6 @@
 #include "solvers/policies/policy.hpp"
 
+#include "solvers/batches/batch.hpp"
 #include "solvers/policies/random_actions.hpp"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ Policy plan_policy(const rddl_simulator& simulator, std::string name,
 Policy block_policy(const rddl_simulator& simulator) {
     return {"rddl", [&simulator](std::int64_t) -> Actor {
                 return [&simulator](Decision& decision) {
-                    simulator.policy_act(decision.batch, decision.actions);
+                    require_done(simulator, simulator.policy_act(decision.batch, decision.actions));
                 };
             }};
 }

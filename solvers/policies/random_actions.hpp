@@ -1,6 +1,7 @@
 // Random legal actions for all environments of a batch at once.
 #pragma once
 
+#include "solvers/batches/batch.hpp"
 #include "solvers/policies/random_policy.hpp"
 
 #include <rddl/simulator.h>
@@ -38,7 +39,8 @@ class RandomActions {
         // of them at once.
         std::fill(searches_.begin(), searches_.end(), RandomPolicy::Search{});
         for (bool searching = true; searching;) {
-            simulator_->violated_preconditions(batch, actions, violated_.data());
+            require_done(*simulator_,
+                         simulator_->violated_preconditions(batch, actions, violated_.data()));
             searching = false;
             for (std::size_t i = 0; i < violated_.size(); ++i)
                 if (is_running(i) && violated_[i] >= 0)

@@ -66,15 +66,16 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
 void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
     for (std::int64_t e = 0; e < count_; ++e)
         seeds_[static_cast<std::size_t>(e)] = seed_of(seed, origin_ + first_ + e, update);
-    simulator_.set_seeds(batch_.get(), 0, count_, seeds_.data());
+    require_done(simulator_, simulator_.set_seeds(batch_.get(), 0, count_, seeds_.data()));
     std::fill(feature_moments_.begin(), feature_moments_.end(), Moments{});
     std::fill(return_moments_.begin(), return_moments_.end(), Moments{});
     finished_.clear();
     simulator_seconds_ = 0;
     if (update > 0) return;
     // The first episodes begin with these numbers.
-    simulator_.reset(batch_.get(), nullptr, nullptr);
-    simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data());
+    require_done(simulator_, simulator_.reset(batch_.get(), nullptr, nullptr));
+    require_done(simulator_,
+                 simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data()));
     for (std::int64_t e = 0; e < count_; ++e) {
         write_features(model_.observations,
                        observations_.data() + e * model_.observations.column_count(), 0, true,
@@ -248,7 +249,7 @@ void Collector::archive(Archive& archive) {
     std::vector<std::byte> states(static_cast<std::size_t>(count_) *
                                   static_cast<std::size_t>(simulator_.problem->state_size));
     if constexpr (!Archive::is_loading)
-        simulator_.get_state(batch_.get(), 0, count_, states.data());
+        require_done(simulator_, simulator_.get_state(batch_.get(), 0, count_, states.data()));
     archive(states);
     if (states.size() !=
         static_cast<std::size_t>(count_) * static_cast<std::size_t>(simulator_.problem->state_size))
@@ -260,7 +261,8 @@ void Collector::archive(Archive& archive) {
     archive(steps_);
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);
     if constexpr (Archive::is_loading)
-        simulator_.set_state(batch_.get(), 0, count_, states.data(), steps_.data());
+        require_done(simulator_,
+                     simulator_.set_state(batch_.get(), 0, count_, states.data(), steps_.data()));
 }
 
 template void Collector::archive(SavingArchive&);

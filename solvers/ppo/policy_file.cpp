@@ -1,5 +1,6 @@
 #include "solvers/ppo/policy_file.hpp"
 
+#include "solvers/batches/batch.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
 
@@ -209,7 +210,8 @@ struct PpoActor {
     void act(Decision& decision) {
         const std::int64_t count = static_cast<std::int64_t>(decision.running.size());
         const int width = model->features(), output_row = model->policy.padded_outputs();
-        simulator.get_observation_values(decision.batch, RDDL_FLOAT, observations.data());
+        require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
+                                                                 observations.data()));
         for (std::int64_t e = 0; e < count; ++e) {
             const std::int64_t steps = decision.steps[static_cast<std::size_t>(e)];
             write_features(model->observations,

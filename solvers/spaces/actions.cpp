@@ -70,7 +70,8 @@ double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
             static_cast<float>(start + direction * std::ldexp(1.0, exponent));
         records.write(values.data(), action.data());
         std::int32_t violated = -1;
-        simulator.violated_preconditions(batch.get(), action.data(), &violated);
+        require_done(simulator,
+                     simulator.violated_preconditions(batch.get(), action.data(), &violated));
         if (violated < 0) largest = std::ldexp(1.0, exponent);
     }
     return largest > 0 && largest < 0x1p20 ? largest : otherwise;
@@ -204,7 +205,8 @@ bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& spac
             }
             records.write(values.data(), action);
         }
-        simulator.violated_preconditions(batch.get(), actions.data(), violated.data());
+        require_done(simulator, simulator.violated_preconditions(batch.get(), actions.data(),
+                                                                 violated.data()));
         if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
             return true;
         rddl_transition unread{};

@@ -1,5 +1,7 @@
 #include "solvers/spaces/mending.hpp"
 
+#include "solvers/batches/batch.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -94,7 +96,7 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
     const auto environments = static_cast<std::int64_t>(searches.size());
     std::int32_t* const violated = room.violated.data();
     float* const wanted = room.wanted.data();
-    simulator.violated_preconditions(batch, records, violated);
+    require_done(simulator, simulator.violated_preconditions(batch, records, violated));
     const std::int64_t illegal =
         std::count_if(violated, violated + environments, [](std::int32_t v) { return v >= 0; });
     if (illegal == 0) return 0;
@@ -115,7 +117,7 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
             searches[static_cast<std::size_t>(i)].active = true;
             set_first(i, 0);
         }
-    simulator.violated_preconditions(batch, records, violated);
+    require_done(simulator, simulator.violated_preconditions(batch, records, violated));
     for (std::int64_t i = 0; i < environments; ++i) {
         Search& search = searches[static_cast<std::size_t>(i)];
         if (!search.active) continue;
@@ -131,7 +133,7 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
             const Search& search = searches[static_cast<std::size_t>(i)];
             if (search.active) set_first(i, search.asked(columns));
         }
-        simulator.violated_preconditions(batch, records, violated);
+        require_done(simulator, simulator.violated_preconditions(batch, records, violated));
         for (std::int64_t i = 0; i < environments; ++i) {
             Search& search = searches[static_cast<std::size_t>(i)];
             if (search.active) mending.take(search, violated[i] < 0, wanted + i * columns);
