@@ -50,9 +50,14 @@ std::vector<std::string> names_of(const std::vector<Option>& options) {
     return names;
 }
 
-std::vector<std::string> first_words(const Command& program) {
+std::vector<std::string> names_of_commands(const Command& command) {
     std::vector<std::string> names;
-    for (const Command& command : program.commands) names.push_back(command.name);
+    for (const Command& inner : command.commands) names.push_back(inner.name);
+    return names;
+}
+
+std::vector<std::string> first_words(const Command& program) {
+    std::vector<std::string> names = names_of_commands(program);
     names.emplace_back("help");
     return names;
 }
@@ -92,13 +97,10 @@ std::string bash_case(const Command& command, bool is_program, const std::string
 // Of a command of the program. If it has commands of its own, one of them is the next word.
 std::string bash_command(const Command& command, bool is_program, const std::string& margin) {
     if (command.commands.empty()) return bash_case(command, is_program, margin);
-    std::vector<std::string> words;
     std::string text;
-    for (const Command& inner : command.commands) {
-        words.push_back(inner.name);
+    for (const Command& inner : command.commands)
         text += fmt::format("{0}    {1})\n{2}{0}        ;;\n", margin, inner.name,
                             bash_case(inner, false, margin + "        "));
-    }
     return fmt::format(
         "{0}if ((COMP_CWORD == 2)); then\n"
         "{0}    offered='{1} {2}'\n"
@@ -107,7 +109,8 @@ std::string bash_command(const Command& command, bool is_program, const std::str
         "{3}"
         "{0}    esac\n"
         "{0}fi\n",
-        margin, fmt::join(words, " "), fmt::join(names_of(options_of(command, false)), " "), text);
+        margin, fmt::join(names_of_commands(command), " "),
+        fmt::join(names_of(options_of(command, false)), " "), text);
 }
 
 std::string bash_body(const Command& program) {
@@ -183,17 +186,15 @@ std::string zsh_arguments(const Command& command, bool is_program, const std::st
 
 std::string zsh_command(const Command& command, bool is_program, const std::string& margin) {
     if (command.commands.empty()) return zsh_arguments(command, is_program, margin);
-    std::vector<std::string> words;
     std::string text;
-    for (const Command& inner : command.commands) {
-        words.push_back(inner.name);
+    for (const Command& inner : command.commands)
         text += fmt::format("{0}{1})\n{2}{0}    ;;\n", margin, inner.name,
                             zsh_arguments(inner, false, margin + "    "));
-    }
     return fmt::format(
         "{0}_arguments -C \\\n{1}{0}    '1:command:({2})' '*::argument:->argument'\n"
         "{0}case $words[1] in\n{3}{0}esac\n",
-        margin, zsh_options(command, false, margin), fmt::join(words, " "), text);
+        margin, zsh_options(command, false, margin), fmt::join(names_of_commands(command), " "),
+        text);
 }
 
 std::string zsh_body(const Command& program) {
@@ -264,10 +265,8 @@ std::string fish_options(const std::string& start, const std::string& condition,
 std::string fish_command(const std::string& start, const Command& command) {
     const std::string named = "__fish_seen_subcommand_from " + command.name;
     if (command.commands.empty()) return fish_options(start, named, command);
-    std::vector<std::string> words;
-    for (const Command& inner : command.commands) words.push_back(inner.name);
-    const std::string unnamed =
-        fmt::format("{}; and not __fish_seen_subcommand_from {}", named, fmt::join(words, " "));
+    const std::string unnamed = fmt::format("{}; and not __fish_seen_subcommand_from {}", named,
+                                            fmt::join(names_of_commands(command), " "));
     std::string text = fish_options(start, unnamed, command);
     for (const Command& inner : command.commands) {
         text += fmt::format("{} -n '{}' -f -a {} -d {}\n", start, unnamed, inner.name,

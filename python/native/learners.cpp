@@ -7,7 +7,6 @@
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/evaluation/summary.hpp"
-#include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
 
@@ -159,13 +158,8 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
 
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
                       std::uint64_t seed) {
-    const rddl_simulator& simulator = *problem.simulator;
-    if (text.starts_with("rddl-cgp"))
-        return {problem.simulator,
-                solvers::program_policy(simulator, solvers::read_program(simulator, text), "cgp")};
     return {problem.simulator,
-            solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random, seed,
-                                "ppo")};
+            cli::policy_of_text(*problem.simulator, text, random, seed, "learned")};
 }
 
 std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {

@@ -39,11 +39,6 @@ std::string text_of(const Compilation& compilation) {
 LoadedProblem load(const std::string& domain, const std::string& instance,
                    const std::string& repository, bool interpreted,
                    const std::vector<std::string>& externs, bool extended) {
-    // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
-    const auto rethrow = [] {
-        if (PyErr_CheckSignals() != 0) throw nb::python_error();
-        throw;
-    };
     try {
         const nb::gil_scoped_release released;
         cli::ProblemFiles files = files_of(domain, instance, repository);
@@ -56,7 +51,8 @@ LoadedProblem load(const std::string& domain, const std::string& instance,
         if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
         return cli::load_compilation(std::move(compilation), files, options);
     } catch (...) {
-        rethrow();
+        // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
+        if (PyErr_CheckSignals() != 0) throw nb::python_error();
         throw;
     }
 }

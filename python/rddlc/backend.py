@@ -18,9 +18,8 @@ from pyRDDLGym.core.env import RDDLEnv
 from pyRDDLGym.core.simulator import RDDLSimulator as Interpreted
 
 from . import _native, causes
-from .environment import NO_HORIZON
 from .model import Fluent
-from .problems import Problem
+from .problems import NO_HORIZON, Problem
 from .records import lifted_views
 
 

@@ -17,13 +17,12 @@ from .errors import ActionError, EpisodeOver, Error
 from .learning import ChoiceActions, FlatReader
 from .masks import ActionMasks
 from .model import Model
-from .problems import Problem
+from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
-NO_HORIZON = -1
 
 
 @dataclass(frozen=True)
@@ -78,7 +77,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self.render_mode = _one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self._batch = _native.Batch(
             problem.simulator,
-            horizon=0 if horizon is None else horizon or NO_HORIZON,
+            horizon=batch_horizon(horizon),
             records=observations == "dict",
             values=observations != "dict",
         )

@@ -15,6 +15,12 @@ from . import _native
 from .model import Model, model_of
 
 ENGINES = ("compiled", "interpreter")
+NO_HORIZON = -1  # of a batch; its 0 is the instance's
+
+
+def batch_horizon(horizon: int | None) -> int:
+    """What a batch takes where people say None for the instance's horizon, and 0 for none."""
+    return 0 if horizon is None else horizon or NO_HORIZON
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from . import _native, causes
 from .choices import ActionPlan, plan_of
-from .environment import NO_HORIZON, State
+from .environment import State
 from .errors import EpisodeOver, Error
-from .problems import Problem
+from .problems import Problem, batch_horizon
 from .records import columns_of, grounded_view
 
 MOST_ACTIONS = 10_000
@@ -77,7 +77,7 @@ class Transitions:
         return _native.Batch(
             self.problem.simulator,
             environments=environments,
-            horizon=self.horizon or NO_HORIZON,
+            horizon=batch_horizon(self.horizon),
             records=False,
             values=False,
         )

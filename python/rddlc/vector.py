@@ -16,10 +16,9 @@ from .learning import ChoiceActions, FlatReader
 from .lifted import LiftedActions, LiftedRows
 from .masks import ActionMasks
 from .model import Model
-from .problems import Problem
+from .problems import Problem, batch_horizon
 
 AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMode.SAME_STEP: 2}
-NO_HORIZON = -1
 CAUSE_TEXTS = np.array(causes.TEXTS, object)
 
 
@@ -53,7 +52,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             environments=num_envs,
             threads=threads,
             autoreset=AUTORESET[mode],
-            horizon=0 if horizon is None else horizon or NO_HORIZON,
+            horizon=batch_horizon(horizon),
             records=observations == "dict",
             values=observations != "dict",
         )

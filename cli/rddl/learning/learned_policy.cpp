@@ -55,17 +55,21 @@ solvers::Policy recorded_plan(const rddl_simulator& simulator, const std::filesy
 
 }  // namespace
 
+solvers::Policy policy_of_text(const rddl_simulator& simulator, const std::string& text,
+                               bool random, std::uint64_t seed, const std::string& name) {
+    if (text.starts_with("rddl-cgp"))
+        return solvers::program_policy(simulator, solvers::read_program(simulator, text), name);
+    return solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random, seed,
+                               name);
+}
+
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
                                bool random, std::uint64_t seed) {
     const std::filesystem::path file = policy_file(path);
     if (file.extension() == ".jsonl") return recorded_plan(simulator, file);
     const std::string text = read_file(file);
     try {
-        if (text.starts_with("rddl-cgp"))
-            return solvers::program_policy(simulator, solvers::read_program(simulator, text),
-                                           path.string());
-        return solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random,
-                                   seed, path.string());
+        return policy_of_text(simulator, text, random, seed, path.string());
     } catch (const Failure& failure) {
         throw Failure(fmt::format("cannot act by '{}': {}", file.string(), failure.what()));
     }

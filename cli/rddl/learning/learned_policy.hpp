@@ -15,6 +15,10 @@ std::filesystem::path policy_file(const std::filesystem::path& path);
 // A policy file of a solver, the folder of a run, whose best policy it is, or a recorded plan: the
 // first episode of a trace (.jsonl).
 bool is_learned_policy(const std::filesystem::path& path);
+// What a solver has written; `name` is the policy's. Throws a Failure. The simulator must outlive
+// it.
+solvers::Policy policy_of_text(const rddl_simulator& simulator, const std::string& text,
+                               bool random, std::uint64_t seed, const std::string& name);
 // Throws a Failure that names the file. The simulator must outlive the policy.
 solvers::Policy learned_policy(const rddl_simulator& simulator, const std::filesystem::path& path,
                                bool random, std::uint64_t seed);
