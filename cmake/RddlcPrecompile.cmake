@@ -1,7 +1,7 @@
 # The headers that most files include are compiled once for all targets: those of the standard library.
 # Headers of our own are not worth it, since files that include them are compiled together (RddlcUnity).
 #
-#   rddlc_precompile(<target> [FROM <other>])           those of rddlc_support, or of another target
+#   rddlc_precompile(<target> FROM <other>)             those of another target: rddlc_fast_headers, rddlc_cold_headers
 #   rddlc_precompile_headers(<target> [<header> ...])   makes them, with more headers: as they are included, in <>
 #
 # Both targets are compiled at the same level of optimisation, or GCC 12 crashes.
@@ -20,12 +20,14 @@ endfunction()
 
 function(rddlc_precompile target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "FROM" "")
-  if(NOT ARG_FROM)
-    set(ARG_FROM rddlc_support)
-  endif()
-  if(target STREQUAL ARG_FROM)
-    rddlc_precompile_headers(${target})
-  elseif(RDDLC_PRECOMPILE)
+  if(RDDLC_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM ${ARG_FROM})
   endif()
 endfunction()
+
+# For what is compiled for speed, and for the rest (rddlc_cold).
+foreach(kind fast cold)
+  add_library(rddlc_${kind}_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/no_code.cpp)
+  target_link_libraries(rddlc_${kind}_headers PRIVATE rddlc_options fmt::fmt $<$<STREQUAL:${kind},cold>:rddlc_cold>)
+  rddlc_precompile_headers(rddlc_${kind}_headers)
+endforeach()

@@ -1,14 +1,14 @@
 # A stage of the compiler: one folder, one static library.
 #
-#   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...])
+#   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...] [FAST])
 #
+# FAST is for stages that large instances keep busy: compiled for speed.
 # Headers are included as "check/check.hpp". Each stage has an include folder of its own that
 # holds nothing but a link to it, so including a stage that is not in USES does not compile.
-include(RddlcPrecompile)
 include(RddlcUnity)
 
 function(rddlc_stage stage)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "FAST" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   set(include ${PROJECT_BINARY_DIR}/stages/${stage})
   file(MAKE_DIRECTORY ${include})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include}/${stage} SYMBOLIC)
@@ -16,6 +16,11 @@ function(rddlc_stage stage)
   add_library(rddlc_${stage} STATIC ${ARG_SOURCES})
   target_include_directories(rddlc_${stage} PUBLIC $<BUILD_INTERFACE:${include}>)
   target_link_libraries(rddlc_${stage} PUBLIC ${ARG_USES} PRIVATE ${ARG_LIBRARIES} rddlc_options)
-  rddlc_precompile(rddlc_${stage})
+  if(ARG_FAST)
+    rddlc_precompile(rddlc_${stage} FROM rddlc_fast_headers)
+  else()
+    target_link_libraries(rddlc_${stage} PRIVATE $<BUILD_INTERFACE:rddlc_cold>)
+    rddlc_precompile(rddlc_${stage} FROM rddlc_cold_headers)
+  endif()
   rddlc_unity(rddlc_${stage})
 endfunction()

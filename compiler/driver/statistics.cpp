@@ -1,5 +1,7 @@
 #include "driver/statistics.hpp"
 
+#include "support/json_text.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -62,7 +64,7 @@ std::string statistics_json(const std::vector<PassRun>& runs) {
              {"operations", before_and_after(run.before.operations, run.after.operations)},
              {"milliseconds", run.time.count() * 1e3}});
     }
-    return array.dump(2) + "\n";
+    return json_document(array);
 }
 
 }  // namespace rddlc

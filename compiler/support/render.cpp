@@ -1,5 +1,6 @@
 #include "support/render.hpp"
 
+#include "support/json_text.hpp"
 #include "support/utf8.hpp"
 
 #include <fmt/format.h>
@@ -237,7 +238,7 @@ std::string render_json(const Diagnostics& diagnostics, const Sources& sources) 
     for (const Diagnostic& diagnostic : diagnostics.all())
         array.push_back(to_json(diagnostic, diagnostics, sources));
     // Paths and excerpts of broken files may not be UTF-8.
-    return array.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return json_document(array);
 }
 
 }  // namespace

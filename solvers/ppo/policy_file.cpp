@@ -3,6 +3,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ std::string quoted(const std::string& name) {
 std::string array(const float* values, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
-        fmt::format_to(std::back_inserter(text), "{}{:.9g}", i > 0 ? "," : "", values[i]);
+        text += fmt::format("{}{:.9g}", i > 0 ? "," : "", values[i]);
     return "[" + text + "]";
 }
 template <class Values, class Text>
@@ -131,7 +132,7 @@ void read_layers(const Json& layers, const Network& network, float* parameters) 
 }
 
 std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text);
     if (json.value("format", "") != "rddl-policy" || json.value("solver", "") != "ppo")
         throw Failure("it is no policy of PPO");
     const int version = json.at("version").get<int>();
@@ -296,6 +297,8 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
         return read(simulator, text);
     } catch (const nlohmann::json::parse_error&) {
         throw Failure("it is not complete, or no JSON");
+    } catch (const RepeatedMember& repeated) {
+        throw Failure(repeated.what());
     } catch (const nlohmann::json::exception&) {
         throw Failure("it is no policy of PPO, or something in it is missing");
     }

@@ -2,9 +2,9 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "engines/interpreted_simulator.hpp"
-#include "formats/json_text.hpp"
 #include "problems/description.hpp"
 #include "problems/front_end.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 

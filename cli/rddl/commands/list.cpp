@@ -1,11 +1,11 @@
 // rddl list: the problems of rddlrepository.
 #include "commands/commands.hpp"
-#include "formats/json_text.hpp"
 #include "formats/table.hpp"
 #include "problems/characteristics.hpp"
 #include "problems/front_end.hpp"
 #include "problems/problem_lookup.hpp"
 #include "rollouts/parallel.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,12 +1,12 @@
 // rddl render: pictures of the steps of a trace.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 

@@ -1,7 +1,6 @@
 // rddl run: whole episodes under a policy, and what came of them.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/number_text.hpp"
 #include "formats/table.hpp"
@@ -10,6 +9,7 @@
 #include "pictures/picture_writer.hpp"
 #include "rollouts/rollouts.hpp"
 #include "solvers/evaluation/summary.hpp"
+#include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 

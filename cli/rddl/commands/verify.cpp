@@ -1,7 +1,7 @@
 // rddl verify: the same steps by all engines, to see whether they agree.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "formats/json_text.hpp"
+#include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 #include "verify/pyrddlgym_outcomes.hpp"

@@ -1,7 +1,7 @@
 #include "formats/records_json.hpp"
 
-#include "formats/json_text.hpp"
 #include "support/diagnostic.hpp"
+#include "support/json_text.hpp"
 
 #include <rddl/describe.hpp>
 
@@ -285,7 +285,7 @@ nlohmann::ordered_json json_number(double value) {
     if (std::isfinite(value)) return value;
     std::string text;
     write_real(text, value);
-    return nlohmann::ordered_json::parse(text);
+    return parse_ordered_json(text);
 }
 
 void write_string(std::string& out, std::string_view text) {

@@ -3,7 +3,7 @@
 #include "cache/sha256.hpp"
 #include "driver/version.hpp"
 #include "engines/faults.hpp"
-#include "formats/json_text.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include "formats/trace_steps.hpp"
 
-#include "formats/json_text.hpp"
 #include "formats/trace.hpp"
 #include "support/failure.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

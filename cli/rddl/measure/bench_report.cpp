@@ -1,8 +1,8 @@
 #include "measure/bench_report.hpp"
 
-#include "formats/json_text.hpp"
 #include "formats/number_text.hpp"
 #include "formats/table.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

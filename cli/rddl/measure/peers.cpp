@@ -4,6 +4,7 @@
 #include "driver/work_folder.hpp"
 #include "python/python_command.hpp"
 #include "support/failure.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -45,12 +46,12 @@ fs::path program_file(const Peer& peer) {
 }
 
 // The last line; what stands before it are the libraries' messages.
-nlohmann::json last_line(const std::string& output) {
+nlohmann::json last_answer(const std::string& output) {
     const std::size_t end = output.find_last_not_of('\n');
     if (end == std::string::npos) return nullptr;
     const std::size_t line_break = output.rfind('\n', end);
     const std::size_t begin = line_break == std::string::npos ? 0 : line_break + 1;
-    return nlohmann::json::parse(output.substr(begin, end + 1 - begin), nullptr, false);
+    return json_if_valid(output.substr(begin, end + 1 - begin));
 }
 
 [[noreturn]] void give_up(const Peer& peer, const std::string& python, const nlohmann::json& answer,
@@ -112,7 +113,7 @@ PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
     if (!result)
         throw Failure(fmt::format("cannot run '{}'", python),
                       "--python names the interpreter to use");
-    const nlohmann::json answer = last_line(result->output);
+    const nlohmann::json answer = last_answer(result->output);
     if (result->status != 0) give_up(peer, python, answer, result->output);
     return figures_of(answer);
 }

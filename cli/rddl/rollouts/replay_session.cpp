@@ -1,9 +1,9 @@
 #include "rollouts/replay_session.hpp"
 
 #include "engines/faults.hpp"
-#include "formats/json_text.hpp"
 #include "formats/trace.hpp"
 #include "support/diagnostic.hpp"
+#include "support/json_text.hpp"
 
 #include <rddl/random.hpp>
 
@@ -30,7 +30,7 @@ constexpr std::int64_t most_repeats = 10'000'000;
 constexpr std::array<std::string_view, 5> understood{"state", "action", "reset", "repeat",
                                                      "episode"};
 // What the lines of a trace say besides; it is what comes out again.
-constexpr std::array<std::string_view, 8> ignored{
+constexpr std::array<std::string_view, 8> ignored_members{
     "step", "reward", "next_state", "observation", "terminated", "truncated", "causes", "fault"};
 
 // What is wrong with a line.
@@ -55,7 +55,7 @@ void check_members(const json& line) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     for (const auto& [name, value] : line.items()) {
-        if (contains(understood, name) || contains(ignored, name)) continue;
+        if (contains(understood, name) || contains(ignored_members, name)) continue;
         const auto near = did_you_mean(name, {understood.begin(), understood.end()});
         throw Refusal{fmt::format("unknown member '{}'{}", name,
                                   near ? fmt::format("; did you mean '{}'?", *near) : "")};

@@ -1,8 +1,8 @@
 #include "scenes/scene_file.hpp"
 
-#include "formats/json_text.hpp"
 #include "support/diagnostic.hpp"
 #include "support/failure.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -51,7 +51,7 @@ class SceneReader {
     Json parse() {
         try {
             parse_json(source_.text());  // members that are given twice
-            return Json::parse(source_.text());
+            return parse_ordered_json(source_.text());
         } catch (const nlohmann::json::parse_error& error) {
             const auto at = static_cast<std::uint32_t>(
                 std::min(error.byte > 0 ? error.byte - 1 : 0, source_.text().size()));

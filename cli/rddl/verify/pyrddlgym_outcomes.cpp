@@ -5,6 +5,7 @@
 #include "python/python_command.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,7 @@ std::vector<json> read_answers(const fs::path& file) {
     std::vector<json> answers;
     std::ifstream in(file, std::ios::binary);
     for (std::string line; std::getline(in, line);) {
-        json answer = json::parse(line, nullptr, false);
+        json answer = json_if_valid(line);
         if (!answer.is_object()) break;  // a line that was cut
         answers.push_back(std::move(answer));
     }

@@ -1,9 +1,9 @@
 #include "verify/verified_states.hpp"
 
-#include "formats/json_text.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
 #include "support/failure.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 #include "verify/verify_report.hpp"
 
 #include "formats/table.hpp"
+#include "support/json_text.hpp"
 #include "support/render.hpp"
 #include "verify/difference_place.hpp"
 
@@ -208,7 +209,7 @@ ordered_json difference_json(const VerifyReport& report) {
     object["environment"] = start.environment;
     object["episode"] = start.episode;
     object["step"] = start.step;
-    object["from"] = ordered_json::parse(replay_line(report, start));
+    object["from"] = parse_ordered_json(replay_line(report, start));
     const Verdict verdict = report.verdict.value_or(Verdict{});
     object["pass"] = verdict.pass ? ordered_json(*verdict.pass) : ordered_json();
     object["emitted_code"] = verdict.emitted_code;

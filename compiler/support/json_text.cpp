@@ -1,4 +1,4 @@
-#include "formats/json_text.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc {
 
 namespace {
 
@@ -31,6 +31,14 @@ nlohmann::json parse_json(std::string_view text) {
     return json::parse(text, see);
 }
 
+nlohmann::ordered_json parse_ordered_json(std::string_view text) {
+    return nlohmann::ordered_json::parse(text);
+}
+
+nlohmann::json json_if_valid(std::string_view text) {
+    return nlohmann::json::parse(text, nullptr, false);
+}
+
 std::string json_line(const nlohmann::ordered_json& value) {
     return text_of(value, -1);
 }
@@ -39,4 +47,4 @@ std::string json_document(const nlohmann::ordered_json& value) {
     return text_of(value, 2) + '\n';
 }
 
-}  // namespace rddlc::cli
+}  // namespace rddlc

@@ -1,4 +1,5 @@
-// JSON as text. Names of files may hold bytes that are not UTF-8: these become U+FFFD.
+// JSON as text, read and written. Programs that call these do not make nlohmann's parser and writer
+// anew in each of their files, which takes seconds a file to compile.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace rddlc::cli {
+namespace rddlc {
 
 // An object names a member twice; which one is meant nobody knows. what() is a sentence.
 struct RepeatedMember : std::runtime_error {
@@ -16,10 +17,15 @@ struct RepeatedMember : std::runtime_error {
 
 // Fails with a nlohmann::json::exception or a RepeatedMember.
 nlohmann::json parse_json(std::string_view text);
+// Keeps the order of members. Fails with a nlohmann::json::exception.
+nlohmann::ordered_json parse_ordered_json(std::string_view text);
+// What other programs wrote: `discarded` (nlohmann's word) where it is no JSON.
+nlohmann::json json_if_valid(std::string_view text);
 
+// Names of files may hold bytes that are not UTF-8: these become U+FFFD.
 // Without line breaks.
 std::string json_line(const nlohmann::ordered_json& value);
 // Indented, with a line break at the end.
 std::string json_document(const nlohmann::ordered_json& value);
 
-}  // namespace rddlc::cli
+}  // namespace rddlc
