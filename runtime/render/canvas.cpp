@@ -215,6 +215,13 @@ void Canvas::text(Point place, std::string_view text, const TextStyle& style) {
                                                                : 0;
     const Saved saved = moved(place, style.turn);
     cairo_set_font_size(context, style.size);
+    if (style.halo) {
+        cairo_move_to(context, x, y);
+        cairo_text_path(context, std::string(text).c_str());
+        source(colors::paper.with_alpha(0.85));
+        cairo_set_line_width(context, 3);
+        cairo_stroke(context);
+    }
     source(style.color);
     cairo_move_to(context, x, y);
     cairo_show_text(context, std::string(text).c_str());

@@ -28,7 +28,8 @@ struct TextStyle {
     Color color = colors::ink;
     Align align = Align::Left;
     VerticalAlign vertical = VerticalAlign::Middle;
-    double turn = 0;  // radians, clockwise, about the place
+    double turn = 0;    // radians, clockwise, about the place
+    bool halo = false;  // light around the letters, which are read then whatever they lie on
 };
 
 class Canvas {

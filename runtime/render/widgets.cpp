@@ -48,6 +48,29 @@ Point Plane::operator()(double x, double y) const {
     return {box.x + (x - left) * factor, box.bottom() - (y - bottom) * factor};
 }
 
+void field_ticks(Canvas& canvas, const Box& field, const Scale& across, const Scale& up) {
+    TextStyle style{.size = 9, .color = colors::muted, .align = Align::Center};
+    for (const double tick : ticks(across.low, across.high, static_cast<int>(field.width / 50))) {
+        const double x = across(tick);
+        canvas.line({x, field.bottom()}, {x, field.bottom() + 3}, colors::rule);
+        canvas.text({x, field.bottom() + 9}, number_text(tick), style);
+    }
+    style.align = Align::Right;
+    for (const double tick : ticks(up.low, up.high, static_cast<int>(field.height / 40))) {
+        const double y = up(tick);
+        canvas.line({field.x - 3, y}, {field.x, y}, colors::rule);
+        canvas.text({field.x - 6, y}, number_text(tick), style);
+    }
+}
+
+void field_ticks(Canvas& canvas, const Plane& plane) {
+    const Box& box = plane.box;
+    const double right = plane.left + box.width / plane.factor;
+    const double top = plane.bottom + box.height / plane.factor;
+    field_ticks(canvas, box, {plane.left, right, box.x, box.right()},
+                {plane.bottom, top, box.bottom(), box.y});
+}
+
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width) {
     if (canvas.text_width(text, size) <= width) return std::string(text);
     // By halves: texts may be long.

@@ -37,6 +37,11 @@ struct Plane {
     double left, bottom, factor;
 };
 
+// Round numbers below a field and at its left, in the room that is left for them.
+inline constexpr double room_below = 14, room_at_left = 26;
+void field_ticks(Canvas& canvas, const Box& field, const Scale& across, const Scale& up);
+void field_ticks(Canvas& canvas, const Plane& plane);
+
 // A label that fits: shortened with "…" where it does not, or nothing.
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width);
 void label(Canvas& canvas, const Box& box, std::string_view text, TextStyle style = {});
