@@ -42,6 +42,25 @@ Color value_color(const Values& values, double value, const Range& range) {
     return mix(series_color(index), colors::white, 0.15 * static_cast<double>(index / 7));
 }
 
+std::vector<Entry> key_of(const Values& values, const Range& range) {
+    if (values.fluent->scalar == RDDL_BOOL)
+        return {{"true", colors::blue}, {"false", colors::faint}};
+    const rddl_type* const type = values.range();
+    if (!type)
+        return {{number_text(range.low), sequential_color(0)},
+                {number_text(range.high), sequential_color(1)}};
+    std::vector<Entry> entries;
+    for (std::int64_t i = 0; i < type->object_count; ++i)
+        entries.push_back({type->objects[i], value_color(values, static_cast<double>(i), range)});
+    return entries;
+}
+
+std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding) {
+    const std::string name = moment.world().name_of(fluent, grounding);
+    const std::size_t open = name.find('(');
+    return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
+}
+
 std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap) {
     std::vector<Box> boxes;
     if (count == 0) return boxes;
