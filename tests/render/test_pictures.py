@@ -109,6 +109,28 @@ class Files(PictureTest):
         self.assertEqual((self.folder / "last.png").read_bytes(),
                          (self.folder / "all/000030.png").read_bytes())
 
+    def test_standard_output(self):
+        """For other programs; nothing else stands there, and no file is written."""
+        self.run_car("--trace=t.jsonl", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html")
+        before = self.left_behind()
+        for kind in "gif", "png", "svg", "html":
+            for words in (["render", "t.jsonl"], ["render", "-"]):
+                with open(self.folder / "t.jsonl") as trace:
+                    done = subprocess.run([RDDL, *words, f"--{kind}=-"], cwd=self.folder, stdin=trace, check=True,
+                                          capture_output=True, env=environment())
+                self.assertEqual(done.stderr, b"")
+                wanted = (self.folder / f"a.{kind}").read_bytes()
+                if kind == "html":  # the name of the episode is the trace's
+                    self.assertEqual(done.stdout[-1000:], wanted[-1000:])
+                else:  # cairo numbers what it has drawn
+                    self.assertEqual(re.sub(rb"surface\d+", b"", done.stdout), re.sub(rb"surface\d+", b"", wanted))
+            text = self.run_car(f"--{kind}=-", "--json", status=USAGE).stderr
+            self.assertIn("both write to standard output", text)
+        for words in ["--gif=-", "--png=-"], ["--html=-", "--watch"], ["--svg=-", "--trace=-"]:
+            self.assertIn("both write to standard output", self.run_car(*words, status=USAGE).stderr)
+        self.assertIn("not '-'", self.run_car("--video=-", status=USAGE).stderr)
+        self.assertEqual(self.left_behind(), before)
+
     def test_render_draws_what_run_draws(self):
         self.run_car("--gif=a.gif", "--trace=t.jsonl", "--episodes=3", "--environment=1")
         self.rddl("render", "t.jsonl", "--gif=b.gif", "--environment=1")
@@ -314,6 +336,16 @@ class Errors(PictureTest):
 
 
 class Terminal(PictureTest):
+    def test_files_are_not_written_to_terminals(self):
+        for option in "--gif=-", "--html=-":
+            ours, theirs = pty.openpty()
+            done = subprocess.run([RDDL, "run", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", option],
+                                  stdout=theirs, stderr=subprocess.PIPE, env=environment(), text=True)
+            os.close(theirs)
+            self.assertEqual(self.rest_of(ours), "")
+            self.assertEqual(done.returncode, USAGE)
+            self.assertIn("standard output is a terminal", done.stderr)
+
     def start(self, *words, size=(24, 80), **variables) -> tuple[subprocess.Popen, int]:
         """The program in a terminal of so many rows and columns, and what reads its screen."""
         ours, theirs = pty.openpty()
@@ -449,6 +481,21 @@ class Scenes(PictureTest):
                 wanted = numpy.asarray(picture.convert("RGB"), dtype=int)
             self.assertLessEqual(differing(now, wanted), MOST_STRONG)
 
+    def test_letters_of_all_scripts(self):
+        """Each letter that the font has not is a box; escapes of JSON are read."""
+        def drawn(text: str) -> bytes:
+            self.draw({"world": {"right": 2, "top": 1},
+                       "shapes": [{"shape": "text", "x": 1, "y": 0.5, "text": text}]})
+            return (self.folder / "a.png").read_bytes()
+
+        self.assertEqual(drawn("水位"), drawn("한국"))
+        self.assertNotEqual(drawn("水位"), drawn("水"))
+        self.assertNotEqual(drawn("ä"), drawn("水"))
+        escaped = drawn("ä")  # json.dumps writes "\\u00e4"
+        self.draw('{"world": {"right": 2, "top": 1},'
+                  ' "shapes": [{"shape": "text", "x": 1, "y": 0.5, "text": "ä"}]}')
+        self.assertEqual((self.folder / "a.png").read_bytes(), escaped)
+
     def test_values_of_the_state_and_action(self):
         """Circles where the state says, as large as the action says."""
         scene = {"world": {"left": -1.5, "bottom": -1, "right": 1.5, "top": 1}, "shapes": [
@@ -494,6 +541,7 @@ class Scenes(PictureTest):
                 ({"shapes": [{**circle, "visible": 1}]}, "a condition is a text"),
                 ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "begins with '?'"),
                 ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a {b"}]}, "is not closed"),
+                ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a\nb"}]}, "stands on one line"),
                 ({"shapes": [{"shape": "polygon", "points": [[0, 0]]}]}, "three or more")):
             text = self.draw(scene, status=DIAGNOSED)
             self.assertRegex(text, r"scene.json:\d+:\d+: ")

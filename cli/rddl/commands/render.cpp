@@ -128,6 +128,8 @@ Command render_command() {
                     "With --html: a second trace of the problem, shown in step with the first",
                     options->beside);
     add_picture_options(command, options->pictures);
+    add_extern_option(command, options->load,
+                      "C++ header or shared object of the external functions of the problem");
     add_flag(command, "--quiet", "Print nothing", options->quiet);
     command.run = [options] {
         // Nothing is stepped: the interpreter is there at once.
