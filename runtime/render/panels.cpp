@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace rddl::render {
@@ -42,17 +43,34 @@ Color value_color(const Values& values, double value, const Range& range) {
     return mix(series_color(index), colors::white, 0.15 * static_cast<double>(index / 7));
 }
 
-std::vector<Entry> key_of(const Values& values, const Range& range) {
-    if (values.fluent->scalar == RDDL_BOOL)
-        return {{"true", colors::blue}, {"false", colors::faint}};
-    const rddl_type* const type = values.range();
-    if (!type)
-        return {{number_text(range.low), sequential_color(0)},
-                {number_text(range.high), sequential_color(1)}};
-    std::vector<Entry> entries;
-    for (std::int64_t i = 0; i < type->object_count; ++i)
-        entries.push_back({type->objects[i], value_color(values, static_cast<double>(i), range)});
-    return entries;
+namespace {
+
+std::string rounded_text(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+}  // namespace
+
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range) {
+    if (values.fluent->scalar == RDDL_BOOL) {
+        legend_at_right(canvas, box, {{"true", colors::blue}, {"false", colors::faint}});
+        return;
+    }
+    if (const rddl_type* const type = values.range()) {
+        std::vector<Entry> entries;
+        for (std::int64_t i = 0; i < type->object_count; ++i)
+            entries.push_back(
+                {type->objects[i], value_color(values, static_cast<double>(i), range)});
+        legend_at_right(canvas, box, entries);
+        return;
+    }
+    const Color low = sequential_color(0), high = sequential_color(1);
+    if (!legend_at_right(canvas, box,
+                         {{number_text(range.low), low}, {number_text(range.high), high}}))
+        legend_at_right(canvas, box,
+                        {{rounded_text(range.low), low}, {rounded_text(range.high), high}});
 }
 
 std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding) {

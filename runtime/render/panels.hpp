@@ -31,8 +31,8 @@ Range range_of(const Moment& moment, const rddl_fluent& fluent);
 // The colour of a value within its range; objects have colours of their own.
 Color value_color(const Values& values, double value, const Range& range);
 
-// What the colours of its values mean.
-std::vector<Entry> key_of(const Values& values, const Range& range);
+// What the colours of its values mean, at the right of the box; nothing where there is no room.
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range);
 
 // "r1, c2" of "at(r1, c2)": the objects of a grounding.
 std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding);

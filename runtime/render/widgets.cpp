@@ -180,10 +180,11 @@ void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, doub
     }
 }
 
-void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
+bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
     const double size = legend_width(canvas, entries, 11) <= box.width ? 11 : 9;
     const Spaces spaces(size);
     if (legend_width(canvas, entries, size) > box.width) {
+        if (entries.size() <= 2) return false;
         // Each name has as much room as the others, if that tells anything.
         constexpr double least = 28;
         const double room = (box.width + spaces.between) / static_cast<double>(entries.size()) -
@@ -192,8 +193,8 @@ void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries)
             entry.name = shortened_name(canvas, entry.name, size, std::max(room, least));
     }
     const double width = legend_width(canvas, entries, size);
-    if (width > box.width && entries.size() <= 2) return;  // one of two tells nothing
     legend(canvas, box.rightmost(std::min(width, box.width)), entries, size);
+    return true;
 }
 
 Grid::Grid(const Box& outer, int wanted_columns, int wanted_rows, bool square)

@@ -65,9 +65,9 @@ struct Entry {
     Color color;
 };
 void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size = 11);
-// At the right of the box instead; where room is short, with smaller letters and shorter names, and
-// not at all if one of two has none.
-void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
+// At the right of the box instead; where room is short, with smaller letters and shorter names.
+// False: of one or two, not all have room, and none is drawn.
+bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
 
 // A grid of cells in a box: square where that is sensible.
 struct Grid {

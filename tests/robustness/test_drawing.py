@@ -89,10 +89,11 @@ class SceneFiles(DrawingTest):
         self.make_trace(next(e for e in EXAMPLES if e.name == "mountain_car"))
         world = {"left": -1, "bottom": -1, "right": 1, "top": 1}
         for x in ODD_EXPRESSIONS:
+            told = "{position} {%s} 水位" % (x if isinstance(x, str) else "velocity")
             shapes = [{"shape": "circle", "x": x, "y": 0, "radius": 1},
                       {"shape": "circle", "x": 0, "y": 0, "radius": x},
                       {"shape": "rectangle", "left": x, "bottom": 0, "right": 1, "top": x},
-                      {"shape": "text", "x": x, "y": 0, "text": "{position} {%s} 水位" % (x if isinstance(x, str) else "velocity"), "size": x},
+                      {"shape": "text", "x": x, "y": 0, "text": told, "size": x},
                       {"shape": "polygon", "points": [[x, 0], [0, x], [1, 1]]},
                       {"shape": "cell", "column": x, "row": 0, "outline": True},
                       {"shape": "line", "x1": x, "y1": 0, "x2": 0, "y2": x, "thickness": x},

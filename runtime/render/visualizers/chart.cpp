@@ -156,10 +156,10 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
 }
 
 // What the colours mean, at the right of the title.
-void draw_key(Canvas& canvas, const Box& box, const Panel& panel) {
+void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     const Values& values = panel.past.back();
     if (!has_lines(panel.fluent)) {
-        legend_at_right(canvas, box, key_of(values, panel.range));
+        draw_key(canvas, box, values, panel.range);
         return;
     }
     if (panel.fluent.rank == 0) {
@@ -199,7 +199,7 @@ void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl
     const std::string title = shortened(canvas, fluent.name, 12, box.width * 0.7);
     canvas.text({box.x, box.y + 8}, title);
     const double used = canvas.text_width(title, 12) + 12;
-    draw_key(canvas, box.top(16).after(used).before(4), panel);
+    draw_panel_key(canvas, box.top(16).after(used).before(4), panel);
     has_lines(fluent) ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
     draw_time_axis(canvas, panel, with_axis_title);
 }

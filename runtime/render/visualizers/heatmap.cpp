@@ -121,14 +121,13 @@ void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_
         return;
     }
     if (fluent.rank > 0)
-        legend_at_right(canvas, box.top(16).after(canvas.text_width(title, 12) + 12),
-                        key_of(values, range));
+        draw_key(canvas, box.top(16).after(canvas.text_width(title, 12) + 12), values, range);
     const Box inside = box.below(20).above(16);
     const Shape shape = shape_of(values, inside);
     const Box cells = inside.after(row_names_width(canvas, moment, values, shape));
     const Box used = shape.rows == 1 ? cells.top(std::min(cells.height, 40.0)) : cells;
     // Squares look like places, unless nobody would see them.
-    constexpr double smallest = 4;
+    constexpr double smallest = 6;
     const bool square =
         fluent.rank >= 2 && Grid(used, shape.columns, shape.rows).cell(0, 0).width >= smallest;
     const Grid grid(used, shape.columns, shape.rows, square);
