@@ -548,6 +548,8 @@ class Scenes(PictureTest):
             self.assertIn(complaint, text)
         self.assertIn("is not declared", self.draw(
             {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
+        self.assertIn("nothing to see of the scene's world", self.draw(
+            {"world": {"left": 1, "right": 1, "top": 1}, "shapes": [circle]}, status=DIAGNOSED))
         self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
 
 

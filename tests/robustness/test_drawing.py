@@ -46,42 +46,41 @@ class Pictures(DrawingTest):
             functions = example / "functions.hpp"
             external = ["--extern", functions] if functions.exists() else []
             self.make_trace(example, *external, *self.EVERYTHING)
-            for visualizer in "chart", "heatmap", "text":
-                for size in "600x400", "16x16", "16x900":
-                    with self.subTest(example.name, visualizer=visualizer, size=size):
-                        result = self.render("t.jsonl", *external, *self.EVERYTHING,
-                                             f"--visualizer={visualizer}", f"--size={size}")
-                        self.assertEqual(result.status, SUCCESS, result)
+            for visualizer, size in ("chart", "300x200"), ("heatmap", "16x16"), ("text", "16x300"):
+                with self.subTest(example.name, visualizer=visualizer):
+                    result = self.render("t.jsonl", *external, "--gif=a.gif", "--svg=a.svg",
+                                         f"--visualizer={visualizer}", f"--size={size}")
+                    self.assertEqual(result.status, SUCCESS, result)
 
     def test_odd_values(self):
         for name in "cart_pole", "mountain_car", "reservoir":
             header, *lines = self.make_trace(next(e for e in EXAMPLES if e.name == name))
-            for odd in ODD_VALUES:
+            for odd in ODD_VALUES if name == "cart_pole" else ODD_VALUES[:4]:
                 with self.subTest(name, odd=odd):
                     step = json.loads(lines[2])
                     step["state"] = {fluent: "ODD" for fluent in step["state"]}
                     odd_line = json.dumps(step).replace('"ODD"', odd)
                     self.write("odd.jsonl", "\n".join([header, *lines[:2], odd_line, *lines[3:]]) + "\n")
-                    result = self.render("odd.jsonl", *self.EVERYTHING)
-                    if "nan" in odd or "inf" in odd:
-                        self.assertEqual(result.status, SUCCESS, result)
-                    self.render("odd.jsonl", *self.EVERYTHING, "--visualizer=chart")
+                    for visualizer in [], ["--visualizer=chart"]:
+                        result = self.render("odd.jsonl", "--gif=a.gif", "--html=a.html", "--size=60x40", *visualizer)
+                        if "nan" in odd or "inf" in odd:
+                            self.assertEqual(result.status, SUCCESS, result)
 
     def test_cut_and_changed_traces(self):
         text = ("\n".join(self.make_trace(EXAMPLES[0])) + "\n").encode()
         dice = random.Random(2)
-        for length in range(0, len(text), len(text) // 25):
+        for length in range(0, len(text), len(text) // 12):
             self.write("odd.jsonl", text[:length])
-            self.render("odd.jsonl", "--gif=a.gif", "--png=a.png")
-            self.render("t.jsonl", "--beside=odd.jsonl", "--html=a.html")
-        for _ in range(40):
+            self.render("odd.jsonl", "--gif=a.gif", "--png=a.png", "--size=60x40")
+            self.render("t.jsonl", "--beside=odd.jsonl", "--html=a.html", "--size=60x40")
+        for _ in range(20):
             changed = bytearray(text)
             for _ in range(dice.choice((1, 1, 3))):
                 place = dice.randrange(len(changed))
                 changed[place:place + dice.choice((0, 1, 9))] = bytes(dice.choices(b'{}[]",:0e-.\\\0\xff', k=2))
             self.write("odd.jsonl", bytes(changed))
             self.render("odd.jsonl", EXAMPLES[0] / "domain.rddl", EXAMPLES[0] / "instance.rddl", "--gif=a.gif",
-                        "--html=a.html")
+                        "--html=a.html", "--size=60x40")
 
 
 class SceneFiles(DrawingTest):
@@ -111,7 +110,7 @@ class SceneFiles(DrawingTest):
                 b'   "radius": 0.2, "visible": "running(?c) | exists_{?d : computer} [LINK(?c, ?d)]",\n'
                 b'   "color": {"if": "running(?c)", "then": "green", "else": "#102030"}}]}')
         dice = random.Random(3)
-        for _ in range(100):
+        for _ in range(40):
             changed = bytearray(text)
             for _ in range(dice.choice((0, 1, 1, 3))):
                 place = dice.randrange(len(changed))

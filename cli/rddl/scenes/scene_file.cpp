@@ -55,7 +55,9 @@ class SceneReader {
         } catch (const nlohmann::json::parse_error& error) {
             const auto at = static_cast<std::uint32_t>(
                 std::min(error.byte > 0 ? error.byte - 1 : 0, source_.text().size()));
-            fail({file_, at, at}, "this is no JSON");
+            fail({file_, at, at}, "this is no JSON",
+                 "JSON has names and texts in double quotes, no comments, and no comma before a "
+                 "bracket that closes");
         } catch (const RepeatedMember& repeated) {
             fail(whole(), repeated.what());
         }
