@@ -325,6 +325,10 @@ class Errors(PictureTest):
         self.assertIn("nothing to write", self.refuse("render", "t.jsonl", status=USAGE))
         text = self.run_car("--video=a.avi", status=USAGE).stderr
         self.assertIn(".mp4, .webm or .webp", text)
+        text = self.run_car("--png=a.jpg", status=USAGE).stderr
+        self.assertIn("a picture is a file .png, or a folder of them, not 'a.jpg'", text)
+        self.run_car("--png=b.PNG")
+        self.assertTrue((self.folder / "b.PNG").is_file())
         text = self.run_car("--png=a.png", "--step=99", status=DIAGNOSED).stderr
         self.assertIn("there is no state 99: the episode has 30 steps", text)
 

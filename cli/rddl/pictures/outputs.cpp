@@ -7,6 +7,8 @@
 #include <render/gif.hpp>
 #include <render/png.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -93,7 +95,17 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
 
 Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
                     BytesOf bytes_of, UsedFiles& used) {
-    const bool single = is_standard_output(path) || fs::path(path).extension() == ending;
+    std::string extension = fs::path(path).extension();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+    // Nobody means a folder.
+    for (const char* const other : {".png", ".svg", ".gif", ".jpg", ".jpeg", ".webp", ".bmp",
+                                    ".pdf", ".html", ".mp4", ".webm"})
+        if (extension == other && extension != ending)
+            throw Failure(
+                fmt::format("a picture is a file {}, or a folder of them, not '{}'", ending, path),
+                {}, usage_error);
+    const bool single = is_standard_output(path) || extension == ending;
     return single ? single_output(path, options.step, bytes_of, used)
                   : folder_output(path, ending, bytes_of, used);
 }
