@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace rddl::render {
 
@@ -38,8 +40,30 @@ cairo_status_t append(void* text, const unsigned char* data, unsigned length) {
     }
 }
 
+// Coordinates in points: what lies farther off lies outside any picture, and is more than cairo's
+// numbers hold.
+constexpr double farthest = 1e5;
+
+bool are_finite(std::initializer_list<double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool is_finite(const Box& box) {
+    return are_finite({box.x, box.y, box.width, box.height});
+}
+
+double near(double coordinate) {
+    return std::clamp(coordinate, -farthest, farthest);
+}
+
+Box near(const Box& box) {
+    const double x = near(box.x), y = near(box.y);
+    return {x, y, near(box.right()) - x, near(box.bottom()) - y};
+}
+
 unsigned byte_of(double part) {
-    return static_cast<unsigned>(std::lround(std::clamp(part, 0.0, 1.0) * 255));
+    return std::isnan(part) ? 0
+                            : static_cast<unsigned>(std::lround(std::clamp(part, 0.0, 1.0) * 255));
 }
 
 }  // namespace
@@ -107,8 +131,10 @@ void Canvas::clear(Color color) {
     cairo_paint(context_.get());
 }
 
-void Canvas::path(const Box& box, double corner) {
+void Canvas::path(const Box& whole, double corner) {
+    if (!is_finite(whole)) return;
     cairo_t* const context = context_.get();
+    const Box box = near(whole);
     const double r = std::min({corner, box.width / 2, box.height / 2});
     if (r <= 0) {
         cairo_rectangle(context, box.x, box.y, box.width, box.height);
@@ -129,14 +155,23 @@ void Canvas::fill(const Box& box, Color color, double corner) {
 }
 
 void Canvas::outline(const Box& box, Color color, double thickness, double corner) {
-    source(color);
-    cairo_set_line_width(context_.get(), thickness);
     path(box, corner);
+    stroke(color, thickness);
+}
+
+void Canvas::stroke(Color color, double thickness) {
+    source(color);
+    cairo_set_line_width(context_.get(), std::isfinite(thickness) ? near(thickness) : 0);
     cairo_stroke(context_.get());
 }
 
 void Canvas::path(std::span<const Point> points) {
-    for (const Point& point : points) cairo_line_to(context_.get(), point.x, point.y);
+    for (const Point& point : points) {
+        if (are_finite({point.x, point.y}))
+            cairo_line_to(context_.get(), near(point.x), near(point.y));
+        else
+            cairo_new_sub_path(context_.get());
+    }
 }
 
 void Canvas::line(Point from, Point to, Color color, double thickness) {
@@ -151,10 +186,10 @@ void Canvas::dashed_line(Point from, Point to, Color color, double thickness, do
 }
 
 void Canvas::polyline(std::span<const Point> points, Color color, double thickness) {
-    source(color);
-    cairo_set_line_width(context_.get(), thickness);
+    if (points.size() == 2 && !are_finite({points[0].x, points[0].y, points[1].x, points[1].y}))
+        return;  // not the end that is known
     path(points);
-    cairo_stroke(context_.get());
+    stroke(color, thickness);
 }
 
 void Canvas::polygon(std::span<const Point> points, Color color) {
@@ -164,11 +199,9 @@ void Canvas::polygon(std::span<const Point> points, Color color) {
 }
 
 void Canvas::outline_polygon(std::span<const Point> points, Color color, double thickness) {
-    source(color);
-    cairo_set_line_width(context_.get(), thickness);
     path(points);
     cairo_close_path(context_.get());
-    cairo_stroke(context_.get());
+    stroke(color, thickness);
 }
 
 void Canvas::disc(Point center, double radius, Color color) {
@@ -179,19 +212,26 @@ void Canvas::ring(Point center, double radius, Color color, double thickness) {
     arc(center, radius, 0, 2 * M_PI, color, thickness);
 }
 
+bool Canvas::arc_path(Point center, double radius, double from, double to) {
+    if (!are_finite({center.x, center.y, radius, from, to})) return false;
+    // One full circle is enough, and all that can be computed where angles are large.
+    if (std::abs(to - from) > 2 * M_PI) from = 0, to = 2 * M_PI;
+    cairo_arc(context_.get(), near(center.x), near(center.y), std::max(near(radius), 0.0), from,
+              to);
+    return true;
+}
+
 void Canvas::arc(Point center, double radius, double from, double to, Color color,
                  double thickness) {
-    source(color);
-    cairo_set_line_width(context_.get(), thickness);
-    cairo_new_sub_path(context_.get());
-    cairo_arc(context_.get(), center.x, center.y, radius, from, to);
-    cairo_stroke(context_.get());
+    cairo_new_path(context_.get());
+    if (arc_path(center, radius, from, to)) stroke(color, thickness);
 }
 
 void Canvas::sector(Point center, double radius, double from, double to, Color color) {
     source(color);
-    if (to - from < 2 * M_PI) cairo_move_to(context_.get(), center.x, center.y);
-    cairo_arc(context_.get(), center.x, center.y, radius, from, to);
+    cairo_new_path(context_.get());
+    if (!arc_path(center, radius, from, to)) return;
+    if (to - from < 2 * M_PI) cairo_line_to(context_.get(), near(center.x), near(center.y));
     cairo_fill(context_.get());
 }
 
@@ -203,6 +243,7 @@ double Canvas::text_width(std::string_view text, double size) const {
 }
 
 void Canvas::text(Point place, std::string_view text, const TextStyle& style) {
+    if (!(style.size > 0 && style.size < farthest)) return;
     cairo_t* const context = context_.get();
     const double width = style.align == Align::Left ? 0 : text_width(text, style.size);
     // Of capital letters: so that texts of one line share a base line, whatever their letters.
@@ -215,14 +256,74 @@ void Canvas::text(Point place, std::string_view text, const TextStyle& style) {
                                                                : 0;
     const Saved saved = moved(place, style.turn);
     cairo_set_font_size(context, style.size);
+    if (style.halo) {
+        cairo_move_to(context, x, y);
+        cairo_text_path(context, std::string(text).c_str());
+        stroke(colors::paper.with_alpha(0.85), 3);
+    }
     source(style.color);
     cairo_move_to(context, x, y);
     cairo_show_text(context, std::string(text).c_str());
     cairo_new_path(context);
 }
 
-void Canvas::cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> colors) {
-    if (columns <= 0 || rows <= 0) return;
+namespace {
+
+// Fewer rows: each the average of those that lie where it is.
+std::vector<std::uint32_t> averaged_rows(std::span<const std::uint32_t> colors, int columns,
+                                         int rows, int wanted) {
+    std::vector<std::uint32_t> averages;
+    averages.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(wanted));
+    for (int row = 0; row < wanted; ++row) {
+        const double begin = static_cast<double>(row) * rows / wanted;
+        const double end = static_cast<double>(row + 1) * rows / wanted;
+        for (int column = 0; column < columns; ++column) {
+            double sums[3] = {0.5, 0.5, 0.5};  // rounds
+            for (int r = static_cast<int>(begin); r < rows && r < end; ++r) {
+                const double part =
+                    (std::min(end, r + 1.0) - std::max<double>(begin, r)) / (end - begin);
+                const std::uint32_t color = colors[static_cast<std::size_t>(r * columns + column)];
+                for (int k = 0; k < 3; ++k) sums[k] += part * (color >> 8 * k & 0xff);
+            }
+            std::uint32_t average = 0;
+            for (int k = 0; k < 3; ++k) average |= static_cast<std::uint32_t>(sums[k]) << 8 * k;
+            averages.push_back(average);
+        }
+    }
+    return averages;
+}
+
+std::vector<std::uint32_t> transposed(std::span<const std::uint32_t> colors, int columns,
+                                      int rows) {
+    std::vector<std::uint32_t> turned;
+    turned.reserve(colors.size());
+    for (int column = 0; column < columns; ++column)
+        for (int row = 0; row < rows; ++row)
+            turned.push_back(colors[static_cast<std::size_t>(row * columns + column)]);
+    return turned;
+}
+
+}  // namespace
+
+void Canvas::cells(const Box& whole, int columns, int rows, std::span<const std::uint32_t> colors) {
+    if (columns <= 0 || rows <= 0 || !is_finite(whole)) return;
+    const Box box = near(whole);
+    if (std::min(box.width, box.height) < 1 / farthest) return;
+    // Where there are more cells than pixels, a pixel is an average; the others stay sharp.
+    const int pixel_rows = std::max(static_cast<int>(box.height * scale_), 1);
+    const int pixel_columns = std::max(static_cast<int>(box.width * scale_), 1);
+    std::vector<std::uint32_t> averages;
+    if (rows > pixel_rows) {
+        averages = averaged_rows(colors, columns, rows, pixel_rows);
+        rows = pixel_rows;
+        colors = averages;
+    }
+    if (columns > pixel_columns) {
+        averages = averaged_rows(transposed(colors, columns, rows), rows, columns, pixel_columns);
+        columns = pixel_columns;
+        averages = transposed(averages, rows, columns);
+        colors = averages;
+    }
     cairo_t* const context = context_.get();
     const std::unique_ptr<cairo_surface_t, Close> image(
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows));
@@ -236,10 +337,7 @@ void Canvas::cells(const Box& box, int columns, int rows, std::span<const std::u
     const Saved saved = moved({box.x, box.y});
     cairo_scale(context, box.width / columns, box.height / rows);
     cairo_set_source_surface(context, image.get(), 0, 0);
-    // Fewer pixels than cells are an average of them, more are copies.
-    const bool shrinks = box.width * scale_ < columns || box.height * scale_ < rows;
-    cairo_pattern_set_filter(cairo_get_source(context),
-                             shrinks ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
+    cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_NEAREST);
     cairo_rectangle(context, 0, 0, columns, rows);
     cairo_fill(context);
 }
@@ -251,8 +349,15 @@ Canvas::Saved::~Saved() {
 Canvas::Saved Canvas::moved(Point origin, double turn, double factor) {
     cairo_t* const context = context_.get();
     cairo_save(context);
-    cairo_translate(context, origin.x, origin.y);
-    if (turn != 0) cairo_rotate(context, turn);
+    // cairo would draw nothing from then on, in no picture.
+    const bool sensible = std::abs(factor) > 1 / farthest && std::abs(factor) < farthest;
+    if (!are_finite({origin.x, origin.y, turn}) || !sensible) {
+        cairo_rectangle(context, 0, 0, 0, 0);
+        cairo_clip(context);
+        return Saved(context);
+    }
+    cairo_translate(context, near(origin.x), near(origin.y));
+    if (turn != 0) cairo_rotate(context, std::remainder(turn, 2 * M_PI));
     if (factor != 1) cairo_scale(context, factor, factor);
     return Saved(context);
 }
@@ -260,7 +365,7 @@ Canvas::Saved Canvas::moved(Point origin, double turn, double factor) {
 Canvas::Saved Canvas::clipped(const Box& box) {
     cairo_t* const context = context_.get();
     cairo_save(context);
-    cairo_rectangle(context, box.x, box.y, box.width, box.height);
+    path(box, 0);
     cairo_clip(context);
     return Saved(context);
 }

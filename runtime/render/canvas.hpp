@@ -28,9 +28,11 @@ struct TextStyle {
     Color color = colors::ink;
     Align align = Align::Left;
     VerticalAlign vertical = VerticalAlign::Middle;
-    double turn = 0;  // radians, clockwise, about the place
+    double turn = 0;    // radians, clockwise, about the place
+    bool halo = false;  // light around the letters, which are read then whatever they lie on
 };
 
+// What has a coordinate, an angle or a size that is no number is not drawn.
 class Canvas {
   public:
     // Pixels, from 16 to 8,192 each; throws Error on others.
@@ -84,6 +86,8 @@ class Canvas {
     Canvas(_cairo_surface* surface, int width, int height);
     void path(std::span<const Point> points);
     void path(const Box& box, double corner);
+    bool arc_path(Point center, double radius, double from, double to);
+    void stroke(Color color, double thickness);
     void source(Color color);
 
     struct Close {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace rddl::render {
@@ -40,6 +41,42 @@ Color value_color(const Values& values, double value, const Range& range) {
     if (!values.range()) return sequential_color(range.part(value));
     const auto index = static_cast<std::size_t>(std::max(value, 0.0));
     return mix(series_color(index), colors::white, 0.15 * static_cast<double>(index / 7));
+}
+
+namespace {
+
+std::string rounded_text(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+}  // namespace
+
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range) {
+    if (values.fluent->scalar == RDDL_BOOL) {
+        legend_at_right(canvas, box, {{"true", colors::blue}, {"false", colors::faint}});
+        return;
+    }
+    if (const rddl_type* const type = values.range()) {
+        std::vector<Entry> entries;
+        for (std::int64_t i = 0; i < type->object_count; ++i)
+            entries.push_back(
+                {type->objects[i], value_color(values, static_cast<double>(i), range)});
+        legend_at_right(canvas, box, entries);
+        return;
+    }
+    const Color low = sequential_color(0), high = sequential_color(1);
+    if (!legend_at_right(canvas, box,
+                         {{number_text(range.low), low}, {number_text(range.high), high}}))
+        legend_at_right(canvas, box,
+                        {{rounded_text(range.low), low}, {rounded_text(range.high), high}});
+}
+
+std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding) {
+    const std::string name = moment.world().name_of(fluent, grounding);
+    const std::size_t open = name.find('(');
+    return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
 }
 
 std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap) {

@@ -3,9 +3,12 @@
 
 #include "render/canvas.hpp"
 #include "render/moment.hpp"
+#include "render/widgets.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rddl::render {
@@ -27,6 +30,12 @@ Range range_of(const Moment& moment, const rddl_fluent& fluent);
 
 // The colour of a value within its range; objects have colours of their own.
 Color value_color(const Values& values, double value, const Range& range);
+
+// What the colours of its values mean, at the right of the box; nothing where there is no room.
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range);
+
+// "r1, c2" of "at(r1, c2)": the objects of a grounding.
+std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding);
 
 // Boxes of one size that fill the area, in rows, with a gap between them.
 std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap);

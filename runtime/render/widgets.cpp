@@ -48,6 +48,29 @@ Point Plane::operator()(double x, double y) const {
     return {box.x + (x - left) * factor, box.bottom() - (y - bottom) * factor};
 }
 
+void field_ticks(Canvas& canvas, const Box& field, const Scale& across, const Scale& up) {
+    TextStyle style{.size = 9, .color = colors::muted, .align = Align::Center};
+    for (const double tick : ticks(across.low, across.high, static_cast<int>(field.width / 50))) {
+        const double x = across(tick);
+        canvas.line({x, field.bottom()}, {x, field.bottom() + 3}, colors::rule);
+        canvas.text({x, field.bottom() + 9}, number_text(tick), style);
+    }
+    style.align = Align::Right;
+    for (const double tick : ticks(up.low, up.high, static_cast<int>(field.height / 40))) {
+        const double y = up(tick);
+        canvas.line({field.x - 3, y}, {field.x, y}, colors::rule);
+        canvas.text({field.x - 6, y}, number_text(tick), style);
+    }
+}
+
+void field_ticks(Canvas& canvas, const Plane& plane) {
+    const Box& box = plane.box;
+    const double right = plane.left + box.width / plane.factor;
+    const double top = plane.bottom + box.height / plane.factor;
+    field_ticks(canvas, box, {plane.left, right, box.x, box.right()},
+                {plane.bottom, top, box.bottom(), box.y});
+}
+
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width) {
     if (canvas.text_width(text, size) <= width) return std::string(text);
     // By halves: texts may be long.
@@ -56,6 +79,25 @@ std::string shortened(const Canvas& canvas, std::string_view text, double size, 
         while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
         return std::string(text.substr(0, length)) + "…";
     };
+    while (fits + 1 < too_long) {
+        const std::size_t middle = (fits + too_long) / 2;
+        (canvas.text_width(with_dots(middle), size) <= width ? fits : too_long) = middle;
+    }
+    return fits == 0 ? "" : with_dots(fits);
+}
+
+std::string shortened_name(const Canvas& canvas, std::string_view name, double size, double width) {
+    if (canvas.text_width(name, size) <= width) return std::string(name);
+    const auto continues = [&](std::size_t at) {  // a letter that begins before
+        return at < name.size() && (static_cast<unsigned char>(name[at]) & 0xc0) == 0x80;
+    };
+    const auto with_dots = [&](std::size_t kept) {
+        std::size_t head = kept / 2, tail = name.size() - (kept - kept / 2);
+        while (continues(head)) --head;
+        while (continues(tail)) ++tail;
+        return std::string(name.substr(0, head)) + "…" + std::string(name.substr(tail));
+    };
+    std::size_t fits = 0, too_long = name.size();
     while (fits + 1 < too_long) {
         const std::size_t middle = (fits + too_long) / 2;
         (canvas.text_width(with_dots(middle), size) <= width ? fits : too_long) = middle;
@@ -97,17 +139,62 @@ void gauge(Canvas& canvas, const Box& box, double part, Color color, std::span<c
     canvas.outline(box, colors::muted, 1);
 }
 
-void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries) {
+namespace {
+
+// Of legends with letters of that size.
+struct Spaces {
+    explicit Spaces(double size)
+        : swatch(size * 10 / 11), before_name(size * 5 / 11), between(size * 14 / 11) {}
+    double swatch, before_name, between;
+};
+
+double legend_width(const Canvas& canvas, std::span<const Entry> entries, double size) {
+    const Spaces spaces(size);
+    double width = -spaces.between;
+    for (const Entry& entry : entries)
+        width += spaces.swatch + spaces.before_name + canvas.text_width(entry.name, size) +
+                 spaces.between;
+    return std::max(width, 0.0);
+}
+
+}  // namespace
+
+void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size) {
+    const Spaces spaces(size);
+    const double y = box.center().y, swatch = spaces.swatch;
+    const TextStyle style{.size = size, .color = colors::muted};
+    const bool all = legend_width(canvas, entries, size) <= box.width + 0.5;
+    const double right = all ? box.right() + 1 : box.right() - 2 * size;  // room for "+12"
     double x = box.x;
-    const double y = box.center().y, swatch = 10;
-    for (const Entry& entry : entries) {
-        const double width = swatch + 5 + canvas.text_width(entry.name, 11);
-        if (x + width > box.right()) break;
-        canvas.fill({x, y - swatch / 2, swatch, swatch}, entry.color, 2);
-        canvas.outline({x, y - swatch / 2, swatch, swatch}, colors::muted, 0.5, 2);
-        canvas.text({x + swatch + 5, y}, entry.name, {.size = 11, .color = colors::muted});
-        x += width + 14;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const double width = swatch + spaces.before_name + canvas.text_width(entries[i].name, size);
+        if (x + width > right) {
+            canvas.text({x, y}, "+" + std::to_string(entries.size() - i), style);
+            return;
+        }
+        const Box square{x, y - swatch / 2, swatch, swatch};
+        canvas.fill(square, entries[i].color, 2);
+        canvas.outline(square, colors::muted, 0.5, 2);
+        canvas.text({x + swatch + spaces.before_name, y}, entries[i].name, style);
+        x += width + spaces.between;
     }
+}
+
+bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
+    const double size = legend_width(canvas, entries, 11) <= box.width ? 11 : 9;
+    const Spaces spaces(size);
+    if (legend_width(canvas, entries, size) > box.width) {
+        if (entries.size() <= 2) return false;
+        // Each name has as much room as the others, if that tells anything.
+        constexpr double least = 28;
+        const double room = (box.width + spaces.between) / static_cast<double>(entries.size()) -
+                            spaces.swatch - spaces.before_name - spaces.between;
+        for (Entry& entry : entries)
+            entry.name = shortened_name(canvas, entry.name, size, std::max(room, least));
+    }
+    const double width = legend_width(canvas, entries, size);
+    legend(canvas, box.rightmost(std::min(width, box.width)), entries, size);
+    return true;
 }
 
 Grid::Grid(const Box& outer, int wanted_columns, int wanted_rows, bool square)

@@ -37,8 +37,15 @@ struct Plane {
     double left, bottom, factor;
 };
 
+// Round numbers below a field and at its left, in the room that is left for them.
+inline constexpr double room_below = 14, room_at_left = 26;
+void field_ticks(Canvas& canvas, const Box& field, const Scale& across, const Scale& up);
+void field_ticks(Canvas& canvas, const Plane& plane);
+
 // A label that fits: shortened with "…" where it does not, or nothing.
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width);
+// The same of an object or a value, whose end tells it from others: "reservoi…217".
+std::string shortened_name(const Canvas& canvas, std::string_view name, double size, double width);
 void label(Canvas& canvas, const Box& box, std::string_view text, TextStyle style = {});
 
 void arrow(Canvas& canvas, Point from, Point to, Color color, double thickness = 2);
@@ -51,12 +58,16 @@ struct Mark {
 void gauge(Canvas& canvas, const Box& box, double part, Color color,
            std::span<const Mark> marks = {});
 
-// Swatches with names, in a row from the left; those that do not fit are left out.
+// Swatches with names, in a row from the left, with letters of that size. "+3" tells how many do
+// not fit.
 struct Entry {
     std::string name;
     Color color;
 };
-void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries);
+void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size = 11);
+// At the right of the box instead; where room is short, with smaller letters and shorter names.
+// False: of one or two, not all have room, and none is drawn.
+bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
 
 // A grid of cells in a box: square where that is sensible.
 struct Grid {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <render/canvas.hpp>
 
+#include <cmath>
+#include <vector>
+
 namespace rddl::render {
 
 namespace {
@@ -52,6 +55,56 @@ TEST(Canvas, DrawsCellsWithoutBlurringThem) {
     EXPECT_EQ(at(picture, 120, 109), 0x00ff00u);
     EXPECT_EQ(at(picture, 119, 110), 0x0000ffu);
     EXPECT_EQ(at(picture, 139, 119), 0x123456u);
+}
+
+TEST(Canvas, AveragesCellsOfWhichThereAreMoreThanPixels) {
+    Canvas canvas(600, 400);
+    canvas.clear(colors::white);
+    // Four rows in two pixels: red and blue, then green twice. The columns stay as sharp as ever.
+    const std::uint32_t cells[] = {0xff0000, 0, 0x0000ff, 0, 0x00ff00, 0, 0x00ff00, 0};
+    canvas.cells({100, 100, 40, 2}, 2, 4, cells);
+    Picture picture;
+    canvas.read(picture);
+    EXPECT_EQ(at(picture, 119, 100), 0x800080u);
+    EXPECT_EQ(at(picture, 120, 100), 0x000000u);
+    EXPECT_EQ(at(picture, 119, 101), 0x00ff00u);
+    // As many columns: 3,000 cells of which each third is white.
+    std::vector<std::uint32_t> many(3000);
+    for (std::size_t i = 0; i < many.size(); i += 3) many[i] = 0xffffff;
+    canvas.cells({0, 200, 500, 1}, 3000, 1, many);
+    canvas.read(picture);
+    for (int x = 0; x < 500; ++x) EXPECT_EQ(at(picture, x, 200), 0x555555u) << x;
+}
+
+TEST(Canvas, GoesOnAfterWhatIsNoNumberAndWhatIsFarOff) {
+    Canvas canvas(600, 400);
+    for (const double odd : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1e300, 0.0}) {
+        canvas.clear(colors::white);
+        {
+            const Canvas::Saved saved = canvas.moved({odd, 0}, odd, odd);
+            canvas.fill({0, 0, 10, 10}, colors::ink);
+        }
+        canvas.ring({0, 0}, odd, colors::ink, odd);
+        canvas.disc({odd, odd}, odd, colors::ink);
+        canvas.arc({300, 200}, 10, 0, odd, colors::ink);
+        canvas.line({odd, 0}, {0, odd}, colors::ink, odd);
+        canvas.outline({odd, odd, odd, odd}, colors::ink, 1, odd);
+        canvas.text({odd, odd}, "a", {.size = odd, .turn = odd});
+        const std::uint32_t cell = 0;
+        canvas.cells({odd, 0, odd, odd}, 1, 1, {&cell, 1});
+        { const Canvas::Saved saved = canvas.clipped({odd, odd, odd, odd}); }
+        canvas.fill({100, 100, 50, 30}, colors::vermilion);
+        Picture picture;
+        canvas.read(picture);
+        EXPECT_EQ(at(picture, 120, 110), 0xd55e00u) << odd;
+    }
+    // A line with an end that nobody knows is not drawn at all, nor is what stands there.
+    canvas.clear(colors::white);
+    canvas.line({100, 100}, {std::nan(""), 100}, colors::ink, 9);
+    canvas.disc({100, std::nan("")}, 50, colors::ink);
+    Picture picture;
+    canvas.read(picture);
+    for (const std::uint32_t pixel : picture.pixels) ASSERT_EQ(pixel, 0xffffffu);
 }
 
 TEST(Canvas, WritesTextInTheFontThatIsBuiltIn) {

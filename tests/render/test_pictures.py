@@ -109,6 +109,28 @@ class Files(PictureTest):
         self.assertEqual((self.folder / "last.png").read_bytes(),
                          (self.folder / "all/000030.png").read_bytes())
 
+    def test_standard_output(self):
+        """For other programs; nothing else stands there, and no file is written."""
+        self.run_car("--trace=t.jsonl", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html")
+        before = self.left_behind()
+        for kind in "gif", "png", "svg", "html":
+            for words in (["render", "t.jsonl"], ["render", "-"]):
+                with open(self.folder / "t.jsonl") as trace:
+                    done = subprocess.run([RDDL, *words, f"--{kind}=-"], cwd=self.folder, stdin=trace, check=True,
+                                          capture_output=True, env=environment())
+                self.assertEqual(done.stderr, b"")
+                wanted = (self.folder / f"a.{kind}").read_bytes()
+                if kind == "html":  # the name of the episode is the trace's
+                    self.assertEqual(done.stdout[-1000:], wanted[-1000:])
+                else:  # cairo numbers what it has drawn
+                    self.assertEqual(re.sub(rb"surface\d+", b"", done.stdout), re.sub(rb"surface\d+", b"", wanted))
+            text = self.run_car(f"--{kind}=-", "--json", status=USAGE).stderr
+            self.assertIn("both write to standard output", text)
+        for words in ["--gif=-", "--png=-"], ["--html=-", "--watch"], ["--svg=-", "--trace=-"]:
+            self.assertIn("both write to standard output", self.run_car(*words, status=USAGE).stderr)
+        self.assertIn("not '-'", self.run_car("--video=-", status=USAGE).stderr)
+        self.assertEqual(self.left_behind(), before)
+
     def test_render_draws_what_run_draws(self):
         self.run_car("--gif=a.gif", "--trace=t.jsonl", "--episodes=3", "--environment=1")
         self.rddl("render", "t.jsonl", "--gif=b.gif", "--environment=1")
@@ -303,6 +325,10 @@ class Errors(PictureTest):
         self.assertIn("nothing to write", self.refuse("render", "t.jsonl", status=USAGE))
         text = self.run_car("--video=a.avi", status=USAGE).stderr
         self.assertIn(".mp4, .webm or .webp", text)
+        text = self.run_car("--png=a.jpg", status=USAGE).stderr
+        self.assertIn("a picture is a file .png, or a folder of them, not 'a.jpg'", text)
+        self.run_car("--png=b.PNG")
+        self.assertTrue((self.folder / "b.PNG").is_file())
         text = self.run_car("--png=a.png", "--step=99", status=DIAGNOSED).stderr
         self.assertIn("there is no state 99: the episode has 30 steps", text)
 
@@ -314,6 +340,16 @@ class Errors(PictureTest):
 
 
 class Terminal(PictureTest):
+    def test_files_are_not_written_to_terminals(self):
+        for option in "--gif=-", "--html=-":
+            ours, theirs = pty.openpty()
+            done = subprocess.run([RDDL, "run", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", option],
+                                  stdout=theirs, stderr=subprocess.PIPE, env=environment(), text=True)
+            os.close(theirs)
+            self.assertEqual(self.rest_of(ours), "")
+            self.assertEqual(done.returncode, USAGE)
+            self.assertIn("standard output is a terminal", done.stderr)
+
     def start(self, *words, size=(24, 80), **variables) -> tuple[subprocess.Popen, int]:
         """The program in a terminal of so many rows and columns, and what reads its screen."""
         ours, theirs = pty.openpty()
@@ -426,81 +462,6 @@ class Terminal(PictureTest):
         for option in "--json", "--trace=-":
             refused = self.run_car("--watch", option, status=USAGE)
             self.assertIn("both write to standard output", refused.stderr)
-
-
-class Scenes(PictureTest):
-    """Scene files; docs/scenes.md shows what they may hold."""
-    DRAWN = {"game_of_life": ("GameOfLife_MDP_ippc2011", "8", "2"),
-             "wildfire": ("Wildfire_MDP_ippc2014", "5", "6")}
-
-    def draw(self, scene: dict | str, status=SUCCESS) -> str:
-        text = scene if isinstance(scene, str) else json.dumps(scene)
-        (self.folder / "scene.json").write_text(text)
-        return self.run_car("--png=a.png", "--scene=scene.json", "--step=3", status=status).stderr
-
-    def test_scenes_that_are_shipped(self):
-        for name, (problem, instance, step) in self.DRAWN.items():
-            self.rddl("run", problem, instance, "--engine=interpreter", "--quiet", "--png=a.png",
-                      f"--step={step}", f"--scene={ROOT}/runtime/render/scenes/{name}.json",
-                      f"--size={gallery.SIZE[0]}x{gallery.SIZE[1]}")
-            with Image.open(self.folder / "a.png") as picture:
-                now = numpy.asarray(picture.convert("RGB"), dtype=int)
-            with Image.open(gallery.PICTURES.parent / f"scene_{name}.png") as picture:
-                wanted = numpy.asarray(picture.convert("RGB"), dtype=int)
-            self.assertLessEqual(differing(now, wanted), MOST_STRONG)
-
-    def test_values_of_the_state_and_action(self):
-        """Circles where the state says, as large as the action says."""
-        scene = {"world": {"left": -1.5, "bottom": -1, "right": 1.5, "top": 1}, "shapes": [
-            {"shape": "circle", "x": "position", "y": 0, "radius": "0.1 + 0.3 * abs[throttle]",
-             "color": {"if": "velocity < 0", "then": "#ff0000", "else": "#00ff00"}}]}
-        self.draw(scene)
-        self.run_car("--trace=t.jsonl")
-        step = json.loads((self.folder / "t.jsonl").read_text().splitlines()[4])
-        with Image.open(self.folder / "a.png") as picture:
-            pixels = numpy.asarray(picture.convert("RGB"), dtype=int)
-        color = (255, 0, 0) if step["state"]["velocity"] < 0 else (0, 255, 0)
-        y, x = numpy.nonzero((pixels == color).all(axis=2))
-        # The world is as high as the body of the picture: 400 - 26 - 26 - 16 points for 2 units.
-        unit = 332 / 2
-        self.assertAlmostEqual((x.min() + x.max()) / 2, 300 + unit * step["state"]["position"], delta=1.5)
-        radius = 0.1 + 0.3 * abs(step["action"].get("throttle", 0))
-        self.assertAlmostEqual((x.max() - x.min()) / 2, unit * radius, delta=1.5)
-
-    def test_mistakes_in_expressions(self):
-        world = '{"world": {"right": 1, "top": 1},\n "shapes": [{"shape": "circle", "y": 0, "radius": 1,\n  "x": "%s"}]}'
-        for expression, place, complaint in (
-                ("positoin", "3:9", "E02"), ("position +", "3:", "E01"), ("position 3", "3:17", "E0101"),
-                ("?x", "3:8", "E0202"), ("(position", "3:", "E01"), ("", "3:", "E01"),
-                ("position == @a", "3:", "E0")):
-            text = self.draw(world % expression, status=DIAGNOSED)
-            self.assertIn("scene.json:3:", text, expression)
-            self.assertIn(complaint, text, expression)
-            self.assertIn("^", text, expression)
-            self.assertFalse((self.folder / "a.png").exists())
-
-    def test_mistakes_in_the_file(self):
-        circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
-        for scene, complaint in (
-                ("{", "this is no JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
-                ('{"shapes": [], "shapes": []}', "given twice"),
-                ({"shapes": [{}]}, "'shape' of the shape is missing"),
-                ({"shapes": [{"shape": "cirle"}]}, "did you mean 'circle'?"),
-                ({"shapes": [{"shape": "circle"}]}, "'x' of the circle is missing"),
-                ({"shapes": [{**circle, "colour": "red"}]}, "did you mean 'color'?"),
-                ({"shapes": [{**circle, "color": "vermillion"}]}, "did you mean 'vermilion'?"),
-                ({"shapes": [{**circle, "color": {"if": "true"}}]}, "'then' of the color is missing"),
-                ({"shapes": [{**circle, "x": True}]}, "a number, or a text"),
-                ({"shapes": [{**circle, "visible": 1}]}, "a condition is a text"),
-                ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "begins with '?'"),
-                ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a {b"}]}, "is not closed"),
-                ({"shapes": [{"shape": "polygon", "points": [[0, 0]]}]}, "three or more")):
-            text = self.draw(scene, status=DIAGNOSED)
-            self.assertRegex(text, r"scene.json:\d+:\d+: ")
-            self.assertIn(complaint, text)
-        self.assertIn("is not declared", self.draw(
-            {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
-        self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
 
 
 class Gallery(PictureTest):

@@ -55,6 +55,21 @@ TEST(Shortened, FitsAndKeepsWholeCharacters) {
     EXPECT_EQ(shortened(canvas, "level", 12, 1), "");
 }
 
+TEST(Shortened, KeepsTheEndsOfNames) {
+    const Canvas canvas(600, 400);
+    EXPECT_EQ(shortened_name(canvas, "c1", 9, 64), "c1");
+    const std::string a = shortened_name(canvas, "reservoir_in_the_north_117", 9, 64);
+    const std::string b = shortened_name(canvas, "reservoir_in_the_north_118", 9, 64);
+    EXPECT_LE(canvas.text_width(a, 9), 64);
+    EXPECT_TRUE(a.starts_with("res") && a.ends_with("117")) << a;
+    EXPECT_NE(a, b);
+    for (double width = 0; width < 100; width += 3) {  // whole characters
+        const std::string text = shortened_name(canvas, "ääääääääääääääääääää", 12, width);
+        EXPECT_TRUE(text.empty() || (text.size() - 3) % 2 == 0) << text;
+    }
+    EXPECT_EQ(shortened_name(canvas, "level", 12, 1), "");
+}
+
 TEST(Plane, HasOneScaleInBothDirections) {
     const Plane plane({0, 0, 400, 100}, -1, -1, 1, 1);
     const Point origin = plane(0, 0), x = plane(0.5, 0), y = plane(0, 0.5);

@@ -76,6 +76,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     if (!options.pictures.any())
         throw Failure("there is nothing to write",
                       "say --gif, --png, --svg, --video, --html or --watch", usage_error);
+    require_one_on_standard_output(options.pictures);
     if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;
     // The first line says which problem it is, which would say how long lines can be.
@@ -97,7 +98,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     give_up_if_interrupted("drawing");
     const std::string what = pictures.finish();
-    if (!options.quiet) fmt::print("{}\n", what);
+    if (!options.quiet && !options.pictures.any_on_standard_output()) fmt::print("{}\n", what);
     return success;
 }
 
@@ -127,6 +128,8 @@ Command render_command() {
                     "With --html: a second trace of the problem, shown in step with the first",
                     options->beside);
     add_picture_options(command, options->pictures);
+    add_extern_option(command, options->load,
+                      "C++ header or shared object of the external functions of the problem");
     add_flag(command, "--quiet", "Print nothing", options->quiet);
     command.run = [options] {
         // Nothing is stepped: the interpreter is there at once.

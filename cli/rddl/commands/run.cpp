@@ -194,10 +194,9 @@ void require_drawn_episode(const RunOptions& options) {
         throw Failure(fmt::format("there is no episode {} to draw: {} run, counted from 0", episode,
                                   options.rollouts.episodes),
                       {}, usage_error);
-    if (options.pictures.watch && (options.json || options.trace == "-"))
-        throw Failure(fmt::format("{} and --watch both write to standard output",
-                                  options.json ? "--json" : "--trace -"),
-                      {}, usage_error);
+    require_one_on_standard_output(options.pictures, options.json           ? "--json"
+                                                     : options.trace == "-" ? "--trace -"
+                                                                            : "");
 }
 
 // An episode that is over before its first step has no line in the trace; its state is drawn.
@@ -277,7 +276,7 @@ ExitStatus run(const RunOptions& options) {
                               explainer);
     if (options.json)
         print_json(options, summary, rollouts, problem, explainer);
-    else if (!options.quiet && options.trace != "-")
+    else if (!options.quiet && options.trace != "-" && !options.pictures.any_on_standard_output())
         print_summary(options, summary, rollouts, problem, explainer);
     if (rollouts.first_fault) report_faults(summary, *rollouts.first_fault);
     const bool failed = summary.refused > 0 || all_faulted(summary);

@@ -188,8 +188,11 @@ void write(const Chart& chart, const ChartFiles& files) {
 
 void require_writable_chart(const ChartFiles& files) {
     UsedFiles used;
-    for (const std::string& file : {files.png, files.svg})
+    for (const std::string& file : {files.png, files.svg}) {
+        if (file == "-")
+            throw Failure("a chart is not written to standard output", "name a file", usage_error);
         if (!file.empty()) require_writable(file, used);
+    }
 }
 
 void write_chart(const CurveChart& chart, const ChartFiles& files) {

@@ -7,9 +7,12 @@
 #include <render/gif.hpp>
 #include <render/png.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace rddlc::cli {
@@ -20,6 +23,25 @@ namespace render = rddl::render;
 namespace {
 
 constexpr double last_frame_seconds = 1.5;  // before a movie begins anew
+
+bool is_standard_output(const std::string& path) {
+    return path == "-";
+}
+
+OutputFile open_output(const std::string& path, const UsedFiles& used) {
+    return is_standard_output(path) ? OutputFile::standard_output(used) : OutputFile(path, used);
+}
+
+void require_output(const std::string& path, const UsedFiles& used) {
+    if (!is_standard_output(path)) require_writable(path, used);
+}
+
+void write_output(const std::string& path, std::string_view bytes, UsedFiles& used) {
+    if (!is_standard_output(path)) return write_file(path, bytes, used);
+    OutputFile file = open_output(path, used);
+    file.write(bytes);
+    file.finish();
+}
 
 using BytesOf = std::string (*)(render::Film&);
 
@@ -34,7 +56,7 @@ std::string svg_of(render::Film& film) {
 // A file of one state. It is written at the end, when all else has gone well.
 Output single_output(const std::string& path, std::optional<std::int64_t> step, BytesOf bytes_of,
                      UsedFiles& used) {
-    require_writable(path, used);
+    require_output(path, used);
     const auto bytes = std::make_shared<std::optional<std::string>>();
     Output output;
     output.begin = [](const Show&) {
@@ -47,7 +69,7 @@ Output single_output(const std::string& path, std::optional<std::int64_t> step, 
                 fmt::format("there is no state {}: the episode has {} steps", *step, number));
     };
     output.finish = [=, &used] {
-        write_file(path, bytes->value(), used);
+        write_output(path, bytes->value(), used);
     };
     return output;
 }
@@ -73,8 +95,19 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
 
 Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
                     BytesOf bytes_of, UsedFiles& used) {
-    return fs::path(path).extension() == ending ? single_output(path, options.step, bytes_of, used)
-                                                : folder_output(path, ending, bytes_of, used);
+    std::string extension = fs::path(path).extension();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+    // Nobody means a folder.
+    for (const char* const other : {".png", ".svg", ".gif", ".jpg", ".jpeg", ".webp", ".bmp",
+                                    ".pdf", ".html", ".mp4", ".webm"})
+        if (extension == other && extension != ending)
+            throw Failure(
+                fmt::format("a picture is a file {}, or a folder of them, not '{}'", ending, path),
+                {}, usage_error);
+    const bool single = is_standard_output(path) || extension == ending;
+    return single ? single_output(path, options.step, bytes_of, used)
+                  : folder_output(path, ending, bytes_of, used);
 }
 
 }  // namespace
@@ -86,7 +119,7 @@ Output gif_output(const PictureOptions& options, UsedFiles& used) {
         double seconds = 0;
 
         Gif(const std::string& path, int width, int height, UsedFiles& in_use)
-            : file(path, in_use),
+            : file(open_output(path, in_use)),
               writer(width, height, [this](std::string_view bytes) { file.write(bytes); }) {}
     };
     const auto gif = std::make_shared<Gif>(options.gif, options.width, options.height, used);
@@ -132,7 +165,7 @@ Output svg_output(const PictureOptions& options, UsedFiles& used) {
 }
 
 Output page_output(const PictureOptions& options, UsedFiles& used) {
-    require_writable(options.html, used);
+    require_output(options.html, used);
     const auto page = std::make_shared<std::optional<render::ReplayPage>>();
     Output output;
     output.begin = [=](const Show& show) {
@@ -144,7 +177,7 @@ Output page_output(const PictureOptions& options, UsedFiles& used) {
         if (drawn.in_movie) (*page)->add(drawn.film.moment(), drawn.film.picture());
     };
     output.finish = [=, &used] {
-        write_file(options.html, (*page)->html(), used);
+        write_output(options.html, (*page)->html(), used);
     };
     return output;
 }

@@ -1,10 +1,14 @@
 #include "pictures/picture_options.hpp"
 
 #include "pictures/charts.hpp"
+#include "support/failure.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <limits>
+#include <vector>
 
 namespace rddlc::cli {
 
@@ -21,6 +25,29 @@ void read_size(const std::string& text, int& width, int& height) {
 
 }  // namespace
 
+bool PictureOptions::any_on_standard_output() const {
+    return gif == "-" || png == "-" || svg == "-" || html == "-";
+}
+
+void require_one_on_standard_output(const PictureOptions& options, std::string_view other) {
+    std::vector<std::string_view> writers;
+    if (!other.empty()) writers.push_back(other);
+    if (options.gif == "-") writers.emplace_back("--gif -");
+    if (options.png == "-") writers.emplace_back("--png -");
+    if (options.svg == "-") writers.emplace_back("--svg -");
+    if (options.html == "-") writers.emplace_back("--html -");
+    if (options.watch) writers.emplace_back("--watch");
+    if (writers.size() > 1)
+        throw Failure(
+            fmt::format("{} and {} both write to standard output", writers[0], writers[1]), {},
+            usage_error);
+    if (options.any_on_standard_output() && is_terminal(STDOUT_FILENO))
+        throw Failure("standard output is a terminal, which shows no files of pictures",
+                      "name a file, or send the output to another program; --watch shows episodes "
+                      "in terminals",
+                      usage_error);
+}
+
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation) {
     add_option(command, "--size", "WxH", explanation,
                [&width, &height](const std::string& text) { read_size(text, width, height); });
@@ -34,11 +61,13 @@ void add_chart_options(Command& command, ChartFiles& files) {
 
 void add_picture_options(Command& command, PictureOptions& options) {
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    add_text_option(command, "--gif", "FILE", "Write a movie of an episode", options.gif);
+    add_text_option(command, "--gif", "FILE",
+                    "Write a movie of an episode; - is stdout, here and below", options.gif);
     add_text_option(command, "--video,--mp4", "FILE",
                     "The same as .mp4, .webm or .webp, by the program ffmpeg", options.video);
     add_text_option(command, "--png", "PATH",
-                    "FILE.png: a picture of one state; another path: a folder of all", options.png);
+                    "FILE.png or -: a picture of one state; another path: a folder of all",
+                    options.png);
     add_text_option(command, "--svg", "PATH", "The same as vector graphics", options.svg);
     add_text_option(command, "--html", "FILE", "Write a page that replays the episode, in one file",
                     options.html);

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace rddlc::cli {
 
 struct PictureOptions {
-    std::string gif, video;         // files of the whole episode; empty: not wanted
+    // Files; empty: not wanted; "-": standard output, but for videos.
+    std::string gif, video;         // of the whole episode
     std::string png, svg;           // a file of one state, or a folder of all
     std::string html;               // replay page
     bool watch = false;             // in the terminal
@@ -27,7 +29,13 @@ struct PictureOptions {
         return !(gif.empty() && video.empty() && png.empty() && svg.empty() && html.empty());
     }
     bool any() const { return watch || any_file(); }
+    // A picture goes to standard output, for another program.
+    bool any_on_standard_output() const;
 };
+
+// Throws a Failure unless nothing, or one thing, is written to standard output, and pictures not to
+// a terminal. `other`: an option that writes there, too; empty: none.
+void require_one_on_standard_output(const PictureOptions& options, std::string_view other = {});
 
 // --size
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation);

@@ -1,8 +1,10 @@
 #include "scenes/scene.hpp"
 
 #include "scenes/scene_program.hpp"
+#include "support/failure.hpp"
 #include "support/match.hpp"
 
+#include <fmt/format.h>
 #include <render/shapes.hpp>
 
 #include <memory>
@@ -91,11 +93,14 @@ void draw(SceneProgram& program, render::Canvas& canvas, const render::Box& area
             if (!shape.visible || program.value(*shape.visible, g) != 0)
                 shapes.push_back(shape_of(program, shape, g));
     }
-    const double left = program.value(scene.left, 0), bottom = program.value(scene.bottom, 0);
-    render::draw_shapes(
-        canvas, area,
-        {left, bottom, program.value(scene.right, 0) - left, program.value(scene.top, 0) - bottom},
-        shapes);
+    const double left = program.value(scene.left, 0), right = program.value(scene.right, 0);
+    const double bottom = program.value(scene.bottom, 0), top = program.value(scene.top, 0);
+    if (left >= right || bottom >= top)
+        throw Failure(fmt::format("there is nothing to see of the scene's world: left {}, right "
+                                  "{}, bottom {}, top {}",
+                                  left, right, bottom, top),
+                      "'world' has its left before its right, and its bottom below its top");
+    render::draw_shapes(canvas, area, {left, bottom, right - left, top - bottom}, shapes);
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ class SceneReader {
         } catch (const nlohmann::json::parse_error& error) {
             const auto at = static_cast<std::uint32_t>(
                 std::min(error.byte > 0 ? error.byte - 1 : 0, source_.text().size()));
-            fail({file_, at, at}, "this is no JSON");
+            fail({file_, at, at}, "this is no JSON",
+                 "JSON has names and texts in double quotes, no comments, and no comma before a "
+                 "bracket that closes");
         } catch (const RepeatedMember& repeated) {
             fail(whole(), repeated.what());
         }
@@ -174,17 +176,28 @@ class SceneReader {
         return {SceneColorScale{scale, number_or(value, "low", 0), number_or(value, "high", 1)}};
     }
 
+    // What JSON writes as "\u6c34".
+    std::string without_escapes(const std::string& raw, Span span) const {
+        const Json decoded = Json::parse('"' + raw + '"', nullptr, false);
+        const auto text = decoded.is_string() ? decoded.get<std::string>() : std::string();
+        const auto is_control = [](char c) {
+            return static_cast<unsigned char>(c) < ' ';
+        };
+        if (!decoded.is_string() || std::ranges::any_of(text, is_control))
+            fail(span, "a text stands on one line");
+        return text;
+    }
+
     // "level of {?b}: {water(?b)}"
     SceneText read_text(const Json& value) {
         if (!value.is_string()) fail(place_of(value), "'text' is a text");
         const Span span = place_of(value);
         const std::string raw = source_.text().substr(span.begin, span.end - span.begin);
-        if (raw.find('\\') != std::string::npos) fail(span, "the text has no backslash");
         SceneText text;
         std::size_t at = 0;
         while (at < raw.size()) {
             const std::size_t open = std::min(raw.find('{', at), raw.size());
-            if (open > at) text.push_back(raw.substr(at, open - at));
+            if (open > at) text.push_back(without_escapes(raw.substr(at, open - at), span));
             if (open == raw.size()) break;
             const std::size_t close = raw.find('}', open);
             if (close == std::string::npos) fail(span, "a '{' is not closed");

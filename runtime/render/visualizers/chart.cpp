@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace rddl::render::chart {
 
@@ -13,6 +15,12 @@ namespace {
 
 constexpr std::int64_t most_lines = 7;  // as many as the palette has colours
 constexpr std::size_t most_panels = 24;
+constexpr double names_size = 9;
+
+// Else rows of cells.
+bool has_lines(const rddl_fluent& fluent) {
+    return fluent.scalar != RDDL_BOOL && fluent.count <= most_lines;
+}
 
 // The steps that the axis shows.
 struct Axis {
@@ -41,9 +49,7 @@ struct Panel {
                 plot.right()};
     }
     std::string objects(std::int64_t grounding) const {
-        const std::string name = moment.world().name_of(fluent, grounding);
-        const std::size_t open = name.find('(');
-        return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
+        return objects_of(moment, fluent, grounding);
     }
     const rddl_type* objects_of_range() const { return past.front().range(); }
 };
@@ -77,14 +83,18 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
             const double y = height(static_cast<double>(i));
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
             if (room >= 9)
-                canvas.text({plot.x - 4, y}, shortened(canvas, type.objects[i], 9, 52),
+                canvas.text({plot.x - 4, y},
+                            shortened_name(canvas, type.objects[i], names_size, 64),
                             {.size = 9, .color = colors::muted, .align = Align::Right});
         }
     } else {
+        double last = INFINITY;
         for (const double tick :
              ticks(height.low, height.high, static_cast<int>(plot.height / 24))) {
             const double y = height(tick);
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
+            if (last - y < 9) continue;  // it would lie on the number below
+            last = y;
             canvas.text({plot.x - 4, y}, number_text(tick),
                         {.size = 9, .color = colors::muted, .align = Align::Right});
         }
@@ -140,70 +150,74 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
     const int every = static_cast<int>(std::ceil(9.5 / row));
     for (int g = 0; g < rows && panel.fluent.rank > 0; g += every)
         canvas.text({plot.x - 4, plot.y + (g + 0.5) * row},
-                    shortened(canvas, panel.objects(g), 9, 60),
+                    shortened_name(canvas, panel.objects(g), names_size, 64),
                     {.size = 9, .color = colors::muted, .align = Align::Right});
     canvas.outline(plot, colors::rule, 0.8);
 }
 
 // What the colours mean, at the right of the title.
-void draw_key(Canvas& canvas, const Box& box, const Panel& panel, bool lines) {
-    std::vector<Entry> entries;
+void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     const Values& values = panel.past.back();
-    if (lines) {
-        if (panel.fluent.rank == 0) {
-            canvas.text({box.right(), box.center().y}, value_text(values, 0),
-                        {.size = 11, .color = series_color(0), .align = Align::Right});
-            return;
-        }
-        for (std::int64_t g = 0; g < panel.fluent.count; ++g)
-            entries.push_back({panel.objects(g), series_color(static_cast<std::size_t>(g))});
-    } else if (panel.fluent.scalar == RDDL_BOOL) {
-        entries = {{"true", colors::blue}, {"false", colors::faint}};
-    } else if (const rddl_type* const type = values.range()) {
-        for (std::int64_t i = 0; i < type->object_count; ++i)
-            entries.push_back(
-                {type->objects[i], value_color(values, static_cast<double>(i), panel.range)});
-    } else {
-        entries = {{number_text(panel.range.low), sequential_color(0)},
-                   {number_text(panel.range.high), sequential_color(1)}};
+    if (!has_lines(panel.fluent)) {
+        draw_key(canvas, box, values, panel.range);
+        return;
     }
-    // Where names are long, each has as much room as the others, if that tells anything.
-    constexpr double swatch = 29, least = 20;
-    const double room = box.width / static_cast<double>(std::max<std::size_t>(entries.size(), 1));
-    double width = 0;
-    for (const Entry& entry : entries) width += swatch + canvas.text_width(entry.name, 11);
-    if (width > box.width && room - swatch > least)
-        for (Entry& entry : entries) entry.name = shortened(canvas, entry.name, 11, room - swatch);
-    legend(canvas, box.rightmost(std::min(width, box.width)), entries);
+    if (panel.fluent.rank == 0) {
+        canvas.text({box.right(), box.center().y}, value_text(values, 0),
+                    {.size = 11, .color = series_color(0), .align = Align::Right});
+        return;
+    }
+    std::vector<Entry> entries;
+    for (std::int64_t g = 0; g < panel.fluent.count; ++g)
+        entries.push_back({panel.objects(g), series_color(static_cast<std::size_t>(g))});
+    legend_at_right(canvas, box, entries);
+}
+
+// The room for what stands at the left of a panel: numbers, or names of objects.
+double names_width(const Canvas& canvas, const Moment& moment, const rddl_fluent& fluent) {
+    double widest = 0;
+    const auto add = [&](std::string_view name) {
+        widest = std::max(widest, canvas.text_width(name, names_size));
+    };
+    if (has_lines(fluent)) {
+        const rddl_type* const type = moment.values(fluent).range();
+        if (!type) return 44;
+        for (std::int64_t i = 0; i < type->object_count; ++i) add(type->objects[i]);
+    } else if (fluent.rank > 0) {
+        const std::int64_t every = std::max<std::int64_t>(fluent.count / 30, 1);
+        for (std::int64_t g = 0; g < fluent.count; g += every) add(objects_of(moment, fluent, g));
+        add(objects_of(moment, fluent, fluent.count - 1));
+    }
+    return std::clamp(widest + 8, 12.0, 72.0);
 }
 
 void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent,
-                const Axis& axis, bool with_axis_title) {
+                const Axis& axis, double names, bool with_axis_title) {
     Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, {}};
     for (const Step& step : moment.steps()) panel.past.push_back(moment.values_in(step, fluent));
-    const bool lines = fluent.scalar != RDDL_BOOL && fluent.count <= most_lines;
-    const double names = lines && !panel.objects_of_range() ? 44
-                         : fluent.rank > 0 || lines         ? 64
-                                                            : 8;
     panel.plot = box.below(18).above(with_axis_title ? 25 : 15).after(names).before(14);
     const std::string title = shortened(canvas, fluent.name, 12, box.width * 0.7);
     canvas.text({box.x, box.y + 8}, title);
     const double used = canvas.text_width(title, 12) + 12;
-    draw_key(canvas, box.top(16).after(used).before(4), panel, lines);
-    lines ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
+    draw_panel_key(canvas, box.top(16).after(used).before(4), panel);
+    has_lines(fluent) ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
     draw_time_axis(canvas, panel, with_axis_title);
 }
 
-void draw(Canvas& canvas, const Box& area, const Moment& moment) {
+void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
     std::vector<const rddl_fluent*> fluents = state_fluents(moment.problem());
     const std::size_t left_out = fluents.size() > most_panels ? fluents.size() - most_panels : 0;
     fluents.resize(fluents.size() - left_out);
+    const Box area = left_out > 0 ? whole.above(8) : whole;
     const std::vector<Box> boxes = panel_boxes(area, fluents.size(), 3, 10);
     const Axis axis = axis_of(moment);
+    double names = 0;  // the same in all panels, so that steps stand below steps
+    for (const rddl_fluent* const fluent : fluents)
+        names = std::max(names, names_width(canvas, moment, *fluent));
     for (std::size_t i = 0; i < fluents.size(); ++i)
-        draw_panel(canvas, boxes[i], moment, *fluents[i], axis, boxes[i].height > 70);
+        draw_panel(canvas, boxes[i], moment, *fluents[i], axis, names, boxes[i].height > 70);
     if (left_out > 0)
-        canvas.text({area.right(), area.bottom() + 4},
+        canvas.text({whole.right(), whole.bottom() + 1},
                     "and " + std::to_string(left_out) + " more fluents",
                     {.size = 9, .color = colors::muted, .align = Align::Right});
 }

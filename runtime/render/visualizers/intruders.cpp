@@ -43,9 +43,10 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
     };
     grow(across, "intruder-x"), grow(across, "camera-x");
     grow(up, "intruder-y"), grow(up, "camera-y");
-    const Box body = area.above(20);
+    const Box body = area.above(20 + room_below).after(room_at_left);
     const Plane plane(body, across.low - 0.05, up.low - 0.05, across.high + 0.05, up.high + 0.05);
     canvas.fill(plane.box, rgb(0xf6f9fc), 4);
+    field_ticks(canvas, plane);
     draw_key(canvas, area.lowest(14));
     const Canvas::Saved inside = canvas.clipped(plane.box);
     const Values& left = moment["DANGER-L"];
@@ -72,7 +73,8 @@ void draw_plane(Canvas& canvas, const Box& area, const Moment& moment) {
         draw_velocity(canvas, at, moment["intruder-vx"](i), moment["intruder-vy"](i), plane,
                       colors::vermilion);
         canvas.disc(at, 6, colors::vermilion);
-        canvas.text({at.x + 8, at.y + 10}, x.object(0, i), {.size = 10, .color = colors::muted});
+        canvas.text({at.x + 8, at.y + 10}, x.object(0, i),
+                    {.size = 10, .color = colors::muted, .halo = true});
     }
 }
 

@@ -20,9 +20,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     across.add(goal_x - radius), across.add(goal_x + radius), across.add(moment.number("X0"));
     up.add(goal_y - radius), up.add(goal_y + radius), up.add(moment.number("Y0"));
     const double margin = 0.04 * std::max(across.high - across.low, up.high - up.low);
-    const Plane plane(area.above(18), across.low - margin, up.low - margin, across.high + margin,
-                      up.high + margin);
+    const Plane plane(area.above(18 + room_below).after(room_at_left), across.low - margin,
+                      up.low - margin, across.high + margin, up.high + margin);
     canvas.fill(plane.box, rgb(0xf6f7f8), 4);
+    field_ticks(canvas, plane);
     const Point goal = plane(goal_x, goal_y);
     canvas.disc(goal, plane.length(radius), rgb(0xbfe3d6));
     canvas.ring(goal, plane.length(radius), colors::green, 1.5);

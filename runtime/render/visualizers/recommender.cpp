@@ -64,7 +64,7 @@ void draw_features(Canvas& canvas, const Box& box, const Moment& moment) {
                 return std::abs(other.x - beside.x) < 24 && std::abs(other.y - beside.y) < 11;
             }))
             continue;
-        canvas.text(beside, competence.object(0, p), {.size = 9});
+        canvas.text(beside, competence.object(0, p), {.size = 9, .halo = true});
         named.push_back(beside);
     }
 }

@@ -11,7 +11,8 @@ namespace rddl::render::traffic {
 namespace {
 
 struct Street {
-    Point from, to;  // in the world
+    Point from, to;                                         // in the world
+    bool leaves_crossing = false, enters_crossing = false;  // else it begins or ends at the edge
 };
 
 std::vector<Street> streets(const Moment& moment) {
@@ -22,8 +23,8 @@ std::vector<Street> streets(const Moment& moment) {
         Street street{{moment["SOURCE-X"](link), moment["SOURCE-Y"](link)},
                       {moment["SINK-X"](link), moment["SINK-Y"](link)}};
         for (int i = 0; i < x.count(0); ++i) {
-            if (enters.is(link, i)) street.to = {x(i), y(i)};
-            if (leaves.is(i, link)) street.from = {x(i), y(i)};
+            if (enters.is(link, i)) street.to = {x(i), y(i)}, street.enters_crossing = true;
+            if (leaves.is(i, link)) street.from = {x(i), y(i)}, street.leaves_crossing = true;
         }
         all.push_back(street);
     }
@@ -44,17 +45,20 @@ Lane lane_of(const Plane& plane, const Street& street, double offset, double gap
     const Point a = plane(street.from.x, street.from.y), b = plane(street.to.x, street.to.y);
     const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1e-9);
     const double ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
+    // Crossings need room.
     const double cut = std::min(gap, length / 3);
+    const double first = street.leaves_crossing ? cut : 0, last = street.enters_crossing ? cut : 0;
     const Point shift{-uy * offset, ux * offset};
-    return {{a.x + ux * cut + shift.x, a.y + uy * cut + shift.y},
-            {b.x - ux * cut + shift.x, b.y - uy * cut + shift.y},
+    return {{a.x + ux * first + shift.x, a.y + uy * first + shift.y},
+            {b.x - ux * last + shift.x, b.y - uy * last + shift.y},
             ux,
             uy};
 }
 
 // From the end of a lane to the beginning of another, as cars go.
-void draw_turn(Canvas& canvas, const Lane& from, const Lane& to, double reach, double thickness) {
+void draw_turn(Canvas& canvas, const Lane& from, const Lane& to, double gap, double thickness) {
     const Point a = from.end, d = to.begin;
+    const double reach = std::min(0.7 * gap, 0.7 * std::hypot(d.x - a.x, d.y - a.y));
     const Point b{a.x + from.ux * reach, a.y + from.uy * reach};
     const Point c{d.x - to.ux * reach, d.y - to.uy * reach};
     std::vector<Point> way;
@@ -95,19 +99,32 @@ void draw_flow(Canvas& canvas, const Lane& lane, const Moment& moment, int link,
     }
 }
 
-void draw_queues(Canvas& canvas, const Lane& lane, const Moment& moment, int link, double width) {
+struct Queue {
+    double cars = 0;
+    double part = 0;  // of the lane; a car takes four points
+};
+
+Queue queue_of(const Lane& lane, const Moment& moment, int link) {
     const Values& waiting = moment["q"];
-    double total = 0;
-    for (int to = 0; to < waiting.count(1); ++to) total += waiting(link, to);
-    if (total < 0.05) return;
-    // A car is six metres, or four points where streets are short.
+    Queue queue;
+    for (int to = 0; to < waiting.count(1); ++to) queue.cars += waiting(link, to);
     const double length = std::hypot(lane.end.x - lane.begin.x, lane.end.y - lane.begin.y);
-    const double part = std::clamp(total * 4 / std::max(length, 1.0), 0.0, 1.0);
-    canvas.line(lane.at(1 - part), lane.end, colors::vermilion, width * 0.8);
-    const Point at = lane.at(1 - part);
-    canvas.text({at.x - lane.uy * (width + 5), at.y + lane.ux * (width + 5)},
-                number_text(std::round(total * 10) / 10),
-                {.size = 9, .color = colors::vermilion, .align = Align::Center});
+    queue.part = std::clamp(queue.cars * 4 / std::max(length, 1.0), 0.0, 1.0);
+    return queue;
+}
+
+void draw_queue(Canvas& canvas, const Lane& lane, const Queue& queue, double width) {
+    canvas.line(lane.at(1 - queue.part), lane.end, colors::vermilion, width * 0.8);
+}
+
+// At the side of the road, where no turn goes.
+void tell_queue(Canvas& canvas, const Lane& lane, const Queue& queue, double width) {
+    const double length = std::hypot(lane.end.x - lane.begin.x, lane.end.y - lane.begin.y);
+    const double back = std::max(queue.part, std::min(20 / std::max(length, 1.0), 1.0));
+    const Point at = lane.at(1 - back);
+    canvas.text({at.x - lane.uy * (width + 6), at.y + lane.ux * (width + 6)},
+                number_text(std::round(queue.cars * 10) / 10),
+                {.size = 10, .color = colors::vermilion, .align = Align::Center, .halo = true});
 }
 
 void draw(Canvas& canvas, const Box& area, const Moment& moment) {
@@ -117,17 +134,17 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
         for (const Point point : {street.from, street.to}) {
             across.add(point.x), up.add(point.y);
         }
-    const double margin = 0.06 * std::max(across.high - across.low, up.high - up.low);
-    const Plane plane(area.above(20), across.low - margin, up.low - margin, across.high + margin,
-                      up.high + margin);
+    const Plane plane(area.above(20).inset(24, 16), across.low, up.low, across.high, up.high);
     const Values &turns = moment["TURN"], &enters = moment["LINK-TO"];
     const bool many = all.size() > 30;
-    const double width = many ? 5 : 12, gap = many ? 14 : 44;
+    const double width = many ? 5 : 14, gap = many ? 14 : 48;
     std::vector<Lane> lanes;
+    std::vector<Queue> queues;
     for (const Street& street : all) lanes.push_back(lane_of(plane, street, width * 0.75, gap));
     for (std::size_t link = 0; link < lanes.size(); ++link) {
         draw_flow(canvas, lanes[link], moment, static_cast<int>(link), width);
-        draw_queues(canvas, lanes[link], moment, static_cast<int>(link), width);
+        queues.push_back(queue_of(lanes[link], moment, static_cast<int>(link)));
+        if (queues[link].cars >= 0.05) draw_queue(canvas, lanes[link], queues[link], width);
     }
     for (int from = 0; from < turns.count(0); ++from)
         for (int to = 0; to < turns.count(1); ++to) {
@@ -135,8 +152,10 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
             for (int i = 0; i < enters.count(1); ++i)
                 if (enters.is(from, i) && is_green(moment, i, from, to))
                     draw_turn(canvas, lanes[static_cast<std::size_t>(from)],
-                              lanes[static_cast<std::size_t>(to)], gap * 0.7, many ? 1.2 : 2);
+                              lanes[static_cast<std::size_t>(to)], gap, many ? 1.2 : 2);
         }
+    for (std::size_t link = 0; link < lanes.size(); ++link)
+        if (queues[link].cars >= 0.05) tell_queue(canvas, lanes[link], queues[link], width);
     const Entry entries[] = {{"flow, darker where denser", colors::sky},
                              {"waiting cars", colors::vermilion},
                              {"green turns", colors::green}};

@@ -36,10 +36,18 @@ void draw_aircraft(Canvas& canvas, Point place, double heading, Color color) {
 
 void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View& view) {
     canvas.text({box.x, box.y + 6}, view.title, {.size = 11, .color = colors::muted});
-    const Box field = box.below(18);
+    const Box field = box.below(18).above(room_below).after(room_at_left);
     canvas.fill(field, rgb(0xf6f9fc));
     canvas.outline(field, colors::rule, 0.8);
     const Plane plane = plane_of(field.inset(10), moment, view);
+    const auto number_at = [&](Point at) {
+        return Point{plane.left + (at.x - plane.box.x) / plane.factor,
+                     plane.bottom + (plane.box.bottom() - at.y) / plane.factor};
+    };
+    const Point low = number_at({field.x, field.bottom()});
+    const Point high = number_at({field.right(), field.y});
+    field_ticks(canvas, field, {low.x, high.x, field.x, field.right()},
+                {low.y, high.y, field.bottom(), field.y});
     const Canvas::Saved inside = canvas.clipped(field);
     const Values& x = moment[view.across];
     const Values &goal_x = moment[view.goal_across], &goal_y = moment[view.goal_up];
@@ -64,7 +72,8 @@ void draw_view(Canvas& canvas, const Box& box, const Moment& moment, const View&
                 break;
             }
         draw_aircraft(canvas, now, heading, color);
-        canvas.text({now.x + 10, now.y - 10}, x.object(0, i), {.size = 10, .color = colors::muted});
+        canvas.text({now.x + 10, now.y - 10}, x.object(0, i),
+                    {.size = 10, .color = colors::muted, .halo = true});
     }
 }
 

@@ -2,6 +2,8 @@
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 
+#include <algorithm>
+
 namespace rddl::render::wildfire {
 
 namespace {
@@ -26,7 +28,15 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     const Values &burning = moment["burning"], &empty = moment["out-of-fuel"];
     const Values& target = moment["TARGET"];
     const int columns = burning.count(0), rows = burning.count(1);
-    const Grid grid(area.above(20), columns, rows);
+    const Grid grid(area.above(34).after(30), columns, rows);
+    const double narrowest = std::min(grid.cell(0, 0).width, grid.cell(0, 0).height);
+    for (int x = 0; x < columns && narrowest >= 14; ++x)
+        label(canvas, Box{grid.cell(x, 0).x, grid.box.bottom() + 2, grid.cell(x, 0).width, 12},
+              burning.object(0, x), {.size = 9, .color = colors::muted, .align = Align::Center});
+    for (int y = 0; y < rows && narrowest >= 14; ++y)
+        label(canvas,
+              Box{grid.box.x - 34, grid.cell(0, rows - 1 - y).y, 30, grid.cell(0, 0).height},
+              burning.object(1, y), {.size = 9, .color = colors::muted, .align = Align::Right});
     for (int x = 0; x < columns; ++x)
         for (int y = 0; y < rows; ++y) {
             const Box cell = grid.cell(x, rows - 1 - y).inset(1);

@@ -1,0 +1,104 @@
+"""Scene files; docs/scenes.md shows what they may hold."""
+
+import json
+import unittest
+
+import numpy
+from PIL import Image
+from test_pictures import DIAGNOSED, MOST_STRONG, ROOT, SUCCESS, PictureTest, differing, gallery
+
+
+class Scenes(PictureTest):
+    DRAWN = {"game_of_life": ("GameOfLife_MDP_ippc2011", "8", "2"),
+             "wildfire": ("Wildfire_MDP_ippc2014", "5", "6")}
+
+    def draw(self, scene: dict | str, status=SUCCESS) -> str:
+        text = scene if isinstance(scene, str) else json.dumps(scene)
+        (self.folder / "scene.json").write_text(text)
+        return self.run_car("--png=a.png", "--scene=scene.json", "--step=3", status=status).stderr
+
+    def test_scenes_that_are_shipped(self):
+        for name, (problem, instance, step) in self.DRAWN.items():
+            self.rddl("run", problem, instance, "--engine=interpreter", "--quiet", "--png=a.png",
+                      f"--step={step}", f"--scene={ROOT}/runtime/render/scenes/{name}.json",
+                      f"--size={gallery.SIZE[0]}x{gallery.SIZE[1]}")
+            with Image.open(self.folder / "a.png") as picture:
+                now = numpy.asarray(picture.convert("RGB"), dtype=int)
+            with Image.open(gallery.PICTURES.parent / f"scene_{name}.png") as picture:
+                wanted = numpy.asarray(picture.convert("RGB"), dtype=int)
+            self.assertLessEqual(differing(now, wanted), MOST_STRONG)
+
+    def test_letters_of_all_scripts(self):
+        """Each letter that the font has not is a box; escapes of JSON are read."""
+        def drawn(text: str) -> bytes:
+            self.draw({"world": {"right": 2, "top": 1},
+                       "shapes": [{"shape": "text", "x": 1, "y": 0.5, "text": text}]})
+            return (self.folder / "a.png").read_bytes()
+
+        self.assertEqual(drawn("水位"), drawn("한국"))
+        self.assertNotEqual(drawn("水位"), drawn("水"))
+        self.assertNotEqual(drawn("ä"), drawn("水"))
+        escaped = drawn("ä")  # json.dumps writes "\\u00e4"
+        self.draw('{"world": {"right": 2, "top": 1},'
+                  ' "shapes": [{"shape": "text", "x": 1, "y": 0.5, "text": "ä"}]}')
+        self.assertEqual((self.folder / "a.png").read_bytes(), escaped)
+
+    def test_values_of_the_state_and_action(self):
+        """Circles where the state says, as large as the action says."""
+        scene = {"world": {"left": -1.5, "bottom": -1, "right": 1.5, "top": 1}, "shapes": [
+            {"shape": "circle", "x": "position", "y": 0, "radius": "0.1 + 0.3 * abs[throttle]",
+             "color": {"if": "velocity < 0", "then": "#ff0000", "else": "#00ff00"}}]}
+        self.draw(scene)
+        self.run_car("--trace=t.jsonl")
+        step = json.loads((self.folder / "t.jsonl").read_text().splitlines()[4])
+        with Image.open(self.folder / "a.png") as picture:
+            pixels = numpy.asarray(picture.convert("RGB"), dtype=int)
+        color = (255, 0, 0) if step["state"]["velocity"] < 0 else (0, 255, 0)
+        y, x = numpy.nonzero((pixels == color).all(axis=2))
+        # The world is as high as the body of the picture: 400 - 26 - 26 - 16 points for 2 units.
+        unit = 332 / 2
+        self.assertAlmostEqual((x.min() + x.max()) / 2, 300 + unit * step["state"]["position"], delta=1.5)
+        radius = 0.1 + 0.3 * abs(step["action"].get("throttle", 0))
+        self.assertAlmostEqual((x.max() - x.min()) / 2, unit * radius, delta=1.5)
+
+    def test_mistakes_in_expressions(self):
+        world = '{"world": {"right": 1, "top": 1},\n "shapes": [{"shape": "circle", "y": 0, "radius": 1,\n  "x": "%s"}]}'
+        for expression, place, complaint in (
+                ("positoin", "3:9", "E02"), ("position +", "3:", "E01"), ("position 3", "3:17", "E0101"),
+                ("?x", "3:8", "E0202"), ("(position", "3:", "E01"), ("", "3:", "E01"),
+                ("position == @a", "3:", "E0")):
+            text = self.draw(world % expression, status=DIAGNOSED)
+            self.assertIn("scene.json:3:", text, expression)
+            self.assertIn(complaint, text, expression)
+            self.assertIn("^", text, expression)
+            self.assertFalse((self.folder / "a.png").exists())
+
+    def test_mistakes_in_the_file(self):
+        circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
+        for scene, complaint in (
+                ("{", "this is no JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
+                ('{"shapes": [], "shapes": []}', "given twice"),
+                ({"shapes": [{}]}, "'shape' of the shape is missing"),
+                ({"shapes": [{"shape": "cirle"}]}, "did you mean 'circle'?"),
+                ({"shapes": [{"shape": "circle"}]}, "'x' of the circle is missing"),
+                ({"shapes": [{**circle, "colour": "red"}]}, "did you mean 'color'?"),
+                ({"shapes": [{**circle, "color": "vermillion"}]}, "did you mean 'vermilion'?"),
+                ({"shapes": [{**circle, "color": {"if": "true"}}]}, "'then' of the color is missing"),
+                ({"shapes": [{**circle, "x": True}]}, "a number, or a text"),
+                ({"shapes": [{**circle, "visible": 1}]}, "a condition is a text"),
+                ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "begins with '?'"),
+                ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a {b"}]}, "is not closed"),
+                ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a\nb"}]}, "stands on one line"),
+                ({"shapes": [{"shape": "polygon", "points": [[0, 0]]}]}, "three or more")):
+            text = self.draw(scene, status=DIAGNOSED)
+            self.assertRegex(text, r"scene.json:\d+:\d+: ")
+            self.assertIn(complaint, text)
+        self.assertIn("is not declared", self.draw(
+            {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
+        self.assertIn("nothing to see of the scene's world", self.draw(
+            {"world": {"left": 1, "right": 1, "top": 1}, "shapes": [circle]}, status=DIAGNOSED))
+        self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
