@@ -9,11 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <thread>
 
 namespace rddlc::solvers {
 namespace {
@@ -195,6 +197,32 @@ TEST(Cgp, GoesOnAsIfItHadNotStopped) {
         second.run(5);
         EXPECT_EQ(program_text(*simulator, whole.scope(), whole.best()),
                   program_text(*simulator, second.scope(), second.best()));
+    }
+}
+
+// Its sentence, from whatever thread it is.
+TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
+    static const std::thread::id caller = std::this_thread::get_id();
+    rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    CgpOptions options = small_search();
+    options.threads = 2;
+    CgpSearch search(simulator, options);
+    simulator.reset = [](rddl_batch* batch, const std::uint8_t* mask, void* observations) {
+        const auto reset = rddl_simulator_mountain_car_mountain_car_1()->reset;
+        if (std::this_thread::get_id() == caller) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others work, too
+            return reset(batch, mask, observations);
+        }
+        return rddl_error{RDDL_BAD_ARGUMENT};
+    };
+    simulator.last_error = [](const rddl_simulator*) {
+        return "the simulator's sentence";
+    };
+    try {
+        search.run(50);
+        FAIL() << "nothing was thrown";
+    } catch (const Failure& failure) {
+        EXPECT_STREQ(failure.what(), "the simulator's sentence");
     }
 }
 
