@@ -19,11 +19,11 @@ ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["--envs", 16, "--minibatch", 128, "--epochs", 10, "--lr", "1e-3"]
 # Problem, instance, solver, its options, and what a correct solver reaches (docs/solvers.md names sources).
 RUNS = [
-    ("MountainCar_ippc2023", "1", "cgp", ["--gens", 1000], "100, near 82 steps"),
-    ("MountainCar_ippc2023", "2", "cgp", ["--gens", 1000], "100, near 117 steps"),
+    ("MountainCar_ippc2023", "1", "cgp", ["--gens", 3000], "100, near 82 steps"),
+    ("MountainCar_ippc2023", "2", "cgp", ["--gens", 3000], "100, near 117 steps"),
     ("MountainCar_ippc2023", "3", "cgp", ["--gens", 3000], "100, near 147 steps"),
     ("MountainCar_ippc2023", "4", "cgp", ["--gens", 3000], "100, near 154 steps"),
-    ("MountainCar_ippc2023", "5", "cgp", ["--gens", 2000], "100, near 185 steps"),
+    ("MountainCar_ippc2023", "5", "cgp", ["--gens", 4000], "100, near 185 steps"),
     ("CartPole_Continuous_gym", "0", "ppo", ["--steps", 100000, *SMALL], "200"),
     ("CartPole_Discrete_gym", "0", "ppo", ["--steps", 100000, *SMALL], "200"),
     ("Pendulum_gym", "0", "ppo", ["--steps", 300000, "--envs", 16, "--rollout", 256, "--minibatch", 256, "--epochs", 10,
