@@ -19,11 +19,11 @@ ROOT = Path(__file__).resolve().parents[2]
 SMALL = ["--envs", 16, "--minibatch", 128, "--epochs", 10, "--lr", "1e-3"]
 # Problem, instance, solver, its options, and what a correct solver reaches (docs/solvers.md names sources).
 RUNS = [
-    ("MountainCar_ippc2023", "1", "cgp", ["--gens", 1000], "100, near 82 steps"),
-    ("MountainCar_ippc2023", "2", "cgp", ["--gens", 1000], "100, near 117 steps"),
+    ("MountainCar_ippc2023", "1", "cgp", ["--gens", 3000], "100, near 82 steps"),
+    ("MountainCar_ippc2023", "2", "cgp", ["--gens", 3000], "100, near 117 steps"),
     ("MountainCar_ippc2023", "3", "cgp", ["--gens", 3000], "100, near 147 steps"),
     ("MountainCar_ippc2023", "4", "cgp", ["--gens", 3000], "100, near 154 steps"),
-    ("MountainCar_ippc2023", "5", "cgp", ["--gens", 2000], "100, near 185 steps"),
+    ("MountainCar_ippc2023", "5", "cgp", ["--gens", 4000], "100, near 185 steps"),
     ("CartPole_Continuous_gym", "0", "ppo", ["--steps", 100000, *SMALL], "200"),
     ("CartPole_Discrete_gym", "0", "ppo", ["--steps", 100000, *SMALL], "200"),
     ("Pendulum_gym", "0", "ppo", ["--steps", 300000, "--envs", 16, "--rollout", 256, "--minibatch", 256, "--epochs", 10,
@@ -32,10 +32,11 @@ RUNS = [
     ("MountainCar_ippc2023", "2", "ppo", ["--steps", 1000000], "100"),
     ("Reservoir_ippc2023", "1", "ppo", ["--steps", 500000, *SMALL, "--gamma", 0.9, "--noise", "white", "--log-std", -1],
      "better than -700"),
-    ("Wildfire_MDP_ippc2014", "1", "ppo", ["--steps", 1500000, "--envs", 32, "--rollout", 80, "--minibatch", 256,
-                                           "--epochs", 6, "--lr", "1e-3", "--entropy", 0.01], "better than -200"),
-    ("MountainCar_ippc2023", "3", "ppo", ["--steps", 2000000, "--correlation", 0.97], "100"),
-    ("MountainCar_ippc2023", "4", "ppo", ["--steps", 2000000, "--correlation", 0.97], "100"),
+    ("Wildfire_MDP_ippc2014", "1", "ppo", ["--steps", 1000000, "--envs", 128, "--rollout", 40, "--minibatch", 512,
+                                           "--epochs", 8, "--lr", "2e-3", "--entropy", 0.01, "--hidden", "128,128",
+                                           "--evaluation-episodes", 100], "better than -200"),
+    ("MountainCar_ippc2023", "3", "ppo", ["--steps", 1000000], "100"),
+    ("MountainCar_ippc2023", "4", "ppo", ["--steps", 1000000], "100"),
     ("Reservoir_ippc2023", "1", "cgp", ["--gens", 200], ""),
     ("Wildfire_MDP_ippc2014", "1", "cgp", ["--gens", 200], ""),
 ]

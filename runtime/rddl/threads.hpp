@@ -6,9 +6,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <system_error>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rddl {
@@ -88,8 +90,8 @@ class Team {
 
     int size() const { return static_cast<int>(threads_.size()) + 1; }
 
-    // Calls job(worker) for each worker at the same time and returns when all are done. The job
-    // must not throw.
+    // Calls job(worker) for each worker at the same time and returns when all are done. Throws what
+    // a worker has thrown, the first of them if there are several, when all are done.
     template <class Job>
     void run(Job&& job) {
         if (threads_.empty()) return job(0);
@@ -99,8 +101,9 @@ class Team {
         };
         busy_.store(static_cast<int>(threads_.size()), std::memory_order_relaxed);
         wake();
-        job(0);
+        call(0);
         for (int left = busy_.load(); left != 0; left = busy_.load()) waiting_.wait(busy_, left);
+        if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
     }
 
   private:
@@ -113,14 +116,24 @@ class Team {
         for (std::uint32_t jobs_done = 0;; ++jobs_done) {
             waiting.wait(jobs_given_, jobs_done);
             if (stopping_) return;
-            call_(job_, worker);
+            call(worker);
             if (busy_.fetch_sub(1) == 1) busy_.notify_one();
+        }
+    }
+
+    void call(int worker) {
+        try {
+            call_(job_, worker);
+        } catch (...) {
+            if (!failed_.exchange(true)) failure_ = std::current_exception();
         }
     }
 
     std::vector<std::thread> threads_;
     const void* job_ = nullptr;
     void (*call_)(const void* job, int worker) = nullptr;
+    std::exception_ptr failure_;  // written by who sets failed_
+    std::atomic<bool> failed_ = false;
     bool stopping_ = false;
     Waiting waiting_;  // of the calling thread
     alignas(64) std::atomic<std::uint32_t> jobs_given_ = 0;

@@ -82,6 +82,7 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
 Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
                      std::int64_t programs, std::int64_t episodes)
     : simulator_(simulator),
+      space_(scope.observations),
       room_(programs),
       episodes_(episodes),
       batch_(create_batch(simulator, batch_options(simulator, programs * episodes))),
@@ -97,7 +98,8 @@ Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
 }
 
 void Evaluator::evaluate(std::span<const Program* const> programs,
-                         std::span<const std::uint64_t> seeds, double* returns, double* lengths) {
+                         std::span<const std::uint64_t> seeds, double* returns, double* lengths,
+                         double* reach) {
     const auto count = static_cast<std::int64_t>(programs.size());
     const std::int64_t environments = count * episodes_;
     // Those that are not needed do what the first one does, and nobody looks.
@@ -111,6 +113,7 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
     require_done(simulator_, simulator_.reset(batch_.get(), nullptr, nullptr));
     require_done(simulator_,
                  simulator_.get_observation_values(batch_.get(), RDDL_FLOAT, observations_.data()));
+    if (reach) begin_reach();
     std::fill_n(returns, environments, 0.0);
     std::fill_n(lengths, environments, 0.0);
     std::fill(ended_.begin(), ended_.end(), 0);
@@ -130,10 +133,11 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
             running_[static_cast<std::size_t>(p)] = runs;
             any |= runs;
         }
-        if (!any) return;
+        if (!any) break;
         actor_.act(batch_.get(), programs_, running_, observations_.data(), step, actions_.data());
         require_done(simulator_, simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(),
                                                         observations_.data(), &out));
+        if (reach) follow_reach();
         for (std::int64_t i = 0; i < environments; ++i) {
             const auto at = static_cast<std::size_t>(i);
             if (ended_[at]) continue;
@@ -141,6 +145,35 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
             if (causes_[at] & RDDL_FAULTED) continue;  // a step that faults is not made
             returns[i] += std::isfinite(rewards_[at]) ? rewards_[at] : -1e300;
             lengths[i] += 1;
+        }
+    }
+    if (reach) tell_reach(environments, reach);
+}
+
+void Evaluator::begin_reach() {
+    first_ = least_ = most_ = observations_;
+}
+
+// Environments whose episodes are over stay as they are.
+void Evaluator::follow_reach() {
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        least_[k] = std::min(least_[k], observations_[k]);
+        most_[k] = std::max(most_[k], observations_[k]);
+    }
+}
+
+void Evaluator::tell_reach(std::int64_t environments, double* reach) const {
+    std::size_t k = 0;
+    for (std::int64_t i = 0; i < environments; ++i) {
+        reach[i] = 0;
+        for (const ObservationSpace::Column& column : space_.columns) {
+            const bool is_bounded = std::isfinite(column.lower) && std::isfinite(column.upper) &&
+                                    column.lower < column.upper;
+            const double unit = is_bounded ? (column.upper - column.lower) / 2
+                                           : 1 + std::abs(static_cast<double>(first_[k]));
+            const double width = static_cast<double>(most_[k]) - static_cast<double>(least_[k]);
+            if (std::isfinite(width)) reach[i] += std::log1p(width / unit);
+            ++k;
         }
     }
 }

@@ -42,18 +42,26 @@ class Evaluator {
               std::int64_t episodes);
 
     // At most as many programs as there is room for. Episode e of each begins with seeds[e].
-    // Returns and lengths are program by program.
+    // Returns and lengths are program by program, as is the reach, unless it is NULL: the sum over
+    // observed values of ln(1 + how far the episode's greatest is from its least), in half widths
+    // of the value's bounds, or, where it has none, in 1 + its size in the first state.
     void evaluate(std::span<const Program* const> programs, std::span<const std::uint64_t> seeds,
-                  double* returns, double* lengths);
+                  double* returns, double* lengths, double* reach = nullptr);
     std::int64_t episodes() const { return episodes_; }
     std::int64_t room() const { return room_; }
 
   private:
+    void begin_reach();
+    void follow_reach();
+    void tell_reach(std::int64_t environments, double* reach) const;
+
     const rddl_simulator& simulator_;
+    const ObservationSpace& space_;
     std::int64_t room_, episodes_;
     Batch batch_;
     ProgramActor actor_;
     std::vector<float> observations_, actions_;
+    std::vector<float> first_, least_, most_;  // of observations, where the reach is asked for
     std::vector<double> rewards_;
     std::vector<std::uint8_t> causes_, ended_, running_;
     std::vector<std::uint64_t> seeds_;

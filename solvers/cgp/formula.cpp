@@ -405,7 +405,8 @@ std::string formula_dot(const Formula& formula, const ProgramScope& scope) {
     for (std::size_t t = 0; t < formula.terms.size(); ++t) {
         const Term& term = formula.terms[t];
         const std::string label =
-            term.kind == Term::Kind::Input ? scope.inputs[static_cast<std::size_t>(term.input)].name
+            term.kind == Term::Kind::Input
+                ? input_label(scope.inputs[static_cast<std::size_t>(term.input)])
             : term.kind == Term::Kind::Constant ? number(term.constant)
                                                 : std::string(info_of(term.function).name);
         const char* const shape = term.kind == Term::Kind::Function ? "ellipse" : "box";

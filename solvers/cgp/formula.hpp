@@ -43,6 +43,10 @@ std::string short_formula(const Formula& formula, const ProgramScope& scope, std
 std::string formula_cpp(const Formula& formula, const ProgramScope& scope);
 // For Graphviz.
 std::string formula_dot(const Formula& formula, const ProgramScope& scope);
+// "(pos - 0.85) * 0.4878": an input as the program reads it.
+std::string input_label(const ProgramInput& input);
+// A picture: functions are round, arguments arrive from above to below in their order.
+std::string formula_svg(const Formula& formula, const ProgramScope& scope);
 // A Python module with the same function.
 std::string formula_python(const Formula& formula, const ProgramScope& scope);
 // \begin{align*}

@@ -37,10 +37,65 @@ double truth(bool holds) {
     return holds ? 1 : 0;
 }
 
-// One loop for each function, so that a program of many lanes does not branch in each.
-template <class Compute>
-void for_each(int count, double* result, Compute compute) {
-    for (int i = 0; i < count; ++i) result[i] = compute(i);
+// Calls use(compute), where compute(a, b, c) is the function.
+template <class Use>
+void with(Function function, Use use) {
+    switch (function) {
+        case Function::Add:
+            return use([](double a, double b, double) { return bounded(a + b); });
+        case Function::Subtract:
+            return use([](double a, double b, double) { return bounded(a - b); });
+        case Function::Multiply:
+            return use([](double a, double b, double) { return bounded(a * b); });
+        case Function::Divide:  // by nearly nothing: 1
+            return use([](double a, double b, double) {
+                return std::abs(b) < 1e-9 ? 1.0 : bounded(a / b);
+            });
+        case Function::Negate:
+            return use([](double a, double, double) { return -a; });
+        case Function::Absolute:
+            return use([](double a, double, double) { return std::abs(a); });
+        case Function::Minimum:
+            return use([](double a, double b, double) { return std::min(a, b); });
+        case Function::Maximum:
+            return use([](double a, double b, double) { return std::max(a, b); });
+        case Function::Square:
+            return use([](double a, double, double) { return bounded(a * a); });
+        case Function::Root:
+            return use([](double a, double, double) { return std::sqrt(std::abs(a)); });
+        case Function::Sine:
+            return use([](double a, double, double) { return std::sin(a); });
+        case Function::Cosine:
+            return use([](double a, double, double) { return std::cos(a); });
+        case Function::Tanh:
+            return use([](double a, double, double) { return std::tanh(a); });
+        case Function::Exponential:
+            return use([](double a, double, double) { return bounded(std::exp(a)); });
+        case Function::Greater:
+            return use([](double a, double b, double) { return truth(a > b); });
+        case Function::If:
+            return use([](double a, double b, double c) { return a > 0 ? b : c; });
+        case Function::And:
+            return use([](double a, double b, double) { return truth(a > 0 && b > 0); });
+        case Function::Or:
+            return use([](double a, double b, double) { return truth(a > 0 || b > 0); });
+        case Function::Not:
+            return use([](double a, double, double) { return truth(!(a > 0)); });
+        case Function::Sign:
+            return use([](double a, double, double) { return a > 0 ? 1.0 : a < 0 ? -1.0 : 0.0; });
+        case Function::One:
+            return use([](double, double, double) { return 1.0; });
+        case Function::Zero:
+            return use([](double, double, double) { return 0.0; });
+        case Function::Half:
+            return use([](double a, double, double) { return a * 0.5; });
+        case Function::Floor:
+            return use([](double a, double, double) { return std::floor(a); });
+        case Function::Ceiling:
+            return use([](double a, double, double) { return std::ceil(a); });
+        case Function::Round:
+            return use([](double a, double, double) { return std::nearbyint(a); });
+    }
 }
 
 }  // namespace
@@ -76,71 +131,17 @@ std::vector<Function> default_functions() {
     return functions_named({"arith", "trig", "logic"});
 }
 
+// One loop for each function, so that a program of many lanes does not branch in each.
 void apply(Function function, int count, const double* a, const double* b, const double* c,
            double* result) {
-    switch (function) {
-        case Function::Add:
-            return for_each(count, result, [=](int i) { return bounded(a[i] + b[i]); });
-        case Function::Subtract:
-            return for_each(count, result, [=](int i) { return bounded(a[i] - b[i]); });
-        case Function::Multiply:
-            return for_each(count, result, [=](int i) { return bounded(a[i] * b[i]); });
-        case Function::Divide:  // by nearly nothing: 1
-            return for_each(count, result, [=](int i) {
-                return std::abs(b[i]) < 1e-9 ? 1.0 : bounded(a[i] / b[i]);
-            });
-        case Function::Negate:
-            return for_each(count, result, [=](int i) { return -a[i]; });
-        case Function::Absolute:
-            return for_each(count, result, [=](int i) { return std::abs(a[i]); });
-        case Function::Minimum:
-            return for_each(count, result, [=](int i) { return std::min(a[i], b[i]); });
-        case Function::Maximum:
-            return for_each(count, result, [=](int i) { return std::max(a[i], b[i]); });
-        case Function::Square:
-            return for_each(count, result, [=](int i) { return bounded(a[i] * a[i]); });
-        case Function::Root:
-            return for_each(count, result, [=](int i) { return std::sqrt(std::abs(a[i])); });
-        case Function::Sine:
-            return for_each(count, result, [=](int i) { return std::sin(a[i]); });
-        case Function::Cosine:
-            return for_each(count, result, [=](int i) { return std::cos(a[i]); });
-        case Function::Tanh:
-            return for_each(count, result, [=](int i) { return std::tanh(a[i]); });
-        case Function::Exponential:
-            return for_each(count, result, [=](int i) { return bounded(std::exp(a[i])); });
-        case Function::Greater:
-            return for_each(count, result, [=](int i) { return truth(a[i] > b[i]); });
-        case Function::If:
-            return for_each(count, result, [=](int i) { return a[i] > 0 ? b[i] : c[i]; });
-        case Function::And:
-            return for_each(count, result, [=](int i) { return truth(a[i] > 0 && b[i] > 0); });
-        case Function::Or:
-            return for_each(count, result, [=](int i) { return truth(a[i] > 0 || b[i] > 0); });
-        case Function::Not:
-            return for_each(count, result, [=](int i) { return truth(!(a[i] > 0)); });
-        case Function::Sign:
-            return for_each(count, result, [=](int i) {
-                return a[i] > 0 ? 1.0 : a[i] < 0 ? -1.0 : 0.0;
-            });
-        case Function::One:
-            return for_each(count, result, [=](int) { return 1.0; });
-        case Function::Zero:
-            return for_each(count, result, [=](int) { return 0.0; });
-        case Function::Half:
-            return for_each(count, result, [=](int i) { return a[i] * 0.5; });
-        case Function::Floor:
-            return for_each(count, result, [=](int i) { return std::floor(a[i]); });
-        case Function::Ceiling:
-            return for_each(count, result, [=](int i) { return std::ceil(a[i]); });
-        case Function::Round:
-            return for_each(count, result, [=](int i) { return std::nearbyint(a[i]); });
-    }
+    with(function, [&](auto compute) {
+        for (int i = 0; i < count; ++i) result[i] = compute(a[i], b[i], c[i]);
+    });
 }
 
 double apply(Function function, double a, double b, double c) {
     double result = 0;
-    apply(function, 1, &a, &b, &c, &result);
+    with(function, [&](auto compute) { result = compute(a, b, c); });
     return result;
 }
 

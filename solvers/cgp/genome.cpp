@@ -199,6 +199,7 @@ Program::Program(const Genome& genome) : constants_(genome.constants) {
 
 void Program::run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
                   double* outputs) const {
+    if (lanes == 1) return run_one(inputs, input_row, values, outputs);
     const auto at = [&](int place) -> const double* {
         return place < 0 ? inputs + (-1 - place) * input_row : values + place * lanes;
     };
@@ -212,6 +213,21 @@ void Program::run(int lanes, const double* inputs, std::ptrdiff_t input_row, dou
     }
     for (std::size_t o = 0; o < outputs_.size(); ++o)
         std::copy_n(at(outputs_[o]), lanes, outputs + static_cast<std::ptrdiff_t>(o) * lanes);
+}
+
+// The same without loops over one lane, which would cost more than what they do.
+void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
+                      double* outputs) const {
+    const auto at = [&](int place) {
+        return place < 0 ? inputs[(-1 - place) * input_row] : values[place];
+    };
+    for (const double constant : constants_) *values++ = constant;
+    double* result = values;
+    values -= constants_.size();
+    for (const Instruction& instruction : instructions_)
+        *result++ = apply(instruction.function, at(instruction.arguments[0]),
+                          at(instruction.arguments[1]), at(instruction.arguments[2]));
+    for (const int output : outputs_) *outputs++ = at(output);
 }
 
 }  // namespace rddlc::solvers

@@ -78,6 +78,9 @@ class Program {
              double* outputs) const;
 
   private:
+    void run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
+                 double* outputs) const;
+
     struct Instruction {
         Function function;
         std::array<int, 3> arguments;  // slots; negative: input -1 - argument

@@ -25,6 +25,11 @@ inline bool beats(const Fitness& a, const Fitness& b) {
     if (a.value != b.value) return a.value > b.value;
     return a.steps < b.steps;
 }
+// While nothing earns more than at first.
+inline bool sees_more(const Fitness& a, const Fitness& b) {
+    if (beats(a, b) || beats(b, a)) return beats(a, b);
+    return a.reach > b.reach;
+}
 // For a record: of equals the smaller.
 inline bool is_better(const Fitness& a, const Fitness& b) {
     if (beats(a, b) || beats(b, a)) return beats(a, b);
@@ -110,7 +115,9 @@ class Island {
     }
 
     void welcome(const Found& found) {
-        if (is_noisy() || !beats(fitness_, found.fitness)) {
+        const bool comes_in = is_exploring() ? beats(found.fitness, fitness_)
+                                             : is_noisy() || !beats(fitness_, found.fitness);
+        if (comes_in) {
             father_ = found.genome;
             fitness_ = found.fitness;
         }
@@ -157,6 +164,7 @@ class Island {
             if (known != known_.end()) {
                 all[g].value = known->second.value;
                 all[g].steps = known->second.steps;
+                all[g].reach = known->second.reach;
             } else {
                 programs.emplace_back(genomes[g]);
                 places.push_back(g);
@@ -167,15 +175,17 @@ class Island {
         std::vector<const Program*> pointers;
         for (const Program& program : programs) pointers.push_back(&program);
         std::vector<double> returns(static_cast<std::size_t>(first_round_.room())),
-            lengths(returns.size());
+            lengths(returns.size()), reach(returns.size());
         const std::uint64_t seed = options_.seed;
-        first_round_.evaluate(pointers, {&seed, 1}, returns.data(), lengths.data());
+        first_round_.evaluate(pointers, {&seed, 1}, returns.data(), lengths.data(),
+                              is_exploring() ? reach.data() : nullptr);
         episodes_ += static_cast<std::int64_t>(programs.size());
         if (known_.size() > most_remembered) known_.clear();
         for (std::size_t p = 0; p < programs.size(); ++p) {
             Fitness& fitness = all[places[p]];
             fitness.value = returns[p];
             fitness.steps = lengths[p];
+            fitness.reach = reach[p];
             known_[hashes[places[p]]] = fitness;
         }
         return all;
@@ -188,26 +198,28 @@ class Island {
         std::vector<Fitness> all;
         for (const Genome& genome : genomes) {
             programs.emplace_back(genome);
-            all.push_back({0, 0, activity_of(genome).nodes});
+            all.push_back({0, 0, 0, activity_of(genome).nodes});
         }
         std::vector<std::uint64_t> seeds;
         for (int e = 0; e < options_.episodes; ++e) seeds.push_back(random_.bits());
         const std::size_t few = static_cast<std::size_t>(first_round_.episodes());
         std::vector<std::vector<double>> returns(genomes.size());
-        std::vector<double> steps(genomes.size());
+        std::vector<double> steps(genomes.size()), reaches(genomes.size());
         const auto play = [&](Evaluator& evaluator, const std::vector<std::size_t>& who,
                               std::span<const std::uint64_t> its_seeds) {
             std::vector<const Program*> pointers;
             for (const std::size_t w : who) pointers.push_back(&programs[w]);
             const auto episodes = static_cast<std::size_t>(evaluator.episodes());
             std::vector<double> some(static_cast<std::size_t>(evaluator.room()) * episodes),
-                lengths(some.size());
-            evaluator.evaluate(pointers, its_seeds, some.data(), lengths.data());
+                lengths(some.size()), reach(some.size());
+            evaluator.evaluate(pointers, its_seeds, some.data(), lengths.data(),
+                               is_exploring() ? reach.data() : nullptr);
             episodes_ += static_cast<std::int64_t>(who.size() * episodes);
             for (std::size_t k = 0; k < who.size(); ++k)
                 for (std::size_t e = 0; e < episodes; ++e) {
                     returns[who[k]].push_back(some[k * episodes + e]);
                     steps[who[k]] += lengths[k * episodes + e];
+                    reaches[who[k]] += reach[k * episodes + e];
                 }
         };
         std::vector<std::size_t> order(genomes.size());
@@ -217,10 +229,11 @@ class Island {
             std::vector<double> sorted = returns[g];
             all[g].value = measured(sorted, options_.measure);
             all[g].steps = steps[g] / static_cast<double>(returns[g].size());
+            all[g].reach = reaches[g] / static_cast<double>(returns[g].size());
         };
         for (std::size_t g = 0; g < genomes.size(); ++g) rate(g);
         std::stable_sort(order.begin() + 1, order.end(),
-                         [&](std::size_t a, std::size_t b) { return beats(all[a], all[b]); });
+                         [&](std::size_t a, std::size_t b) { return sees_more(all[a], all[b]); });
         order.resize(std::min(order.size(), static_cast<std::size_t>(kept())));
         play(*others_, order, std::span(seeds).subspan(few));
         for (std::size_t g = 0; g < genomes.size(); ++g)
@@ -237,10 +250,14 @@ class Island {
         if (is_noisy()) fitness_ = all.front();
         if (!(start_value_ < std::numeric_limits<double>::infinity()))
             start_value_ = fitness_.value;
+        const bool explores = is_exploring();
+        const auto is_ahead = [&](const Fitness& a, const Fitness& b) {
+            return explores ? sees_more(a, b) : is_better(a, b);
+        };
         std::size_t best = first;
         double sum = 0, count = 0;
         for (std::size_t c = first; c < all.size(); ++c) {
-            if (is_better(all[c], all[best])) best = c;
+            if (is_ahead(all[c], all[best])) best = c;
             if (std::isfinite(all[c].value)) {
                 sum += all[c].value;
                 count += 1;
@@ -249,9 +266,11 @@ class Island {
         mean_of_children_ = count > 0 ? sum / count : 0;
         // As long as nothing is better than what it began with, programs grow and shrink as they
         // like.
-        const bool saves = options_.parsimony && fitness_.value > start_value_;
-        replaced_ = saves ? !is_better(fitness_, all[best]) : !beats(fitness_, all[best]);
-        const bool improves = beats(all[best], fitness_);
+        replaced_ = explores             ? !sees_more(fitness_, all[best])
+                    : options_.parsimony ? !is_better(fitness_, all[best])
+                                         : !beats(fitness_, all[best]);
+        const bool improves =
+            explores ? sees_more(all[best], fitness_) : beats(all[best], fitness_);
         if (replaced_) {
             father_ = candidates[best];
             fitness_ = all[best];
@@ -262,6 +281,9 @@ class Island {
         else
             for (std::size_t c = 0; c < all.size(); ++c) note(candidates[c], all[c]);
     }
+
+    // Nothing earns more than what it began with.
+    bool is_exploring() const { return !(fitness_.value > start_value_); }
 
     void note(const Genome& genome, const Fitness& fitness) {
         if (has_record_ && !is_better(fitness, record_fitness_)) return;
@@ -287,7 +309,7 @@ class Island {
         episodes_ += confirmations;
         const double steps = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
                              static_cast<double>(confirmations);
-        note(father_, {measured(returns, options_.measure), steps, activity.nodes});
+        note(father_, {measured(returns, options_.measure), steps, 0, activity.nodes});
     }
 
     // Evolution strategy on the constants that count: children about the father, of a size that
@@ -324,6 +346,7 @@ class Island {
         stagnation_ = 0;
         restarts_ += 1;
         start_value_ = std::numeric_limits<double>::infinity();
+        known_.clear();  // nobody has asked for the reach of some of them
         if (!is_noisy()) fitness_ = evaluate_all({father_}).front();
     }
 

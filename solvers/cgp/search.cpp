@@ -16,7 +16,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 2};
+const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 3};
 
 CgpOptions completed(CgpOptions options, const rddl_problem& problem, const Ranks& ranks) {
     if (options.islands == 0) options.islands = ranks.count;

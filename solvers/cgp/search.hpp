@@ -3,8 +3,10 @@
 // (1 + lambda) with neutral drift: a child that is as good as its father takes its place. Episodes
 // of a generation begin with the same random numbers for father and children, new ones in each
 // generation; of several episodes, all candidates play a few and the best of them the others.
-// Islands do this side by side, and at times the best program of an island goes to the next one, in
-// a ring.
+// Where all programs earn the same, nothing tells which of them is nearer to something better. Then
+// those stay that see more of the problem: a simple form of novelty search (J. Lehman, K. Stanley,
+// "Abandoning objectives", 2011). Islands do this side by side, and at times the best program of an
+// island goes to the next one, in a ring.
 #pragma once
 
 #include "solvers/cgp/genome.hpp"
@@ -44,10 +46,12 @@ struct CgpOptions {
     std::uint64_t seed = 0;
 };
 
-// Of a program. More is better, then fewer steps, then fewer nodes.
+// Of a program. More is better, then fewer steps, then fewer nodes. As long as nothing earns more
+// than what a search began with, a longer reach comes before fewer nodes.
 struct Fitness {
     double value = 0;
     double steps = 0;  // of an episode
+    double reach = 0;  // how widely what is observed varies (evaluator.hpp), where it was asked for
     int nodes = 0;
 };
 

@@ -111,6 +111,7 @@ void Chooser::write_records(const float* actions) {
 void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row,
                          const Deviations& deviations, const Chosen& chosen, float* actions) {
     const bool random = deviations.logarithms != nullptr;
+    if (!random && space_.logit_count == 0) return write_means(batch, outputs, output_row, actions);
     for (std::int64_t i = 0; i < environments_; ++i)
         choose_reals(static_cast<std::size_t>(i), outputs + i * output_row, deviations, chosen);
     if (space_.picks > 0)
@@ -132,6 +133,13 @@ void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row
                            mask > 0 ? chosen.masks + i * mask : nullptr)
                 .log_probability;
     }
+    if (space_.may_be_illegal) mend(batch, actions);
+}
+
+// The likeliest of reals alone: what the network says.
+void Chooser::write_means(rddl_batch* batch, const float* outputs, int output_row, float* actions) {
+    for (std::int64_t i = 0; i < environments_; ++i)
+        write_action(space_, outputs + i * output_row, nullptr, actions + i * space_.column_count);
     if (space_.may_be_illegal) mend(batch, actions);
 }
 

@@ -73,6 +73,7 @@ class Chooser {
   private:
     void choose_all(rddl_batch* batch, const float* outputs, int output_row,
                     const Deviations& deviations, const Chosen& chosen, float* actions);
+    void write_means(rddl_batch* batch, const float* outputs, int output_row, float* actions);
     void choose_reals(std::size_t i, const float* means, const Deviations& deviations,
                       const Chosen& chosen);
     void choose_categories(rddl_batch* batch, const float* outputs, int output_row, bool random,

@@ -39,7 +39,8 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
       origin_(share.origin),
       batch_(create_batch(simulator, batch_options(share.count))),
       chooser_(simulator, model.actions, options.noise, options.correlation, share.count),
-      state_noise_(model, share.count) {
+      state_noise_(model, share.count),
+      seen_(model, static_cast<std::size_t>(share.count)) {
     const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
     const auto columns = static_cast<std::size_t>(model.observations.column_count());
@@ -83,6 +84,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
         chooser_.begin_episode(e);
         state_noise_.begin_episode(e);
         const auto at = static_cast<std::size_t>(e);
+        seen_.begin_episode(at, features_.data() + e * model_.features());
         steps_[at] = 0;
         running_returns_[at] = sums_[at] = discounted_sums_[at] = 0;
         discounts_[at] = 1;
@@ -182,6 +184,8 @@ void Collector::step(Experience& experience, std::int64_t t) {
         experience.ends[sample] = ends;
         if (!ends) {
             write_features(model_.observations, values, steps_[e], false, features);
+            experience.novelties[sample] =
+                seen_.widen(e, features, model_.normaliser.factors.data());
             continue;
         }
         const bool by_horizon_alone = causes_[e] == RDDL_TRUNCATED_HORIZON;
@@ -202,6 +206,8 @@ void Collector::step(Experience& experience, std::int64_t t) {
         chooser_.begin_episode(static_cast<std::int64_t>(e));
         state_noise_.begin_episode(static_cast<std::int64_t>(e));
         write_features(model_.observations, values, 0, true, features);
+        seen_.begin_episode(e, features);
+        experience.novelties[sample] = 0;
     }
 }
 
@@ -258,6 +264,7 @@ void Collector::archive(Archive& archive) {
     archive(chooser_.noise());
     archive(chooser_.has_noise());
     state_noise_.archive(archive);
+    seen_.archive(archive);
     archive(steps_);
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);
     if constexpr (Archive::is_loading)

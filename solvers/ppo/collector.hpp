@@ -3,6 +3,7 @@
 
 #include "solvers/batches/batch.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/ppo/curiosity.hpp"
 #include "solvers/ppo/experience.hpp"
 #include "solvers/ppo/state_noise.hpp"
 
@@ -65,6 +66,7 @@ class Collector {
     Batch batch_;
     Chooser chooser_;
     StateNoise state_noise_;
+    Seen seen_;
     std::vector<float> features_;      // rows as they are, of each environment
     std::vector<float> observations_;  // rows of the simulator's values
     std::vector<float> final_observations_, final_features_, normalised_;

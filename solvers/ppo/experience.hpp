@@ -17,7 +17,8 @@ struct Experience {
     std::vector<float> numbers, shifts, spreads, log_probabilities;
     std::vector<std::int32_t> indices;
     std::vector<std::uint8_t> masks;
-    std::vector<float> rewards;  // as they are; scaled by the trainer
+    std::vector<float> rewards;    // as they are; scaled by the trainer
+    std::vector<float> novelties;  // of what each step has seen (curiosity.hpp)
     std::vector<float> values, next_values, advantages, returns;
     std::vector<std::uint8_t> ends;
 
@@ -34,8 +35,8 @@ struct Experience {
         indices.resize(rows(model.actions.index_count()));
         masks.resize(rows(model.actions.mask_size()));
         spreads.assign(samples, 1.0f);
-        for (auto* each :
-             {&log_probabilities, &rewards, &values, &next_values, &advantages, &returns})
+        for (auto* each : {&log_probabilities, &rewards, &novelties, &values, &next_values,
+                           &advantages, &returns})
             each->resize(samples);
         ends.resize(samples);
     }

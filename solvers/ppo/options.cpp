@@ -9,6 +9,7 @@ PpoOptions without_help() {
     options.schedule = LearningRate::Constant;
     options.normalises_observations = options.normalises_rewards = false;
     options.noise = Noise::White;
+    options.curious = false;
     options.observations.time = ObservationOptions::Time::Off;
     options.bootstraps = true;
     options.entropy_weight = 0;

@@ -36,9 +36,12 @@ struct PpoOptions {
     bool normalises_observations = true, normalises_rewards = true;
     bool normalises_advantages = true;
     Noise noise = Noise::Ar1;
-    double correlation = 0.9;            // of Ar1, between a step and the next
-    int noise_steps = 8;                 // of Sde, with the same weights
-    double log_deviation = 0;            // of noise, at the start
+    double correlation = 0.9;  // of Ar1, between a step and the next
+    int noise_steps = 8;       // of Sde, with the same weights
+    double log_deviation = 0;  // of noise, at the start
+    // Where nearly all episodes earn the same, seeing more of the problem is rewarded
+    // (curiosity.hpp).
+    bool curious = true;
     std::vector<int> hidden = {64, 64};  // of the policy's network, and of the values'
     ObservationOptions observations;
     // Whether what follows the horizon is estimated; absent: unless the policy sees the time, when

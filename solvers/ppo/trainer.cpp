@@ -21,7 +21,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 2};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 3};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -147,12 +147,24 @@ struct PpoTrainer::State {
                 reward = static_cast<float>(
                     std::clamp(static_cast<double>(reward) * factor, -10.0, 10.0));
         }
+        add_curiosity();
         for (int e = 0; e < experience.environments; ++e)
             estimate_advantages({experience.rollout, experience.environments,
                                  experience.rewards.data() + e, experience.values.data() + e,
                                  experience.next_values.data() + e, experience.ends.data() + e},
                                 gamma, options.lambda, experience.advantages.data() + e,
                                 experience.returns.data() + e);
+    }
+
+    void add_curiosity() {
+        if (!options.curious) return;
+        double returns[remembered_episodes];
+        for (std::size_t e = 0; e < episodes.size(); ++e)
+            returns[e] = episodes[e].undiscounted_return;
+        const auto weight = static_cast<float>(curiosity({returns, episodes.size()}));
+        if (weight == 0) return;
+        for (std::size_t s = 0; s < experience.count(); ++s)
+            experience.rewards[s] += weight * experience.novelties[s];
     }
 
     double scheduled_rate() const {

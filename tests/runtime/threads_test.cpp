@@ -5,6 +5,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -95,6 +97,33 @@ TEST(Team, OfOneRunsInTheCallingThread) {
     team.run([&](int) { id = std::this_thread::get_id(); });
     EXPECT_EQ(id, std::this_thread::get_id());
     EXPECT_EQ(team.size(), 1);
+}
+
+// Whoever of the workers it is, the caller included; all have come to their end then, and the team
+// works on.
+TEST(Team, ThrowsWhatAWorkerThrows) {
+    for (const int size : {1, 4}) {
+        Team team(size);
+        for (int thrower = 0; thrower < team.size(); ++thrower) {
+            std::atomic<int> others = 0;
+            const auto job = [&](int worker) {
+                if (worker == thrower) throw std::runtime_error("worker " + std::to_string(worker));
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                ++others;
+            };
+            try {
+                team.run(job);
+                FAIL() << "nothing was thrown";
+            } catch (const std::runtime_error& error) {
+                EXPECT_EQ(error.what(), "worker " + std::to_string(thrower));
+            }
+            EXPECT_EQ(others, team.size() - 1);
+        }
+        EXPECT_THROW(team.run([](int) { throw 1; }), int);  // all of them
+        std::atomic<int> done = 0;
+        team.run([&](int) { ++done; });
+        EXPECT_EQ(done, team.size());
+    }
 }
 
 TEST(Team, MayRestWithoutEverWorking) {

@@ -1,6 +1,8 @@
 // CGP: programs, their formulas in all forms, and searches that depend on nothing but their
 // options.
 #include "simulators.hpp"
+#include "solvers/batches/batch.hpp"
+#include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/search.hpp"
@@ -9,11 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <thread>
 
 namespace rddlc::solvers {
 namespace {
@@ -196,6 +200,93 @@ TEST(Cgp, GoesOnAsIfItHadNotStopped) {
         EXPECT_EQ(program_text(*simulator, whole.scope(), whole.best()),
                   program_text(*simulator, second.scope(), second.best()));
     }
+}
+
+// Its sentence, from whatever thread it is.
+TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
+    static const std::thread::id caller = std::this_thread::get_id();
+    rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    CgpOptions options = small_search();
+    options.threads = 2;
+    CgpSearch search(simulator, options);
+    simulator.reset = [](rddl_batch* batch, const std::uint8_t* mask, void* observations) {
+        const auto reset = rddl_simulator_mountain_car_mountain_car_1()->reset;
+        if (std::this_thread::get_id() == caller) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others work, too
+            return reset(batch, mask, observations);
+        }
+        return rddl_error{RDDL_BAD_ARGUMENT};
+    };
+    simulator.last_error = [](const rddl_simulator*) {
+        return "the simulator's sentence";
+    };
+    try {
+        search.run(50);
+        FAIL() << "nothing was thrown";
+    } catch (const Failure& failure) {
+        EXPECT_STREQ(failure.what(), "the simulator's sentence");
+    }
+}
+
+// By steps of our own, with the first output of the program: full throttle to the right, or none.
+TEST(Cgp, MeasuresHowWidelyObservationsVary) {
+    const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    const ProgramScope scope = program_scope(simulator, Lifting::Auto, false, 0);
+    std::vector<Program> programs;
+    for (const Function function : {Function::One, Function::Zero})
+        programs.emplace_back(
+            Genome{scope.input_count(), {}, {Node{function, {}}}, {scope.input_count()}});
+    const Program* const pointers[] = {&programs[0], &programs[1]};
+    Evaluator evaluator(simulator, scope, 2, 1);
+    const std::uint64_t seed = 0;
+    double returns[2], lengths[2], reach[2];
+    evaluator.evaluate(pointers, {&seed, 1}, returns, lengths, reach);
+    for (const int p : {0, 1}) {
+        rddl_batch_options options{};
+        options.environment_count = 1;
+        const Batch batch = create_batch(simulator, options);
+        require_done(simulator, simulator.reset(batch.get(), nullptr, nullptr));
+        double first[2], least[2], most[2], values[2];
+        require_done(simulator, simulator.get_observation_values(batch.get(), RDDL_DOUBLE, values));
+        std::copy_n(values, 2, first);
+        std::copy_n(values, 2, least);
+        std::copy_n(values, 2, most);
+        const double action = p == 0 ? 1 : 0;
+        rddl_transition out{};
+        for (int step = 0; step < static_cast<int>(lengths[p]); ++step) {
+            require_done(simulator,
+                         simulator.step_values(batch.get(), RDDL_DOUBLE, &action, values, &out));
+            for (const int c : {0, 1}) {
+                least[c] = std::min(least[c], values[c]);
+                most[c] = std::max(most[c], values[c]);
+            }
+        }
+        // Its values have no bounds.
+        double expected = 0;
+        for (const int c : {0, 1})
+            expected += std::log1p((most[c] - least[c]) / (1 + std::abs(first[c])));
+        EXPECT_NEAR(reach[p], expected, 1e-5) << p;
+    }
+    EXPECT_GT(reach[0], reach[1]);
+}
+
+// Where every program earns the same, those stay that see more.
+TEST(Cgp, LooksAroundWhereNothingIsEarned) {
+    rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,
+                               void* observations, const rddl_transition* out) {
+        const rddl_error error = rddl_simulator_mountain_car_mountain_car_1()->step_values(
+            batch, number, actions, observations, out);
+        for (int i = 0; i < 32; ++i) out->rewards[i] = 0;
+        return error;
+    };
+    CgpOptions options;
+    options.restart_after = 0;
+    CgpSearch search(simulator, options);
+    search.run(60);
+    EXPECT_EQ(search.progress().best.value, 0);
+    // The end of the episode ends a search for more: fewer steps are better than all that is seen.
+    EXPECT_LT(search.progress().best.steps, 200);
 }
 
 TEST(Cgp, FindsFormulasThatDriveUphill) {

@@ -3,6 +3,7 @@
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/advantages.hpp"
+#include "solvers/ppo/curiosity.hpp"
 #include "solvers/ppo/learner.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/state_noise.hpp"
@@ -329,6 +330,84 @@ TEST(Ppo, TellsWhenAGradientIsNotFinite) {
     });
     EXPECT_NE(text.find("the gradient is not finite"), std::string::npos) << text;
     EXPECT_NE(text.find("after "), std::string::npos) << text;
+}
+
+TEST(Curiosity, FadesAsReturnsDiffer) {
+    std::vector<double> returns(100, -200.0);
+    EXPECT_EQ(curiosity(returns), 1);
+    EXPECT_EQ(curiosity(std::span(returns).first(5)), 0);  // too few to tell
+    for (int e = 0; e < 5; ++e) returns[static_cast<std::size_t>(e)] = -90 - e;
+    EXPECT_NEAR(curiosity(returns), 0.5, 1e-12);
+    for (int e = 0; e < 20; ++e) returns[static_cast<std::size_t>(e)] = -90 - e;
+    EXPECT_EQ(curiosity(returns), 0);
+}
+
+// All that an episode is told adds up to its ranges, whatever the order.
+TEST(Curiosity, AddsUpToTheRanges) {
+    const rddl_simulator& simulator = *rddl_simulator_reservoir_reservoir_1();
+    PpoOptions options = small_training();
+    options.observations.time = ObservationOptions::Time::On;
+    options.observations.stack = 2;
+    const PpoModel model = make_model(observation_space(simulator, options.observations),
+                                      action_space(simulator), options);
+    const auto width = static_cast<std::size_t>(model.features());
+    const auto newest = static_cast<std::size_t>(model.observations.frame_size());
+    std::mt19937 random(2);
+    std::normal_distribution<float> normal;
+    std::vector<float> row(width), factors(width, 0.5f), least, most;
+    Seen seen(model, 2);
+    for (const std::size_t environment : {0, 1, 1}) {
+        float sum = 0;
+        for (int step = 0; step < 30; ++step) {
+            for (float& feature : row) feature = normal(random);
+            if (step == 0) {
+                least = most = row;
+                seen.begin_episode(environment, row.data());
+                continue;
+            }
+            for (std::size_t f = 0; f < width; ++f) {
+                least[f] = std::min(least[f], row[f]);
+                most[f] = std::max(most[f], row[f]);
+            }
+            sum += seen.widen(environment, row.data(), factors.data());
+            EXPECT_EQ(seen.widen(environment, row.data(), factors.data()), 0);
+        }
+        float expected = 0;
+        for (std::size_t f = 0; f < newest; ++f)
+            expected += 0.5f * (most[f] - least[f]) / static_cast<float>(newest);
+        EXPECT_NEAR(sum, expected, 1e-4);
+    }
+}
+
+// Nothing is earned before the flag, and noise alone comes there in no episode.
+TEST(Curiosity, FindsWhatPaysAtTheGoalAlone) {
+    rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,
+                               void* observations, const rddl_transition* out) {
+        const rddl_error error = rddl_simulator_mountain_car_mountain_car_1()->step_values(
+            batch, number, actions, observations, out);
+        for (int e = 0; e < 32; ++e) out->rewards[e] = out->terminated[e] ? 100 : 0;
+        return error;
+    };
+    double reached[2] = {0, 0};
+    for (const bool curious : {false, true}) {
+        PpoOptions options;
+        options.curious = curious;
+        options.noise = Noise::White;
+        options.steps = 100'000;
+        options.environments = 32;
+        options.rollout = 64;
+        options.minibatch = 256;
+        options.hidden = {32, 32};
+        options.learning_rate = 1e-3;
+        PpoTrainer trainer(simulator, options);
+        while (!trainer.done()) {
+            trainer.update();
+            reached[curious] = std::max(reached[curious], trainer.progress().success_rate);
+        }
+    }
+    EXPECT_EQ(reached[0], 0);
+    EXPECT_GT(reached[1], 0.05);
 }
 
 // Beside what no-op and random actions earn.

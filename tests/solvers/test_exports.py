@@ -7,9 +7,11 @@ import argparse
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,6 +23,20 @@ def load(name, path):
     sys.dont_write_bytecode = True
     spec.loader.exec_module(module)
     return module
+
+
+def check_picture(svg, dot):
+    """The picture is XML, and has the boxes and lines of the graph for Graphviz, within its borders."""
+    root = xml.etree.ElementTree.fromstring(svg)
+    parts = lambda name: root.findall(f"{{http://www.w3.org/2000/svg}}{name}")
+    width, height = float(root.get("width")), float(root.get("height"))
+    labels = re.findall(r'^    [to]\d+ \[label="(.*?)", shape', dot, re.MULTILINE)
+    assert len(parts("text")) == len(labels) > 1, (svg, dot)
+    assert "throttle" in [text.text for text in parts("text")]
+    assert len(parts("path")) == dot.count("->")
+    for box in parts("rect")[1:]:
+        x, y = float(box.get("x")), float(box.get("y"))
+        assert 0 < x < x + float(box.get("width")) < width and 0 < y < y + float(box.get("height")) < height, svg
 
 
 def main():
@@ -46,6 +62,8 @@ def main():
         network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "ppo/policy.json")
         rddl("export", "--policy", str(folder / "cgp"), "--as", "py", "-o", str(folder / "formula.py"))
         formula = load("formula", folder / "formula.py")
+        check_picture(rddl("export", "--policy", str(folder / "cgp"), "--as", "svg"),
+                      rddl("export", "--policy", str(folder / "cgp"), "--as", "dot"))
         rddl("export", "--policy", str(folder / "ppo"), "--as", "cpp", "-o", str(folder / "network.hpp"))
         (folder / "main.cpp").write_text(
             '#include "network.hpp"\n#include <cstdio>\nint main() {\n    float x[policy::feature_count], y[1];\n'

@@ -30,10 +30,11 @@ std::string exported_program(const rddl_simulator& simulator, const std::string&
     if (form == "formula") return solvers::formula_text(formula, found->scope);
     if (form == "cpp") return solvers::formula_cpp(formula, found->scope);
     if (form == "dot") return solvers::formula_dot(formula, found->scope);
+    if (form == "svg") return solvers::formula_svg(formula, found->scope);
     if (form == "py") return solvers::formula_python(formula, found->scope);
     if (form == "latex") return solvers::formula_latex(formula, found->scope);
     throw Failure(fmt::format("programs of CGP are not written as {}", form),
-                  "formula, cpp, dot, py and latex are", usage_error);
+                  "formula, cpp, dot, svg, py and latex are", usage_error);
 }
 
 std::string exported_network(const rddl_simulator& simulator, const std::string& text,
@@ -85,10 +86,11 @@ Command export_command() {
     add_text_option(command, "--policy", "POLICY", "A policy file, or the folder of a run",
                     options->policy)
         .is_required = true;
-    add_option(command, "--as", "FORM",
-               "Of CGP: formula (default), cpp, dot, py, latex; of PPO: json (default), cpp, onnx",
-               [options](const std::string& form) { options->form = form; })
-        .choices = {"formula", "json", "cpp", "dot", "py", "latex", "onnx"};
+    add_option(
+        command, "--as", "FORM",
+        "Of CGP: formula (default), cpp, dot, svg, py, latex; of PPO: json (default), cpp, onnx",
+        [options](const std::string& form) { options->form = form; })
+        .choices = {"formula", "json", "cpp", "dot", "svg", "py", "latex", "onnx"};
     add_text_option(command, "-o,--output", "FILE", "Where to (standard output)", options->output);
     add_engine_options(command, options->load);
     command.run = [options] {
