@@ -10,14 +10,14 @@ namespace rddlc::python {
 
 namespace {
 
-rddl_batch_options options_of(const BatchSettings& settings) {
+rddl_batch_options options_of(const BatchSettings& settings, const rddl_problem& problem) {
     rddl_batch_options options{};
     options.struct_size = sizeof options;
     options.thread_count = settings.threads;
     options.environment_count = settings.environments;
     options.autoreset = settings.autoreset;
     options.horizon = settings.horizon;
-    options.keeps_steps = settings.environments == 1;
+    options.keeps_steps = settings.environments == 1 && problem.interm_size > 0;
     return options;
 }
 
@@ -37,7 +37,7 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
       action_columns_(simulator_->action_value_count(simulator_.get())),
       observation_columns_(simulator_->observation_value_count(simulator_.get())) {
     solvers::require_room(*simulator_, settings.environments, default_memory_limit);
-    batch_ = solvers::create_batch(*simulator_, options_of(settings));
+    batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;
     const auto count = static_cast<std::size_t>(settings.environments);
     const std::size_t size = settings.doubles ? sizeof(double) : sizeof(float);
