@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <new>
 
 namespace nb = nanobind;
@@ -103,15 +104,20 @@ void Batch::read_values() {
                                                               arrays_.observation_values.data()));
 }
 
-void Batch::step() {
+bool Batch::has_ended() const {
+    return std::ranges::any_of(arrays_.causes, [](std::uint8_t causes) { return causes != 0; });
+}
+
+bool Batch::step() {
     rddl_batch* const batch = live();
     const rddl_transition out = transition();
     const nb::gil_scoped_release released;
     check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
     read_values();
+    return has_ended();
 }
 
-void Batch::step_values() {
+bool Batch::step_values() {
     rddl_batch* const batch = live();
     rddl_transition out = transition();
     if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP)
@@ -120,6 +126,7 @@ void Batch::step_values() {
     void* const values = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
     check(*simulator_,
           simulator_->step_values(batch, number(), arrays_.action_values.data(), values, &out));
+    return has_ended();
 }
 
 void Batch::set_seed(std::uint64_t seed) {

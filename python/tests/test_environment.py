@@ -186,7 +186,7 @@ class States(unittest.TestCase):
                 env.reset(seed=1)
                 with self.assertRaises(rddlc.ActionError) as raised:
                     env.step({"open___d2": 1})
-            messages.append(str(raised.exception))
+                messages.append(str(raised.exception))
         self.assertEqual(messages[0], messages[1])
         self.assertIn("d2", messages[0])
 
