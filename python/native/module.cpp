@@ -1,5 +1,6 @@
 // The native part of the Python package; python/rddlc/ is what people use.
 #include "native/batch.hpp"
+#include "native/enumeration.hpp"
 #include "native/learners.hpp"
 #include "native/painter.hpp"
 #include "native/problem.hpp"
@@ -10,6 +11,7 @@ NB_MODULE(_native, module) {
     rddlc::python::add_problem(module);
     rddlc::python::add_batch(module);
     rddlc::python::add_row_writer(module);
+    rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);
     rddlc::python::add_learners(module);
 }

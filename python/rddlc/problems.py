@@ -107,6 +107,11 @@ class Problem:
         """The domain's and, unless it is the same, the instance's."""
         return [os.path.abspath(each) for each in self.simulator.files]
 
+    @property
+    def externs(self) -> tuple[str, ...]:
+        """Headers of external functions."""
+        return self._options["externs"]
+
     def constants(self, fluent: str) -> list[Any]:
         """The values, row-major, that the instance fixes: of a non-fluent; of a state-fluent at the
         start; the defaults of an action-fluent."""
