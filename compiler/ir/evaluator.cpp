@@ -5,18 +5,28 @@
 #include "ir/fold.hpp"
 #include "ir/layout.hpp"
 #include "ir/table_kernels.hpp"
+#include "support/failure.hpp"
 #include "support/match.hpp"
 
 #include <rddl/distributions.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <numeric>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
 namespace rddlc::ir {
 namespace {
+
+[[noreturn]] void refuse_infinite(std::string_view distribution) {
+    throw Failure(fmt::format("a draw from {} has no finite list of outcomes", distribution),
+                  "only those of Bernoulli, Discrete and their like can be told one by one");
+}
 
 // Constant tables for which these bytes leave no room are looked up where they are.
 constexpr std::size_t most_packed = std::size_t{1} << 25;
@@ -137,8 +147,9 @@ void Evaluator::set(LocalId local, const Value& value, Frame& frame) const {
     match(value, [&](auto v) { Frame::of<decltype(v)>(slot) = v; });
 }
 
-Evaluator::Frame::Frame(const Evaluator& evaluator, Records records, Context& context)
-    : records_(records), context_(context), slots_(room_) {
+Evaluator::Frame::Frame(const Evaluator& evaluator, Records records, Context& context,
+                        Outcomes* outcomes)
+    : records_(records), context_(context), outcomes_(outcomes), slots_(room_) {
     records_.set(Storage::Constant, evaluator.constants_.data());
     if (evaluator.slot_count_ > std::size(room_)) {
         more_room_.resize(evaluator.slot_count_);
@@ -226,6 +237,7 @@ void Evaluator::call(Callee callee, const Call& form, Frame& frame) const {
             arguments.int_scalar = value<std::int64_t>(scalar, frame);
         }
     }
+    if (frame.outcomes_ && is_draw(form.callee)) refuse_infinite("a whole vector");
     call_on_tables(callee, arguments, place(form.place, frame), frame.context_);
 }
 
@@ -440,6 +452,7 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
 
 template <class T>
 T Evaluator::draw(const Sample& form, Frame& frame) const {
+    if (frame.outcomes_) return choose<T>(form, frame);
     const rddl::Place here = place(form.place, frame);
     if constexpr (std::is_same_v<T, bool>) {
         const double p = value<double>(form.parameters.front(), frame);
@@ -472,6 +485,7 @@ std::int64_t Evaluator::draw(const Discrete& form, NodeId id, Frame& frame) cons
     };
     const auto size = static_cast<rddl::Index>(form.weights.size());
     const rddl::Place here = place(form.place, frame);
+    if (frame.outcomes_) return choose(here, form.normalise, size, weight, frame);
     return form.normalise
                ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
                : rddl::sample::discrete_over(frame.context_, here, size, weight);
@@ -484,9 +498,37 @@ std::int64_t Evaluator::draw(const DiscreteOver& form, Frame& frame) const {
     };
     const std::int64_t size = (*program_)[form.variable].size;
     const rddl::Place here = place(form.place, frame);
+    if (frame.outcomes_) return choose(here, form.normalise, size, weight, frame);
     return form.normalise
                ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
                : rddl::sample::discrete_over(frame.context_, here, size, weight);
+}
+
+template <class T>
+T Evaluator::choose(const Sample& form, Frame& frame) const {
+    const rddl::Place here = place(form.place, frame);
+    if constexpr (std::is_same_v<T, bool>) {
+        const double p = value<double>(form.parameters.front(), frame);
+        // Records what is wrong with the probability.
+        static_cast<void>(rddl::sample::bernoulli(frame.context_, here, p));
+        return !frame.context_.fault && frame.outcomes_->choose(here, {1 - p, p}) == 1;
+    }
+    refuse_infinite(name_of(form.distribution));
+}
+
+template <class Weight>
+std::int64_t Evaluator::choose(rddl::Place place, bool normalise, rddl::Index size, Weight&& weight,
+                               Frame& frame) const {
+    // Records what is wrong with the weights.
+    static_cast<void>(
+        normalise ? rddl::sample::unnormalised_discrete_over(frame.context_, place, size, weight)
+                  : rddl::sample::discrete_over(frame.context_, place, size, weight));
+    if (frame.context_.fault) return 0;
+    std::vector<double> weights;
+    for (rddl::Index i = 0; i < size; ++i) weights.push_back(weight(i));
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& each : weights) each /= total;
+    return frame.outcomes_->choose(place, std::move(weights));
 }
 
 std::optional<Value> Evaluator::value_unless_fault(NodeId id, Frame& frame) const {

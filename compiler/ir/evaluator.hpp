@@ -6,6 +6,7 @@
 #include "ir/external_functions.hpp"
 #include "ir/ir.hpp"
 #include "ir/kernels.hpp"
+#include "ir/outcomes.hpp"
 
 #include <rddl/reductions.hpp>
 
@@ -44,7 +45,10 @@ class Evaluator {
     // One evaluation: the records, and room for loop indices and locals.
     class Frame {
       public:
-        Frame(const Evaluator& evaluator, Records records, Context& context);
+        // Without outcomes, draws are random; with them, Failure says which draw has no finite
+        // list.
+        Frame(const Evaluator& evaluator, Records records, Context& context,
+              Outcomes* outcomes = nullptr);
         Frame(const Frame&) = delete;
         Frame& operator=(const Frame&) = delete;
 
@@ -64,6 +68,7 @@ class Evaluator {
 
         Records records_;
         Context& context_;
+        Outcomes* outcomes_;
         Slot room_[512];  // left unset
         std::vector<Slot> more_room_;
         Slot* slots_;
@@ -120,6 +125,12 @@ class Evaluator {
     T draw(const Sample& form, Frame& frame) const;
     std::int64_t draw(const Discrete& form, NodeId id, Frame& frame) const;
     std::int64_t draw(const DiscreteOver& form, Frame& frame) const;
+    // One of a finite draw's outcomes; 0 where it faults.
+    template <class T>
+    T choose(const Sample& form, Frame& frame) const;
+    template <class Weight>
+    std::int64_t choose(rddl::Place place, bool normalise, rddl::Index size, Weight&& weight,
+                        Frame& frame) const;
 
     const Program* program_;
     ExternalFunctions functions_;

@@ -66,10 +66,16 @@ void Interpreter::write_initial(Storage storage, std::byte* record) const {
 
 double Interpreter::step(const std::byte* state, const std::byte* action, std::byte* scratch,
                          std::byte* next, std::byte* observation, Context& context) const {
+    return step(state, action, scratch, next, observation, context, nullptr);
+}
+
+double Interpreter::step(const std::byte* state, const std::byte* action, std::byte* scratch,
+                         std::byte* next, std::byte* observation, Context& context,
+                         Outcomes* outcomes) const {
     Records records;
     records.set(Storage::State, state).set(Storage::Action, action).set(Storage::Scratch, scratch);
     records.set(Storage::Next, next).set(Storage::Observation, observation);
-    Evaluator::Frame frame(evaluator_, records, context);
+    Evaluator::Frame frame(evaluator_, records, context, outcomes);
     for (const Definition& definition : program_->step) evaluator_.run(definition.body, frame);
     evaluator_.run(program_->reward.body, frame);
     return evaluator_.value<double>(program_->reward.value, frame);

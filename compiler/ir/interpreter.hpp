@@ -36,6 +36,11 @@ class Interpreter {
     double step(const std::byte* state, const std::byte* action, std::byte* scratch,
                 std::byte* next, std::byte* observation, Context& context) const;
 
+    // The same with draws that are chosen.
+    double step(const std::byte* state, const std::byte* action, std::byte* scratch,
+                std::byte* next, std::byte* observation, Context& context,
+                Outcomes* outcomes) const;
+
     // Does any termination condition hold?
     bool terminal(const std::byte* state, Context& context) const;
     // Is there an invariant that does not hold, or faults?

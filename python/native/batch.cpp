@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <new>
 
 namespace nb = nanobind;
@@ -10,14 +11,14 @@ namespace rddlc::python {
 
 namespace {
 
-rddl_batch_options options_of(const BatchSettings& settings) {
+rddl_batch_options options_of(const BatchSettings& settings, const rddl_problem& problem) {
     rddl_batch_options options{};
     options.struct_size = sizeof options;
     options.thread_count = settings.threads;
     options.environment_count = settings.environments;
     options.autoreset = settings.autoreset;
     options.horizon = settings.horizon;
-    options.keeps_steps = settings.environments == 1;
+    options.keeps_steps = settings.environments == 1 && problem.interm_size > 0;
     return options;
 }
 
@@ -37,7 +38,7 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
       action_columns_(simulator_->action_value_count(simulator_.get())),
       observation_columns_(simulator_->observation_value_count(simulator_.get())) {
     solvers::require_room(*simulator_, settings.environments, default_memory_limit);
-    batch_ = solvers::create_batch(*simulator_, options_of(settings));
+    batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;
     const auto count = static_cast<std::size_t>(settings.environments);
     const std::size_t size = settings.doubles ? sizeof(double) : sizeof(float);
@@ -103,15 +104,20 @@ void Batch::read_values() {
                                                               arrays_.observation_values.data()));
 }
 
-void Batch::step() {
+bool Batch::has_ended() const {
+    return std::ranges::any_of(arrays_.causes, [](std::uint8_t causes) { return causes != 0; });
+}
+
+bool Batch::step() {
     rddl_batch* const batch = live();
     const rddl_transition out = transition();
     const nb::gil_scoped_release released;
     check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
     read_values();
+    return has_ended();
 }
 
-void Batch::step_values() {
+bool Batch::step_values() {
     rddl_batch* const batch = live();
     rddl_transition out = transition();
     if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP)
@@ -120,6 +126,7 @@ void Batch::step_values() {
     void* const values = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
     check(*simulator_,
           simulator_->step_values(batch, number(), arrays_.action_values.data(), values, &out));
+    return has_ended();
 }
 
 void Batch::set_seed(std::uint64_t seed) {

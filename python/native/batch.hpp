@@ -40,9 +40,9 @@ class Batch {
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
-    // By the rows of action_records, or those of action_values.
-    void step();
-    void step_values();
+    // By the rows of action_records, or those of action_values. Whether an episode has ended.
+    bool step();
+    bool step_values();
     void set_seed(std::uint64_t seed);
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
@@ -75,6 +75,7 @@ class Batch {
     rddl_transition transition();
     rddl_batch* live();
     void read_values();
+    bool has_ended() const;
 
     cli::Simulator simulator_;  // outlives the batch
     BatchSettings settings_;

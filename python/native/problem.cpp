@@ -38,7 +38,7 @@ std::string text_of(const Compilation& compilation) {
 
 LoadedProblem load(const std::string& domain, const std::string& instance,
                    const std::string& repository, bool interpreted,
-                   const std::vector<std::string>& externs, bool extended) {
+                   const std::vector<std::string>& externs, bool extended, bool details) {
     try {
         const nb::gil_scoped_release released;
         cli::ProblemFiles files = files_of(domain, instance, repository);
@@ -46,7 +46,9 @@ LoadedProblem load(const std::string& domain, const std::string& instance,
         cli::LoadOptions options;
         options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
         options.externs = {externs.begin(), externs.end()};
-        options.details = true;
+        options.details = details;
+        options.remembers = true;
+        if (auto known = cli::load_known(files, options)) return *std::move(known);
         Compilation compilation = cli::compile_problem(files, options);
         if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
         return cli::load_compilation(std::move(compilation), files, options);
@@ -122,7 +124,7 @@ void add_problem(nb::module_& module) {
             return constants(*problem.simulator, fluent);
         });
     module.def("load", load, nb::arg("domain"), nb::arg("instance"), nb::arg("repository"),
-               nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"));
+               nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"), nb::arg("details"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
     module.def("is_path", cli::is_path, "Whether the text means a file or a folder.");

@@ -228,7 +228,18 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def _check_preconditions(self) -> None:
         self._writer.write_record()
         if self._batch.violated_preconditions()[0] >= 0:
-            raise ActionError(self._batch.explain_violation(0))
+            raise ActionError(self._why_violated())
+
+    def _why_violated(self) -> str:
+        if self.problem.has_details:
+            return self._batch.explain_violation(0)
+        batch = _native.Batch(self.problem.detailed, values=False)
+        batch.reset()
+        record = np.zeros(self.model.state_size, np.uint8)
+        self._batch.read_state(0, record)
+        batch.write_state(0, record, self.timestep)
+        batch.actions[:] = self._batch.actions
+        return batch.explain_violation(0)
 
     def action_masks(self) -> NDArray[np.bool_]:
         """(sum of categories,): which values of a Discrete or MultiDiscrete action satisfy the
@@ -256,7 +267,10 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._ended = state.causes
 
     def interm_fluents(self) -> dict[str, NDArray[np.generic]]:
-        """Values of interm- and derived-fluents in the last step, by their names."""
+        """Values of interm- and derived-fluents in the last step, by their names: of an interpreted
+        problem, or one that was loaded with details=True."""
+        if not self.problem.has_details:
+            raise Error("load the problem with details=True to ask for its interm-fluents")
         fluents = [
             each
             for role in ("interm-fluent", "derived-fluent")

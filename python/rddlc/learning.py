@@ -99,7 +99,24 @@ class ChoiceActions:
         self._row_limits = np.full(rows, self._lower), np.full(rows, self._upper)
         self.space = self._new_space()
         self.step = batch.step_values
+        self._quick_rows = None if self._squash is not None else self._new_row_writer(batch)
         self._quick = quick_writer(self.plan, self._values[0]) if self._squash is None else None
+
+    def _new_row_writer(self, batch: _native.Batch) -> _native.RowWriter | None:
+        """For rows of categories or of numbers, if each sets a value of its own and these stand
+        together."""
+        plan = self.plan
+        if plan.picks or (plan.category_counts and plan.numbers):
+            return None
+        columns = plan.number_columns if plan.numbers else plan.columns
+        if int(columns[-1]) - int(columns[0]) + 1 != len(columns):
+            return None
+        if plan.numbers:
+            limits = [(lower, upper, 0.0) for lower, upper in zip(self._lower, self._upper)]
+        else:
+            counted = zip(plan.category_counts, plan.values)
+            limits = [(0.0, float(count - 1), float(least)) for count, least in counted]
+        return _native.RowWriter(batch, int(columns[0]), limits, categories=not plan.numbers)
 
     def _number_limits(self) -> tuple[Array, Array]:
         count = len(self.plan.numbers)
@@ -130,6 +147,8 @@ class ChoiceActions:
 
     def write_rows(self, actions: Any) -> None:
         """A row for each environment. Raises ActionError, and has changed nothing then."""
+        if self._quick_rows is not None and self._quick_rows.write(actions):
+            return
         categories, numbers = self._split(actions)
         self.plan.check_categories(categories)
         self._check_numbers(numbers)

@@ -43,6 +43,7 @@ class Problem:
         engine: str = "compiled",
         externs: Sequence[str | os.PathLike[str]] = (),
         extended: bool = False,
+        details: bool = False,
     ) -> None:
         """`domain` and `instance` are two files, one file that holds both, a folder and the name of
         its instance, or a problem and an instance of rddlrepository.
@@ -50,6 +51,8 @@ class Problem:
         engine: "compiled" (kept in ~/.cache/rddlc) or "interpreter", which needs no C++ compiler.
         externs: C++ headers that define external functions.
         extended: whether the extensions of docs/dialects.md are allowed.
+        details: whether a compiled problem can be asked for interm-fluents; an interpreted one always
+            can.
 
         Raises CompileError with the compiler's diagnostics, and Error where files are missing.
         """
@@ -59,17 +62,41 @@ class Problem:
             "engine": engine,
             "externs": tuple(os.fspath(each) for each in externs),
             "extended": extended,
+            "details": details,
         }
         self.engine = _engine_at_hand(engine)
-        self.simulator = _native.load(
+        self.simulator = self._load(
             os.fspath(domain),
             "" if instance is None else str(instance),
-            repository="" if _native.is_path(os.fspath(domain)) else repository_folder(),
+            is_path=_native.is_path(os.fspath(domain)),
             interpreted=self.engine == "interpreter",
-            externs=list(self._options["externs"]),
-            extended=extended,
+            details=details,
         )
         self.name: str = self.simulator.name
+
+    def _load(
+        self, domain: str, instance: str, *, is_path: bool, interpreted: bool, details: bool
+    ) -> _native.Simulator:
+        return _native.load(
+            domain,
+            instance,
+            repository="" if is_path else repository_folder(),
+            interpreted=interpreted,
+            externs=list(self._options["externs"]),
+            extended=self._options["extended"],
+            details=details or interpreted,
+        )
+
+    @property
+    def has_details(self) -> bool:
+        """Whether the simulator tells interm-fluents, and objects that violate a precondition."""
+        return self.engine == "interpreter" or self._options["details"]
+
+    @cached_property
+    def detailed(self) -> _native.Simulator:
+        """The same problem, interpreted, with details."""
+        domain, *instance = self.files
+        return self._load(domain, "".join(instance), is_path=True, interpreted=True, details=True)
 
     @cached_property
     def model(self) -> Model:
@@ -79,6 +106,11 @@ class Problem:
     def files(self) -> list[str]:
         """The domain's and, unless it is the same, the instance's."""
         return [os.path.abspath(each) for each in self.simulator.files]
+
+    @property
+    def externs(self) -> tuple[str, ...]:
+        """Headers of external functions."""
+        return self._options["externs"]
 
     def constants(self, fluent: str) -> list[Any]:
         """The values, row-major, that the instance fixes: of a non-fluent; of a state-fluent at the

@@ -161,9 +161,8 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
     """Distributions of next states, costs, and the end of the episode as the goal.
 
     The cost of a step is most_reward less its reward, and an early end costs most_reward for each
-    step that is left, discounted: so the cheapest policy is the one that earns most. Deterministic
-    problems have exact distributions. Those of stochastic ones are estimated from `samples` draws, and
-    without samples there are none: an Error says so.
+    step that is left, discounted: so the cheapest policy is the one that earns most. Distributions
+    are exact, or estimated from `samples` draws, as a problem needs that draws from infinitely many values.
     """
 
     def __init__(
@@ -174,18 +173,13 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
         most_reward: float = 0.0,
         **options: Any,
     ) -> None:
-        """most_reward: no step earns more. levels, samples, horizon, seed: see `Transitions`."""
+        """most_reward: no step earns more. levels, samples, horizon, seed, most_outcomes: see
+        `Transitions`."""
         super().__init__(domain, instance, **options)
         self._most_reward = most_reward
         transitions = self.transitions
         if not transitions.horizon:
             raise Error("the problem has no horizon: say horizon=N")
-        if not (transitions.is_exact or options.get("samples")):
-            raise Error(
-                "the problem draws at random, and the exact distribution of its next states is not "
-                "known: say samples=1000 for an estimate from so many draws, or plan with "
-                "RDDLSimulation"
-            )
 
     def _get_next_state_distribution(self, memory: State, action: int) -> DiscreteDistribution:
         outcomes = self.transitions.outcomes(memory, action)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import product
 from typing import Any
 
@@ -48,9 +48,12 @@ class Transitions:
         samples: int = 0,
         horizon: int | None = None,
         seed: int = 0,
+        most_outcomes: int = 10_000,
     ) -> None:
         """levels: values of each number of an action, evenly between its bounds.
-        samples: draws from which next states of a stochastic problem are estimated; 0: they are not.
+        samples: draws from which next states of a stochastic problem are estimated; 0: they are exact,
+            by all combinations of what a step draws, as long as these are finitely many.
+        most_outcomes: of these combinations no more are made.
         horizon: steps; None: the instance's; 0: none.
 
         Raises Error for a partially observed problem, and where actions are too many or have no
@@ -63,6 +66,7 @@ class Transitions:
             "samples": samples,
             "horizon": horizon,
             "seed": seed,
+            "most_outcomes": most_outcomes,
         }
         self.problem = problem
         self.horizon = problem.model.horizon if horizon is None else horizon
@@ -88,8 +92,8 @@ class Transitions:
 
     @property
     def is_exact(self) -> bool:
-        """Whether `outcomes` are the true ones, which those of stochastic problems are not."""
-        return not self.problem.model.stochastic
+        """Whether `outcomes` are the true ones, and not estimated."""
+        return not (self.problem.model.stochastic and self._options["samples"])
 
     def action(self, number: int) -> dict[str, Any]:
         """The action as environments with actions="dict" take it."""
@@ -115,17 +119,14 @@ class Transitions:
         return Outcome(self._state_of(batch, 0, int(batch.causes[0])), 1.0, float(batch.rewards[0]))
 
     def _new_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
-        """All that the action may lead to, the likeliest first; of a stochastic problem what `samples`
-        draws have led to, the same ones each time. Raises Error if no draws are allowed."""
+        """All that the action may lead to, the likeliest first; with `samples` what so many draws have
+        led to, the same ones each time. Raises Error where something is drawn from infinitely many
+        values, or there are too many combinations."""
         _refuse_end(state)
-        if self.is_exact:
+        if not self.problem.model.stochastic:
             return (self.sample(state, action),)
-        if not self._options["samples"]:
-            raise Error(
-                "the problem draws at random, and the exact distribution of its next states is not "
-                "known: say samples=1000 for an estimate from so many draws, or take a planner that "
-                "draws itself"
-            )
+        if self.is_exact:
+            return self._exact_outcomes(state, action)
         batch = self._many
         batch.set_seed(self._options["seed"])
         self._step(batch, state, self._records[action])
@@ -137,6 +138,24 @@ class Transitions:
             for to, earned in rewards.items()
         ]
         return tuple(sorted(found, key=lambda each: -each.probability))
+
+    def _exact_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
+        found = self._enumeration.next_states(
+            state.record,
+            state.steps,
+            self._records[action].tobytes(),
+            self.horizon,
+            self._options["most_outcomes"],
+        )
+        outcomes = (
+            Outcome(State(record, state.steps + 1, ended), probability, reward)
+            for record, ended, probability, reward in found
+        )
+        return tuple(sorted(outcomes, key=lambda each: -each.probability))
+
+    @cached_property
+    def _enumeration(self) -> _native.Enumeration:
+        return _native.enumeration(self.problem.simulator, list(self.problem.externs))
 
     def _new_applicable(self, state: State) -> tuple[int, ...]:
         """The actions that satisfy the preconditions; none after the end."""

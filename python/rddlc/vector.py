@@ -61,6 +61,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._masks = ActionMasks(problem, self._batch, self._writer)
         self._mode, self._copies = mode, copy
         self._has_begun = False
+        self._no_texts = np.full(num_envs, CAUSE_TEXTS[0], object)
         self.single_observation_space = self._reader.space
         self.single_action_space = self._writer.space
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -132,16 +133,18 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if not self._has_begun:
             raise EpisodeOver("no episode has begun: call reset() before step()")
         self._writer.write_rows(actions)
-        self._writer.step()
+        any_ended = self._writer.step()
         results = [self._rewards, self._terminated, self._truncated]
         if self._copies:
             results = [each.copy() for each in results]
-        infos = self._infos() if self._causes.any() else {}
+        infos = self._infos() if any_ended else {}
         return self._reader.rows(copy=self._copies), *results, infos
 
     def _infos(self) -> dict[str, Any]:
         ended = self._causes != 0
-        of_ends: dict[str, Any] = {"cause": CAUSE_TEXTS[self._causes], "_cause": ended}
+        texts = self._no_texts.copy()  # few end in a step
+        texts[ended] = CAUSE_TEXTS[self._causes[ended]]
+        of_ends: dict[str, Any] = {"cause": texts, "_cause": ended}
         if self._mode != AutoresetMode.SAME_STEP:
             return of_ends
         final = self._reader.final_rows()

@@ -10,6 +10,7 @@ from typing import Any
 import rddlc
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples"
+WRITTEN = tempfile.TemporaryDirectory()  # the files of problems, which are read again
 EXAMPLES = ("cart_pole", "delivery", "mountain_car", "network", "reservoir", "robot")
 
 DOOR = """
@@ -88,16 +89,17 @@ def example(name: str, engine: str = "interpreter", **options: Any) -> rddlc.RDD
                       engine=engine, **options)
 
 
-def problem_of(name: str) -> rddlc.Problem:
+def problem_of(name: str, engine: str = "interpreter") -> rddlc.Problem:
     """One of TEXTS."""
-    return problem_of_text(TEXTS[name], name)
+    return problem_of_text(TEXTS[name], name, engine)
 
 
-def problem_of_text(text: str, name: str = "problem") -> rddlc.Problem:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"{name}.rddl"
-        file.write_text(text)
-        return rddlc.Problem(file, engine="interpreter")
+def problem_of_text(
+    text: str, name: str = "problem", engine: str = "interpreter"
+) -> rddlc.Problem:
+    file = Path(tempfile.mkdtemp(dir=WRITTEN.name)) / f"{name}.rddl"
+    file.write_text(text)
+    return rddlc.Problem(file, engine=engine)
 
 
 def written(name: str, **options: Any) -> rddlc.RDDLEnv:

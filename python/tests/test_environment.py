@@ -15,7 +15,7 @@ import numpy as np
 import PIL.Image
 import PIL.ImageSequence
 from gymnasium.utils.env_checker import check_env
-from support import EXAMPLES, example, written
+from support import EXAMPLES, TEXTS, example, written
 
 import rddlc
 
@@ -160,6 +160,47 @@ class States(unittest.TestCase):
         found = env.interm_fluents()
         self.assertEqual(list(found), ["slope", "speed"])
         self.assertAlmostEqual(found["speed"][0], float(env.state["position"] - before["position"]))
+
+    def test_compiled_problems_tell_details_if_they_are_to(self) -> None:
+        env = example("mountain_car", engine="compiled")
+        env.reset(seed=1)
+        env.step({"throttle": 1.0})
+        with self.assertRaisesRegex(rddlc.Error, "details=True"):
+            env.interm_fluents()
+        detailed, interpreted = (
+            example("mountain_car", engine="compiled", details=True),
+            example("mountain_car"),
+        )
+        for each in (detailed, interpreted):
+            each.reset(seed=1)
+            each.step({"throttle": 1.0})
+        np.testing.assert_equal(detailed.interm_fluents(), interpreted.interm_fluents())
+
+    def test_violations_are_explained_alike_by_both_engines(self) -> None:
+        messages = []
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "doors.rddl"
+            file.write_text(TEXTS["refuses_some"])
+            for engine in ("compiled", "interpreter"):
+                env = rddlc.make(file, engine=engine, enforce_action_constraints=True)
+                env.reset(seed=1)
+                with self.assertRaises(rddlc.ActionError) as raised:
+                    env.step({"open___d2": 1})
+                messages.append(str(raised.exception))
+        self.assertEqual(messages[0], messages[1])
+        self.assertIn("d2", messages[0])
+
+    def test_a_problem_is_found_again_until_its_files_change(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "doors.rddl"
+            file.write_text(TEXTS["refuses_some"])
+            first = rddlc.Problem(file)
+            self.assertEqual(rddlc.Problem(file).model.horizon, first.model.horizon)
+            file.write_text(TEXTS["refuses_some"].replace("horizon = 5", "horizon = 7"))
+            self.assertEqual(rddlc.Problem(file).model.horizon, 7)
+            file.write_text(TEXTS["mistake"])
+            with self.assertRaises(rddlc.CompileError):
+                rddlc.Problem(file)
 
     def test_episodes_begin_where_options_say(self) -> None:
         env = example("mountain_car")

@@ -176,9 +176,21 @@ class Planners(unittest.TestCase):
             cost = solver.get_utility(domain.transitions.start()).cost
         self.assertAlmostEqual(8 * 38 - cost, best_on_slippery_road(), delta=1.5)
 
-    def test_stochastic_problems_without_samples_are_refused(self) -> None:
-        with self.assertRaisesRegex(rddlc.Error, "exact distribution of its next states"):
-            RDDLPlanning(problem_of_text(SLIPPERY))
+    def test_lrtdp_and_ilao_plan_exactly_where_draws_are_finite(self) -> None:
+        for solver_type in (LRTDP, ILAOstar):
+            domain = RDDLPlanning(problem_of_text(SLIPPERY), most_reward=38)
+            with solver_type(lambda: domain) as solver:
+                solver.solve()
+                cost = solver.get_utility(domain.transitions.start()).cost
+            self.assertAlmostEqual(8 * 38 - cost, best_on_slippery_road(), delta=0.01)
+
+    def test_mcts_plans_with_exact_distributions(self) -> None:
+        domain = RDDLPlanning(problem_of_text(BETS), most_reward=20)
+        start = domain.transitions.start()
+        with mcts(domain, MCTS.TransitionMode.DISTRIBUTION, MCTS.Expander.FULL) as solver:
+            solver.solve()
+            chosen = domain.action(solver.sample_action(start))
+        self.assertEqual(chosen, {"good": 1, "bad": 0})
 
     def test_a_wrong_bound_of_rewards_is_told(self) -> None:
         domain = RDDLPlanning(problem_of_text(SURE))

@@ -95,11 +95,45 @@ class TransitionsTest(unittest.TestCase):
         share = np.mean([each == outcomes[0].state for each in drawn])
         self.assertAlmostEqual(share, 9 / 16, delta=0.05)
 
-    def test_no_distribution_is_made_up(self) -> None:
+    def test_distributions_are_exact(self) -> None:
         transitions = Transitions(problem_of_text(COINS))
-        self.assertFalse(transitions.is_exact)
-        with self.assertRaisesRegex(rddlc.Error, "exact distribution.*samples=1000"):
-            transitions.outcomes(transitions.start(), 0)
+        self.assertTrue(transitions.is_exact)
+        start, both = transitions.start(), number_of(transitions, toss___a=1, toss___b=1)
+        outcomes = transitions.outcomes(start, both)
+        self.assertEqual([each.probability for each in outcomes], [9 / 16, 3 / 16, 3 / 16, 1 / 16])
+        (certain,) = transitions.outcomes(start, number_of(transitions))
+        self.assertEqual(certain.probability, 1)
+
+    def test_exact_distributions_are_those_of_draws(self) -> None:
+        """Bernoulli, Discrete and a draw that two fluents share, up to the last step."""
+        draws = 4000
+        transitions = Transitions(problem_of_text(WEATHER))
+        state = transitions.start()
+        for _ in range(3):
+            outcomes = transitions.outcomes(state, number_of(transitions, umbrella=1))
+            self.assertAlmostEqual(sum(each.probability for each in outcomes), 1)
+            sampled = Transitions(transitions.problem, samples=draws)
+            known = {each.state: each for each in outcomes}
+            for each in sampled.outcomes(state, number_of(transitions, umbrella=1)):
+                self.assertIn(each.state, known)  # with steps and causes
+                p = known[each.state].probability
+                self.assertAlmostEqual(
+                    each.probability, p, delta=5 * (p * (1 - p) / draws) ** 0.5 + 1e-9
+                )
+                self.assertAlmostEqual(each.reward, known[each.state].reward, delta=0.1)
+            state = outcomes[0].state
+        self.assertEqual(rddlc.causes.text_of(state.causes), "horizon")
+
+    def test_no_distribution_is_made_up(self) -> None:
+        normal = COINS.replace("Bernoulli(0.25)", "(Normal(0.0, 1.0) > 0.5)")
+        transitions = Transitions(problem_of_text(normal))
+        toss = number_of(transitions, toss___a=1)
+        with self.assertRaisesRegex(rddlc.Error, "Normal has no finite list of outcomes"):
+            transitions.outcomes(transitions.start(), toss)
+        few = Transitions(problem_of_text(COINS), most_outcomes=3)
+        both = number_of(few, toss___a=1, toss___b=1)
+        with self.assertRaisesRegex(rddlc.Error, "more than 3 combinations.*samples=1000"):
+            few.outcomes(few.start(), both)
 
     def test_what_cannot_be_planned_is_refused(self) -> None:
         with self.assertRaisesRegex(rddlc.Error, "'push' has no two bounds"):
@@ -123,6 +157,31 @@ class TransitionsTest(unittest.TestCase):
         self.assertEqual(again.action_count, 5)
         self.assertEqual(again.sample(again.start(), 0), transitions.sample(transitions.start(), 0))
 
+
+WEATHER = """
+domain weather {
+    types { sky : { @clear, @clouds, @rain }; };
+    pvariables {
+        now : { state-fluent, sky, default = @clear };
+        wet : { state-fluent, bool, default = false };
+        warned : { state-fluent, bool, default = false };
+        siren : { interm-fluent, bool };
+        umbrella : { action-fluent, bool, default = false };
+    };
+    cpfs {
+        siren = Bernoulli(0.3);
+        now' = if (siren) then Discrete(sky, @clear : 0.1, @clouds : 0.2, @rain : 0.7)
+               else Discrete(sky, @clear : 0.5, @clouds : 0.5, @rain : 0.0);
+        wet' = if (now == @rain) then Bernoulli(if (umbrella) then 0.125 else 1.0) else false;
+        warned' = siren;
+    };
+    reward = siren - wet;
+}
+non-fluents none { domain = weather; }
+instance weather_1 {
+    domain = weather; non-fluents = none; max-nondef-actions = 1; horizon = 3; discount = 1.0;
+}
+"""
 
 GATE = """
 domain gate {

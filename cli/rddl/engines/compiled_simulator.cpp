@@ -11,10 +11,7 @@ namespace rddlc::cli {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// A simulator from a shared object; null if the file is not one of this ABI version.
-std::shared_ptr<const rddl_simulator> load_simulator_of(const fs::path& object) {
+std::shared_ptr<const rddl_simulator> load_object(const fs::path& object) {
     const auto close = [](void* handle) {
         if (handle) dlclose(handle);
     };
@@ -29,16 +26,14 @@ std::shared_ptr<const rddl_simulator> load_simulator_of(const fs::path& object) 
     return {library, simulator};
 }
 
-}  // namespace
-
 CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options) {
     CachedObject object = cached_object(text, options);
-    if (auto simulator = load_simulator_of(object.path)) return {simulator, object};
+    if (auto simulator = load_object(object.path)) return {simulator, object};
     // Compiled by something that has changed since.
     CacheOptions anew = options;
     anew.ignore_cache = true;
     object = cached_object(text, anew);
-    if (auto simulator = load_simulator_of(object.path)) return {simulator, object};
+    if (auto simulator = load_object(object.path)) return {simulator, object};
     const char* const why = dlerror();
     throw Failure(fmt::format("the compiled simulator '{}' cannot be loaded: {}",
                               object.path.string(),

@@ -5,6 +5,7 @@
 
 #include <rddl/simulator.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,9 @@ struct CompiledSimulator {
     std::shared_ptr<const rddl_simulator> simulator;  // keeps the library loaded
     CachedObject object;
 };
+
+// From a shared object; null if the file is not one of this ABI version.
+std::shared_ptr<const rddl_simulator> load_object(const std::filesystem::path& object);
 
 // Fails if there is no C++ compiler.
 CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options);

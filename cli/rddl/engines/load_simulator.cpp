@@ -1,5 +1,6 @@
 #include "engines/load_simulator.hpp"
 
+#include "cache/known_objects.hpp"
 #include "driver/extern_headers.hpp"
 #include "engines/compiled_simulator.hpp"
 #include "engines/external_library.hpp"
@@ -8,6 +9,7 @@
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -62,6 +64,17 @@ LoadedProblem interpreted(Compilation compilation, const ProblemFiles& files,
             LoadCosts{}};
 }
 
+// Nothing where the files alone do not tell which object it is.
+std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& options) {
+    if (!options.remembers || options.engine != Engine::Compiled || options.ignore_cache ||
+        !options.externs.empty())
+        return std::nullopt;
+    const std::string told = fmt::format(
+        "{} {} {} {} {}", static_cast<int>(files.standard), static_cast<int>(options.real),
+        options.details, options.passes.fast_math, fmt::join(options.passes.without, ","));
+    return key_of_files(files.all(), told);
+}
+
 LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
                     const LoadOptions& options) {
     LoadCosts costs;
@@ -72,6 +85,7 @@ LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
         text,
         {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers});
     costs.build_seconds = compiled.object.build_seconds;
+    if (const auto key = key_of(files, options)) remember_object(*key, compiled.object.path);
     costs.object_bytes =
         static_cast<std::int64_t>(std::filesystem::file_size(compiled.object.path));
     return {files, compiled.simulator, costs};
@@ -109,6 +123,14 @@ LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& file
                                 : built(compilation, files, options);
     problem.used = used_files(files, options);
     return problem;
+}
+
+std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOptions& options) {
+    const auto key = key_of(files, options);
+    const auto object = key ? known_object(*key) : std::nullopt;
+    Simulator simulator = object ? load_object(*object) : nullptr;
+    if (!simulator) return std::nullopt;
+    return LoadedProblem{files, std::move(simulator), LoadCosts{}, used_files(files, options)};
 }
 
 LoadedProblem load_problem(const ProblemFiles& files, const LoadOptions& options) {

@@ -1,0 +1,127 @@
+#include "native/enumeration.hpp"
+
+#include "engines/external_library.hpp"
+#include "engines/load_simulator.hpp"
+#include "ir/interpreter.hpp"
+#include "native/problem.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nb = nanobind;
+
+namespace rddlc::python {
+
+namespace {
+
+struct Mass {
+    double probability = 0, reward = 0;  // the reward times the probability
+};
+// By the record of the state and the causes of an end.
+using Distribution = std::map<std::pair<std::string, std::uint8_t>, Mass>;
+
+// Steps with every combination of what is drawn, by the interpreter.
+class Enumeration {
+  public:
+    Enumeration(ir::Program program, cli::ExternalLibrary library)
+        : library_(std::move(library)),
+          interpreter_(std::move(program), library_.functions),
+          scratch_(interpreter_.scratch_size()),
+          observation_(interpreter_.observation_size()) {}
+
+    // horizon: 0: none. Refuses more than `most` combinations, and those that fault.
+    Distribution next_states(const std::string& state, std::int64_t steps,
+                             const std::string& action, std::int64_t horizon, std::int64_t most) {
+        if (state.size() != interpreter_.state_size() ||
+            action.size() != interpreter_.action_size())
+            throw Refused("a record of another problem");
+        Distribution found;
+        ir::Outcomes outcomes;
+        std::int64_t combinations = 0;
+        do {
+            if (++combinations > most)
+                throw Refused(fmt::format(
+                    "a step has more than {} combinations of what it draws: allow more by "
+                    "most_outcomes, or say samples=1000 for an estimate",
+                    most));
+            add(found, outcomes, state, steps, action, horizon);
+        } while (outcomes.next());
+        return found;
+    }
+
+  private:
+    void add(Distribution& found, ir::Outcomes& outcomes, const std::string& state,
+             std::int64_t steps, const std::string& action, std::int64_t horizon) {
+        auto context =
+            rddl::Context<rddl::Scalar>::of(0, 0, static_cast<std::uint64_t>(steps) + 1, true);
+        std::vector<std::byte> next(interpreter_.state_size());
+        const double reward =
+            interpreter_.step(bytes(state), bytes(action), scratch_.data(), next.data(),
+                              observation_.data(), context, &outcomes);
+        int causes = interpreter_.terminal(next.data(), context) ? RDDL_TERMINATED : 0;
+        if (interpreter_.violates_invariant(next.data(), context))
+            causes |= RDDL_TRUNCATED_INVARIANT;
+        if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
+        if (context.fault)
+            throw Refused("one of the outcomes has no result: sample() tells the fault");
+        const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
+        Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
+        mass.probability += outcomes.probability();
+        mass.reward += outcomes.probability() * reward;
+    }
+
+    static const std::byte* bytes(const std::string& record) {
+        return reinterpret_cast<const std::byte*>(record.data());
+    }
+
+    cli::ExternalLibrary library_;
+    ir::Interpreter interpreter_;
+    std::vector<std::byte> scratch_, observation_;
+};
+
+Enumeration enumeration_of(const cli::LoadedProblem& problem,
+                           const std::vector<std::string>& externs) {
+    cli::LoadOptions options;
+    options.engine = cli::Engine::Interpreter;
+    options.externs = {externs.begin(), externs.end()};
+    Compilation compilation = cli::compile_problem(problem.files, options);
+    if (compilation.diagnostics.has_errors()) throw Refused("the problem's files have changed");
+    cli::ExternalLibrary library =
+        cli::external_library(*compilation.program, problem.files, options);
+    return Enumeration(*std::move(compilation.program), std::move(library));
+}
+
+std::string text_of(const nb::bytes& bytes) {
+    return {bytes.c_str(), bytes.size()};
+}
+
+}  // namespace
+
+void add_enumeration(nb::module_& module) {
+    nb::class_<Enumeration>(module, "Enumeration", "Exact distributions of next states.")
+        .def(
+            "next_states",
+            [](Enumeration& self, const nb::bytes& state, std::int64_t steps,
+               const nb::bytes& action, std::int64_t horizon, std::int64_t most) {
+                nb::list all;
+                for (const auto& [to, mass] :
+                     self.next_states(text_of(state), steps, text_of(action), horizon, most))
+                    all.append(nb::make_tuple(nb::bytes(to.first.data(), to.first.size()),
+                                              static_cast<int>(to.second), mass.probability,
+                                              mass.reward / mass.probability));
+                return all;
+            },
+            nb::arg("state"), nb::arg("steps"), nb::arg("action"), nb::arg("horizon"),
+            nb::arg("most"), "(record, causes, probability, mean reward) of each next state.");
+    module.def("enumeration", enumeration_of, nb::arg("simulator"), nb::arg("externs"));
+}
+
+}  // namespace rddlc::python

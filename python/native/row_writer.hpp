@@ -1,0 +1,43 @@
+// Actions of many environments, checked and written in one pass.
+#pragma once
+
+#include "native/batch.hpp"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rddlc::python {
+
+// What an entry of a row may be, and what is added to it.
+struct RowLimits {
+    float lower, upper, offset;
+};
+
+// Into the columns of action values from `first` on, one for each of `limits`: categories, which
+// are int64, or numbers, which are float.
+class RowWriter {
+  public:
+    RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories);
+
+    template <class T>
+    using Rows = nanobind::ndarray<const T, nanobind::c_contig, nanobind::device::cpu>;
+
+    // False, and nothing is changed, for rows of another kind or size, and those with an entry
+    // outside its limits or that is nan.
+    template <class T>
+    bool write(const Rows<T>& rows);
+
+  private:
+    Batch& batch_;
+    std::int64_t first_;
+    std::vector<RowLimits> limits_;
+    bool categories_;
+};
+
+void add_row_writer(nanobind::module_& module);
+
+}  // namespace rddlc::python
