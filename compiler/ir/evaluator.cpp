@@ -23,9 +23,9 @@
 namespace rddlc::ir {
 namespace {
 
-[[noreturn]] void refuse_infinite(std::string_view distribution) {
-    throw Failure(fmt::format("a draw from {} has no finite list of outcomes", distribution),
-                  "only those of Bernoulli, Discrete and their like can be told one by one");
+[[noreturn]] void refuse_to_list(std::string_view distribution) {
+    throw Failure(fmt::format("the outcomes of {} are not listed one by one", distribution),
+                  "only those of Bernoulli, Discrete and their like are");
 }
 
 // Constant tables for which these bytes leave no room are looked up where they are.
@@ -237,7 +237,7 @@ void Evaluator::call(Callee callee, const Call& form, Frame& frame) const {
             arguments.int_scalar = value<std::int64_t>(scalar, frame);
         }
     }
-    if (frame.outcomes_ && is_draw(form.callee)) refuse_infinite("a whole vector");
+    if (frame.outcomes_ && is_draw(form.callee)) refuse_to_list("a whole vector");
     call_on_tables(callee, arguments, place(form.place, frame), frame.context_);
 }
 
@@ -513,7 +513,7 @@ T Evaluator::choose(const Sample& form, Frame& frame) const {
         static_cast<void>(rddl::sample::bernoulli(frame.context_, here, p));
         return !frame.context_.fault && frame.outcomes_->choose(here, {1 - p, p}) == 1;
     }
-    refuse_infinite(name_of(form.distribution));
+    refuse_to_list(name_of(form.distribution));
 }
 
 template <class Weight>

@@ -128,7 +128,7 @@ class TransitionsTest(unittest.TestCase):
         normal = COINS.replace("Bernoulli(0.25)", "(Normal(0.0, 1.0) > 0.5)")
         transitions = Transitions(problem_of_text(normal))
         toss = number_of(transitions, toss___a=1)
-        with self.assertRaisesRegex(rddlc.Error, "Normal has no finite list of outcomes"):
+        with self.assertRaisesRegex(rddlc.Error, "outcomes of Normal are not listed"):
             transitions.outcomes(transitions.start(), toss)
         few = Transitions(problem_of_text(COINS), most_outcomes=3)
         both = number_of(few, toss___a=1, toss___b=1)
