@@ -78,8 +78,7 @@ def build_references(options: argparse.Namespace) -> Path:
     options.folder.mkdir(parents=True, exist_ok=True)
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
     program = options.folder / "handwritten"
-    measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json",
-                 "formats/json_text")
+    measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json")
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler", ROOT]
     libraries = [options.build / "solvers/librddl_solvers.a", options.build / "compiler/support/librddlc_support.a",

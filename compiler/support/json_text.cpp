@@ -19,13 +19,17 @@ std::string text_of(const nlohmann::ordered_json& value, int indent) {
 nlohmann::json parse_json(std::string_view text) {
     using nlohmann::json;
     std::vector<std::unordered_set<std::string>> members;  // of the objects around, outermost first
-    const auto see = [&](int, json::parse_event_t event, json& parsed) {
+    constexpr int most_brackets = 256;
+    const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
+        if (depth > most_brackets)
+            throw RefusedJson(
+                fmt::format("more than {} brackets lie within each other", most_brackets));
         if (event == json::parse_event_t::object_start) members.emplace_back();
         if (event == json::parse_event_t::object_end) members.pop_back();
         if (event == json::parse_event_t::key &&
             !members.back().insert(parsed.get_ref<const std::string&>()).second)
-            throw RepeatedMember(fmt::format("the member '{}' is given twice",
-                                             parsed.get_ref<const std::string&>()));
+            throw RefusedJson(fmt::format("the member '{}' is given twice",
+                                          parsed.get_ref<const std::string&>()));
         return true;
     };
     return json::parse(text, see);

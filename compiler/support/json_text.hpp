@@ -10,12 +10,13 @@
 
 namespace rddlc {
 
-// An object names a member twice; which one is meant nobody knows. what() is a sentence.
-struct RepeatedMember : std::runtime_error {
+// JSON that others may take: an object names a member twice, and nobody knows which one is meant,
+// or brackets lie so deep within others that readers would run out of stack. what() is a sentence.
+struct RefusedJson : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Fails with a nlohmann::json::exception or a RepeatedMember.
+// Fails with a nlohmann::json::exception or a RefusedJson.
 nlohmann::json parse_json(std::string_view text);
 // Keeps the order of members. Fails with a nlohmann::json::exception.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);

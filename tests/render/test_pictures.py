@@ -252,6 +252,25 @@ class Errors(PictureTest):
         self.run_car("--trace=t.jsonl")
         return (self.folder / "t.jsonl").read_text().splitlines(keepends=True)
 
+    def test_two_outputs_in_one_file(self):
+        (self.folder / "link").symlink_to("a.gif")
+        for words in (("--trace=a.gif", "--gif=a.gif"), ("--gif=a.gif", "--html=./a.gif"),
+                      ("--gif=link.gif", "--html=link.gif"), ("--trace=link", "--gif=a.gif")):
+            done = self.run_car(*words, status=USAGE)
+            self.assertIn("two outputs would be written to", done.stderr)
+        self.assertFalse((self.folder / "a.gif").exists())
+        self.assertIn("--gif writes a file .gif", self.run_car("--gif=a.png", status=USAGE).stderr)
+
+    def test_rewards_that_are_no_numbers(self):
+        lines = self.trace()
+        step = json.loads(lines[4])
+        for reward, total in ("nan", "nan"), ("inf", "inf"):
+            lines[4] = json.dumps({**step, "reward": reward}) + "\n"
+            (self.folder / "t.jsonl").write_text("".join(lines))
+            shown = self.rddl("render", "t.jsonl", "--watch").stdout
+            self.assertRegex(shown, f"reward {reward}")
+            self.assertRegex(shown, f"return {total}")
+
     def test_trace_cut_off_in_a_line(self):
         lines = self.trace()
         (self.folder / "t.jsonl").write_text("".join(lines[:9]) + lines[9][:40])

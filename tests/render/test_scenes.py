@@ -73,6 +73,25 @@ class Scenes(PictureTest):
             self.assertIn("^", text, expression)
             self.assertFalse((self.folder / "a.png").exists())
 
+    def test_mistakes_without_an_expression(self):
+        """What only constants stand beside is looked at, too."""
+        def told(**members) -> str:
+            return self.draw({"world": {"right": 2, "top": 1}, "shapes": [
+                {"shape": "circle", "x": 1, "y": 1, "radius": 1, **members}]}, status=DIAGNOSED)
+
+        for type_name in "nosuch", "bool":
+            self.assertIn(f"there is no type of objects '{type_name}'", told(**{"for": {"?x": type_name}}))
+        self.assertIn("'outline' is true or false", told(outline="yes"))
+        self.assertIn("may not be negative", told(radius=-1))
+
+    def test_brackets_that_lie_deep(self):
+        told = self.draw('{"world": ' + "[" * 1_000_000, status=DIAGNOSED)
+        self.assertIn("more than 256 brackets", told)
+
+    def test_braces_within_a_text(self):
+        self.draw({"world": {"right": 2, "top": 1}, "shapes": [
+            {"shape": "text", "x": 1, "y": 0.5, "text": "{max_{?s: segment} [position]} in all"}]})
+
     def test_mistakes_in_the_file(self):
         circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
         for scene, complaint in (

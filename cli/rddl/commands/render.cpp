@@ -77,6 +77,7 @@ ExitStatus render_trace(const RenderOptions& options) {
         throw Failure("there is nothing to write",
                       "say --gif, --png, --svg, --video, --html or --watch", usage_error);
     require_one_on_standard_output(options.pictures);
+    require_different_files(options.pictures);
     if (!options.beside.empty()) require_pages_alone(options);
     UsedFiles used;
     // The first line says which problem it is, which would say how long lines can be.

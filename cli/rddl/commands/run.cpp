@@ -197,6 +197,7 @@ void require_drawn_episode(const RunOptions& options) {
     require_one_on_standard_output(options.pictures, options.json           ? "--json"
                                                      : options.trace == "-" ? "--trace -"
                                                                             : "");
+    require_different_files(options.pictures, options.trace);
 }
 
 // An episode that is over before its first step has no line in the trace; its state is drawn.

@@ -8,6 +8,7 @@
 #include <render/png.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <memory>
@@ -93,19 +94,28 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
     return output;
 }
 
-Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
-                    BytesOf bytes_of, UsedFiles& used) {
+std::string extension_of(const std::string& path) {
     std::string extension = fs::path(path).extension();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return std::tolower(c); });
-    // Nobody means a folder.
-    for (const char* const other : {".png", ".svg", ".gif", ".jpg", ".jpeg", ".webp", ".bmp",
-                                    ".pdf", ".html", ".mp4", ".webm"})
-        if (extension == other && extension != ending)
-            throw Failure(
-                fmt::format("a picture is a file {}, or a folder of them, not '{}'", ending, path),
-                {}, usage_error);
-    const bool single = is_standard_output(path) || extension == ending;
+    return extension;
+}
+
+// What others read as a file of another kind.
+bool names_another_kind(const std::string& path, std::string_view ending) {
+    constexpr std::array<std::string_view, 11> endings{
+        ".png", ".svg", ".gif", ".jpg", ".jpeg", ".webp", ".bmp", ".pdf", ".mp4", ".webm", ".html"};
+    const std::string extension = extension_of(path);
+    return extension != ending && std::ranges::find(endings, extension) != std::end(endings);
+}
+
+Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
+                    BytesOf bytes_of, UsedFiles& used) {
+    if (names_another_kind(path, ending))  // nobody means a folder
+        throw Failure(
+            fmt::format("a picture is a file {}, or a folder of them, not '{}'", ending, path), {},
+            usage_error);
+    const bool single = is_standard_output(path) || extension_of(path) == ending;
     return single ? single_output(path, options.step, bytes_of, used)
                   : folder_output(path, ending, bytes_of, used);
 }
@@ -122,6 +132,9 @@ Output gif_output(const PictureOptions& options, UsedFiles& used) {
             : file(open_output(path, in_use)),
               writer(width, height, [this](std::string_view bytes) { file.write(bytes); }) {}
     };
+    if (names_another_kind(options.gif, ".gif"))
+        throw Failure(fmt::format("--gif writes a file .gif, not '{}'", options.gif), {},
+                      usage_error);
     const auto gif = std::make_shared<Gif>(options.gif, options.width, options.height, used);
     Output output;
     output.begin = [=](const Show& show) {

@@ -2,6 +2,7 @@
 
 #include "pictures/charts.hpp"
 #include "support/failure.hpp"
+#include "support/files.hpp"
 #include "support/program.hpp"
 
 #include <fmt/format.h>
@@ -46,6 +47,18 @@ void require_one_on_standard_output(const PictureOptions& options, std::string_v
                       "name a file, or send the output to another program; --watch shows episodes "
                       "in terminals",
                       usage_error);
+}
+
+void require_different_files(const PictureOptions& options, const std::string& trace) {
+    UsedFiles named;
+    for (const std::string& path :
+         {trace, options.gif, options.video, options.png, options.svg, options.html}) {
+        if (path.empty() || path == "-") continue;
+        if (named.contain(path))
+            throw Failure(fmt::format("two outputs would be written to '{}'", path), {},
+                          usage_error);
+        named.add(path);
+    }
 }
 
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation) {

@@ -36,6 +36,8 @@ struct PictureOptions {
 // Throws a Failure unless nothing, or one thing, is written to standard output, and pictures not to
 // a terminal. `other`: an option that writes there, too; empty: none.
 void require_one_on_standard_output(const PictureOptions& options, std::string_view other = {});
+// Throws a Failure where two outputs have the same file, the trace of `rddl run` included.
+void require_different_files(const PictureOptions& options, const std::string& trace = {});
 
 // --size
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation);

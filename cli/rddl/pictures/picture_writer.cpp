@@ -24,8 +24,11 @@ namespace {
 
 render::Visualizer choose_visualizer(const PictureOptions& options, const ProblemFiles& files,
                                      const render::World& world) {
-    if (!options.scene.empty()) return scene_visualizer(files, options.scene);
     const std::string& name = options.visualizer;
+    if (!options.scene.empty() && !name.empty())
+        throw Failure("--scene and --visualizer both say how states are drawn", "leave one out",
+                      usage_error);
+    if (!options.scene.empty()) return scene_visualizer(files, options.scene);
     if (name.empty()) return render::visualizer_for(world);
     const render::Visualizer* const found = render::find_visualizer(name);
     if (!found) {

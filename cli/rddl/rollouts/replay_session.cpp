@@ -125,7 +125,7 @@ std::string ReplaySession::answer(std::string_view line) {
         return answer_object(parse_json(line), is_first);
     } catch (const json::exception& error) {
         message = message_of(error);
-    } catch (const RepeatedMember& error) {
+    } catch (const RefusedJson& error) {
         message = error.what();
     } catch (const ForeignTrace&) {
         throw;

@@ -58,7 +58,7 @@ class SceneReader {
             fail({file_, at, at}, "this is no JSON",
                  "JSON has names and texts in double quotes, no comments, and no comma before a "
                  "bracket that closes");
-        } catch (const RepeatedMember& repeated) {
+        } catch (const RefusedJson& repeated) {
             fail(whole(), repeated.what());
         }
     }
@@ -119,6 +119,21 @@ class SceneReader {
         if (value.is_number()) return value.get<double>();
         if (value.is_string()) return add_expression(place_of(value), false);
         fail(place_of(value), "here stands a number, or a text that is an RDDL expression");
+    }
+    // A length or a size.
+    SceneNumber read_length(const Json& value) {
+        if (value.is_number() && value.get<double>() < 0)
+            fail(place_of(value), "this may not be negative");
+        return read_number(value);
+    }
+    SceneNumber length_or(const Json& shape, const char* name, double otherwise) {
+        return shape.contains(name) ? read_length(shape[name]) : SceneNumber(otherwise);
+    }
+    bool read_outline(const Json& shape) const {
+        if (!shape.contains("outline")) return false;
+        const Json& value = shape["outline"];
+        if (!value.is_boolean()) fail(place_of(value), "'outline' is true or false");
+        return value.get<bool>();
     }
     SceneNumber number_or(const Json& shape, const char* name, double otherwise) {
         return shape.contains(name) ? read_number(shape[name]) : SceneNumber(otherwise);
@@ -188,6 +203,16 @@ class SceneReader {
         return text;
     }
 
+    // Expressions have braces, too: {sum_{?b: basin} [water(?b)]}.
+    static std::size_t closing_brace(const std::string& text, std::size_t open) {
+        int depth = 0;
+        for (std::size_t at = open; at < text.size(); ++at) {
+            if (text[at] == '{') ++depth;
+            if (text[at] == '}' && --depth == 0) return at;
+        }
+        return std::string::npos;
+    }
+
     // "level of {?b}: {water(?b)}"
     SceneText read_text(const Json& value) {
         if (!value.is_string()) fail(place_of(value), "'text' is a text");
@@ -199,7 +224,7 @@ class SceneReader {
             const std::size_t open = std::min(raw.find('{', at), raw.size());
             if (open > at) text.push_back(without_escapes(raw.substr(at, open - at), span));
             if (open == raw.size()) break;
-            const std::size_t close = raw.find('}', open);
+            const std::size_t close = closing_brace(raw, open);
             if (close == std::string::npos) fail(span, "a '{' is not closed");
             text.push_back(read_piece(raw.substr(open + 1, close - open - 1),
                                       {file_, span.begin + static_cast<std::uint32_t>(open) + 1,
@@ -251,7 +276,7 @@ class SceneReader {
             also({"x", "y", "radius", "outline", "thickness"});
             result.kind = Kind::Circle;
             add_points(shape, result, {{"x", "y"}}, "circle");
-            result.radius = read_number(member(shape, "radius", "circle"));
+            result.radius = read_length(member(shape, "radius", "circle"));
         } else if (kind == "line") {
             also({"x1", "y1", "x2", "y2", "thickness"});
             result.kind = Kind::Line;
@@ -281,9 +306,9 @@ class SceneReader {
                       : "shapes are circle, line, rectangle, cell, polygon and text");
         }
         allow(shape, place_of(shape), names);
-        result.size = number_or(shape, "size", 12);
-        result.thickness = number_or(shape, "thickness", 2);
-        result.outline = shape.contains("outline") && shape["outline"] == true;
+        result.size = length_or(shape, "size", 12);
+        result.thickness = length_or(shape, "thickness", 2);
+        result.outline = read_outline(shape);
         result.color =
             shape.contains("color") ? read_color(shape["color"]) : SceneColor{render::colors::ink};
         if (shape.contains("visible")) result.visible = read_condition(shape["visible"]);

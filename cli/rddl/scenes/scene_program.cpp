@@ -2,6 +2,7 @@
 
 #include "parse/parse.hpp"
 #include "problems/front_end.hpp"
+#include "support/diagnostic.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
 
@@ -126,9 +127,12 @@ class SceneCompiler {
                 add_members(*domain, type, objects);
             if (const auto* const values = std::get_if<ast::NonFluents>(&block))
                 add_objects(values->sections, type, objects);
+        }
+        if (!objects.empty()) return objects;
+        // Those of the instance count where there are no others.
+        for (const ast::Block& block : program_.blocks)
             if (const auto* const instance = std::get_if<ast::Instance>(&block))
                 add_objects(instance->sections, type, objects);
-        }
         return objects;
     }
     static void add_members(const ast::Domain& domain, const std::string& type,
@@ -150,18 +154,26 @@ class SceneCompiler {
                             objects.push_back({object.text, false});
     }
 
-    // To the values of the last non-fluents block.
-    void append(ast::NonFluentValues values) {
-        ast::NonFluents* last = nullptr;
+    // The sections of the last non-fluents block, or of the instance where there is none.
+    std::vector<ast::InstanceSection>* sections_of_non_fluents() {
+        std::vector<ast::InstanceSection>* sections = nullptr;
         for (ast::Block& block : program_.blocks)
-            if (auto* const found = std::get_if<ast::NonFluents>(&block)) last = found;
-        if (!last) return;
-        for (ast::InstanceSection& section : last->sections)
+            if (auto* const instance = std::get_if<ast::Instance>(&block))
+                sections = &instance->sections;
+        for (ast::Block& block : program_.blocks)
+            if (auto* const found = std::get_if<ast::NonFluents>(&block))
+                sections = &found->sections;
+        return sections;
+    }
+    void append(ast::NonFluentValues values) {
+        std::vector<ast::InstanceSection>* const sections = sections_of_non_fluents();
+        if (!sections) return;
+        for (ast::InstanceSection& section : *sections)
             if (auto* const found = std::get_if<ast::NonFluentValues>(&section.node)) {
                 std::ranges::move(values.assignments, std::back_inserter(found->assignments));
                 return;
             }
-        last->sections.push_back({std::move(values), last->span});
+        sections->push_back({std::move(values), Span{}});
     }
 
     ast::Program& program_;
@@ -190,6 +202,7 @@ SceneProgram::SceneProgram(const ProblemFiles& files, const std::filesystem::pat
         std::vector<std::string> objects(type.objects.begin(), type.objects.end());
         objects_.emplace_back(type.name, std::move(objects));
     }
+    require_types(Source(scene_file.string(), text));
     std::vector<std::size_t> fluents(scene_.expressions.size());
     for (std::size_t f = 0; f < program.fluents.size(); ++f)
         for (std::size_t e = 0; e < fluents.size(); ++e)
@@ -200,6 +213,21 @@ SceneProgram::SceneProgram(const ProblemFiles& files, const std::filesystem::pat
         offsets_.push_back(static_cast<std::size_t>(details_->offset_of(fluent)));
     scratch_.resize(details_->get()->scratch_size);
     record_.resize(details_->get()->record_size);
+}
+
+// The checker has seen the types of expressions; a shape may have none.
+void SceneProgram::require_types(const Source& source) const {
+    std::vector<std::string> names;
+    for (const auto& [name, objects] : objects_) names.push_back(name);
+    for (const SceneShape& shape : scene_.shapes)
+        for (const SceneVariable& variable : shape.variables) {
+            if (std::ranges::find(names, variable.type) != names.end()) continue;
+            const Position position = source.position(variable.span.begin);
+            const auto near = did_you_mean(variable.type, names);
+            throw Failure(fmt::format("{}:{}:{}: there is no type of objects '{}'", source.path(),
+                                      position.line, position.column, variable.type),
+                          near ? fmt::format("did you mean '{}'?", *near) : "");
+        }
 }
 
 const std::vector<std::string>& SceneProgram::objects_of(const std::string& type) const {

@@ -30,6 +30,8 @@ class SceneProgram {
     double value(const SceneNumber& number, std::size_t grounding) const;
 
   private:
+    void require_types(const Source& source) const;
+
     Scene scene_;
     std::vector<std::pair<std::string, std::vector<std::string>>> objects_;  // by type
     std::unique_ptr<InterpretedDetails> details_;

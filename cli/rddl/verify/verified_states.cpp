@@ -48,7 +48,7 @@ json read_line(const std::string& text, const auto& refuse) {
     try {
         line = parse_json(text);
     } catch (const json::exception&) {
-    } catch (const RepeatedMember& error) {
+    } catch (const RefusedJson& error) {
         refuse(error.what());
     }
     if (!line.is_object()) refuse("it is not a JSON object");
