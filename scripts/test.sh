@@ -3,10 +3,21 @@
 # released, and the tests of bad input once more under the address and undefined-behaviour
 # sanitizers. Running it again builds and installs only what has changed.
 #
-#   scripts/test.sh [CTEST ARGUMENTS...]      e.g. scripts/test.sh -R conformance
+#   scripts/test.sh [--all] [CTEST ARGUMENTS...]      e.g. scripts/test.sh -R conformance
+#
+# --all is for releases: every instruction set, random models and names, the
+# programs of benchmarks/ (tests with the label exhaustive).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/lib.sh
+
+all_tests=OFF
+leave_out=(--label-exclude exhaustive)
+if [ "${1:-}" = --all ]; then
+    all_tests=ON
+    leave_out=()
+    shift
+fi
 
 step "1/4 packages and the Python environment of the conformance tests (.venv)"
 install_packages "${build_packages[@]}" "${test_packages[@]}"
@@ -15,7 +26,8 @@ install_packages "${build_packages[@]}" "${test_packages[@]}"
     --requirement tests/conformance/requirements.txt
 
 step "2/4 build"
-cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON
+cmake -S . -B build -G Ninja --log-level=WARNING -DRDDLC_BUILD_TESTS=ON -DRDDLC_WARNINGS_AS_ERRORS=ON \
+    -DRDDLC_ALL_TESTS="$all_tests"
 cmake --build build
 
 step "3/4 build with sanitizers"
@@ -27,14 +39,17 @@ step "4/4 tests"
 # Some tests read all of rddlrepository, where they find it.
 RDDL_REPOSITORY=$(.venv/bin/python -c 'import rddlrepository; print(rddlrepository.__path__[0])')
 export RDDL_REPOSITORY
+# Tests that start with an empty cache of simulators compile the same again and again: once is enough.
+export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZE=1G
 jobs=$(nproc)
 # Both sets run, even if the first fails; the exit status tells of either.
 status=0
-ctest --test-dir build --parallel "$jobs" --output-on-failure "$@" || status=1
+ctest --test-dir build --parallel "$jobs" --output-on-failure "${leave_out[@]}" "$@" || status=1
 # The frames of sanitized code are several times as large: what just fits 8 MB of stack needs more.
 (
     ulimit -S -s 65536
-    ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure "$@"
+    ctest --test-dir build/sanitize --label-regex sanitize --parallel "$jobs" --output-on-failure \
+        "${leave_out[@]}" "$@"
 ) || status=1
 [ "$status" -eq 0 ] || echo "error: some tests failed" >&2
 exit "$status"
