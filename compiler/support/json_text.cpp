@@ -16,10 +16,9 @@ std::string text_of(const nlohmann::ordered_json& value, int indent) {
 
 }  // namespace
 
-nlohmann::json parse_json(std::string_view text) {
+nlohmann::json parse_json(std::string_view text, int most_brackets) {
     using nlohmann::json;
     std::vector<std::unordered_set<std::string>> members;  // of the objects around, outermost first
-    constexpr int most_brackets = 256;
     const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
         if (depth > most_brackets)
             throw RefusedJson(

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -11,13 +12,15 @@
 namespace rddlc {
 
 // JSON that others may take: an object names a member twice, and nobody knows which one is meant,
-// or brackets lie so deep within others that readers would run out of stack. what() is a sentence.
+// or too many brackets lie within each other. what() is a sentence.
 struct RefusedJson : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Fails with a nlohmann::json::exception or a RefusedJson.
-nlohmann::json parse_json(std::string_view text);
+// Fails with a nlohmann::json::exception or a RefusedJson. `most_brackets`: that may lie within
+// each other, for those who walk through what was read by recursion and would run out of stack.
+nlohmann::json parse_json(std::string_view text,
+                          int most_brackets = std::numeric_limits<int>::max());
 // Keeps the order of members. Fails with a nlohmann::json::exception.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
 // What other programs wrote: `discarded` (nlohmann's word) where it is no JSON.

@@ -297,8 +297,8 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
         return read(simulator, text);
     } catch (const nlohmann::json::parse_error&) {
         throw Failure("it is not complete, or no JSON");
-    } catch (const RefusedJson& repeated) {
-        throw Failure(repeated.what());
+    } catch (const RefusedJson& refused) {
+        throw Failure(refused.what());
     } catch (const nlohmann::json::exception&) {
         throw Failure("it is no policy of PPO, or something in it is missing");
     }

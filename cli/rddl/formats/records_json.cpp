@@ -106,13 +106,7 @@ std::optional<std::int64_t> as_int(const json& value) {
 
 std::optional<double> as_real(const json& value) {
     if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
-    if (value.is_number()) return value.get<double>();
-    if (!value.is_string()) return {};
-    const auto& text = value.get_ref<const std::string&>();
-    if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-    if (text == "inf") return std::numeric_limits<double>::infinity();
-    if (text == "-inf") return -std::numeric_limits<double>::infinity();
-    return {};
+    return number_in_json(value);
 }
 
 std::optional<std::string> read_object(const RecordEntry& entry, const json& value,
@@ -286,6 +280,14 @@ nlohmann::ordered_json json_number(double value) {
     std::string text;
     write_real(text, value);
     return parse_ordered_json(text);
+}
+
+std::optional<double> number_in_json(const json& value) {
+    if (value.is_number()) return value.get<double>();
+    if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (value == "inf") return std::numeric_limits<double>::infinity();
+    if (value == "-inf") return -std::numeric_limits<double>::infinity();
+    return {};
 }
 
 void write_string(std::string& out, std::string_view text) {

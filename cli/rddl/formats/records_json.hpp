@@ -77,6 +77,8 @@ void write_real(std::string& out, double value);
 
 // The same as a JSON value: a number, or a string for nan and inf.
 nlohmann::ordered_json json_number(double value);
+// Back; nothing for any other JSON.
+std::optional<double> number_in_json(const nlohmann::json& value);
 
 // A JSON string in quotes, of valid UTF-8 whatever the text.
 void write_string(std::string& out, std::string_view text);

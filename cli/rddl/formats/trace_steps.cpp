@@ -1,5 +1,6 @@
 #include "formats/trace_steps.hpp"
 
+#include "formats/records_json.hpp"
 #include "formats/trace.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
@@ -26,15 +27,11 @@ bool is_set(const nlohmann::json& line, const char* member) {
     return found != line.end() && found->is_boolean() && found->get<bool>();
 }
 
-// "nan", "inf" and "-inf" are texts (docs/traces.md). Nothing is 0, and what is no number is nan.
+// Nothing is 0, and what is no number is nan.
 double reward_in(const nlohmann::json& line) {
     const auto found = line.find("reward");
     if (found == line.end()) return 0;
-    if (found->is_number()) return found->get<double>();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (*found == "inf") return infinity;
-    if (*found == "-inf") return -infinity;
-    return std::numeric_limits<double>::quiet_NaN();
+    return number_in_json(*found).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 // In a word or some: "terminated", "horizon, invariant".
@@ -76,8 +73,8 @@ std::optional<TraceStep> TraceSteps::read(std::string_view line) {
         const bool is_cut = line.front() == '{' && line.back() != '}';
         fail(is_cut ? "the line is cut off in the middle: the trace is not complete"
                     : "this is no JSON");
-    } catch (const RefusedJson& repeated) {
-        fail(repeated.what());
+    } catch (const RefusedJson& refused) {
+        fail(refused.what());
     }
     if (!object.is_object()) fail("the line is not a JSON object");
     if (!object.contains("rddl_trace")) return read_object(object);

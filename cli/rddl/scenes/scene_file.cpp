@@ -48,9 +48,11 @@ class SceneReader {
     }
 
   private:
+    static constexpr int most_brackets = 256;  // places are found by recursion
+
     Json parse() {
         try {
-            parse_json(source_.text());  // members that are given twice
+            parse_json(source_.text(), most_brackets);  // and members that are given twice
             return parse_ordered_json(source_.text());
         } catch (const nlohmann::json::parse_error& error) {
             const auto at = static_cast<std::uint32_t>(
@@ -58,8 +60,8 @@ class SceneReader {
             fail({file_, at, at}, "this is no JSON",
                  "JSON has names and texts in double quotes, no comments, and no comma before a "
                  "bracket that closes");
-        } catch (const RefusedJson& repeated) {
-            fail(whole(), repeated.what());
+        } catch (const RefusedJson& refused) {
+            fail(whole(), refused.what());
         }
     }
 
