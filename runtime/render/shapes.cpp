@@ -58,7 +58,7 @@ void draw_shape(Canvas& canvas, const Plane& plane, const Shape& shape) {
             canvas.text(points[0], shape.text,
                         {.size = std::clamp(shape.size, 1.0, 400.0),
                          .color = shape.color,
-                         .align = Align::Center});
+                         .align = shape.align});
             return;
     }
 }

@@ -17,10 +17,11 @@ struct Shape {
     // The center of a circle and of a text; both ends of a line; the lower left and upper right
     // corners of a rectangle; the corners of a polygon.
     std::vector<Point> points;
-    double radius = 0;     // of a circle, in the world
-    double size = 12;      // of a text's letters, in points
-    double thickness = 2;  // of lines and outlines, in points
-    bool outline = false;  // not filled
+    double radius = 0;            // of a circle, in the world
+    double size = 12;             // of a text's letters, in points
+    double thickness = 2;         // of lines and outlines, in points
+    Align align = Align::Center;  // of a text: which part of it is at its place
+    bool outline = false;         // not filled
     Color color = colors::ink;
     std::string text;
 };

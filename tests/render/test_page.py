@@ -115,6 +115,18 @@ class Page(PictureTest):
         self.browser.press("ArrowRight")
         self.assertEqual(self.browser.evaluate(marked), 2)
 
+    def test_table_is_that_of_the_trace_at_every_step(self):
+        steps = self.steps()
+        self.open()
+        for k in range(len(steps) + 1):
+            self.assert_shows(k, steps)
+            self.browser.press("ArrowRight")
+
+    def test_tells_policy_and_seed(self):
+        self.open()
+        header = json.loads((self.folder / "car.jsonl").read_text().splitlines()[0])
+        self.assertIn(f"car.jsonl (policy {header['policy']}, seed {header['seed']})", self.text(".run-0 .name"))
+
     def test_filter_and_charts(self):
         self.open()
         self.browser.evaluate("document.getElementById('filter').value = 'velo'; "
@@ -157,6 +169,14 @@ class Page(PictureTest):
         self.rddl("render", "car.jsonl", "--html=page.html", "--beside=<b>&.jsonl")
         self.browser.open(self.folder / "page.html")
         self.assertIn("<b>&.jsonl", self.text(".run-1 .name"))
+        # Of the header of a trace, too, which any program may have written.
+        header, *steps = (self.folder / "car.jsonl").read_text().splitlines()
+        policy = "</script><script>window.hacked = 1</script>\"'&<img src=x onerror='hacked=1'>"
+        changed = json.dumps({**json.loads(header), "policy": policy})
+        (self.folder / "car.jsonl").write_text("\n".join([changed, *steps]) + "\n")
+        self.open()
+        self.assertIn(policy, self.text(".run-0 .name"))
+        self.assertFalse(self.browser.evaluate("'hacked' in window"))
         self.assertEqual(self.browser.complaints(), [])
 
 

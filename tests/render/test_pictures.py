@@ -199,6 +199,23 @@ class Movies(PictureTest):
             self.assertEqual(names[-1], "000030")
             shutil.rmtree(self.folder / "frames")
 
+    def test_most_frames_whatever_the_header_says(self):
+        self.run_car("--trace=t.jsonl")
+        header, *steps = (self.folder / "t.jsonl").read_text().splitlines()
+        for horizon in 0, 3, 30, 2000:
+            changed = json.dumps({**json.loads(header), "horizon": horizon})
+            (self.folder / "t.jsonl").write_text("\n".join([changed, *steps]) + "\n")
+            done = self.rddl("render", "t.jsonl", "--gif=a.gif", "--max-frames=10")
+            self.assertEqual(len(self.durations("a.gif")), 9)
+            self.assertEqual(done.stdout, "9 of 31 states drawn by 'mountain_car'\n")
+        watched = self.rddl("render", "t.jsonl", "--watch", "--max-frames=4", "--quiet").stdout
+        self.assertLessEqual(len(re.findall("step ", watched)), 4)
+        self.assertIn("step 30", watched)
+        self.assertEqual(self.rddl("render", "t.jsonl", "--png=a.png", "--step=3").stdout,
+                         "1 of 31 states drawn by 'mountain_car'\n")
+        self.assertEqual(self.rddl("render", "t.jsonl", "--png=a.png", "--gif=a.gif").stdout,
+                         "31 states drawn by 'mountain_car'\n")
+
     def test_more_frames_than_players_show(self):
         self.run_car("--gif=a.gif", "--fps=200")
         self.assertTrue(all(duration >= 20 for duration in self.durations("a.gif")))
@@ -220,7 +237,7 @@ class Movies(PictureTest):
             refused = self.run_car("--video=a.mp4", status=DIAGNOSED)
             self.assertIn("cannot start ffmpeg", refused.stderr)
             self.skipTest("there is no ffmpeg")
-        for name, magic, place in (("a.mp4", b"ftyp", 4), ("a.webm", b"\x1a\x45\xdf\xa3", 0),
+        for name, magic, place in (("a.mp4", b"ftyp", 4), ("b.MP4", b"ftyp", 4), ("a.webm", b"\x1a\x45\xdf\xa3", 0),
                                    ("a.webp", b"WEBP", 8)):
             self.run_car(f"--video={name}", "--size=300x201")
             data = (self.folder / name).read_bytes()
@@ -300,12 +317,34 @@ class Errors(PictureTest):
                                 ('{"state": {"altitude": 1}}', "no state-fluent is called"),
                                 ('[1]', "not a JSON object"), ('{"x": 1}', "no state and no action"),
                                 ("nonsense", "no JSON"),
+                                ('{"state": {}, "step": "3"}', "'step' is an int from 0 on, not \"3\""),
+                                ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
+                                ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
+                                ('{"state": {}, "episode": 18446744073709551615}', "'episode' is an int from 0 on"),
                                 ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
             (self.folder / "t.jsonl").write_text(line)
             text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
                                EXAMPLE / "instance.rddl", "--gif=a.gif")
             self.assertIn(complaint, text)
             self.assertFalse((self.folder / "a.gif").exists())
+
+    def test_horizons_that_are_no_ints(self):
+        header, *steps = self.trace()
+        for horizon in "long", -3, 1.5, [1]:
+            changed = json.dumps({**json.loads(header), "horizon": horizon})
+            (self.folder / "t.jsonl").write_text("".join([changed + "\n", *steps]))
+            self.assertIn("line 1: 'horizon' is an int from 0 on", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+
+    def test_what_is_no_trace(self):
+        (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)
+        self.assertIn("'t.bin' is no trace: its first line is no JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
+        text = self.refuse("render", EXAMPLE, "1", "--gif=a.gif")
+        self.assertIn("is a folder, and no trace", text)
+        self.assertIn("rddl run --gif", text)
+
+    def test_links_that_lead_nowhere(self):
+        (self.folder / "link").symlink_to("nowhere")
+        self.assertIn("a link to a folder that is not there", self.run_car("--png=link", status=DIAGNOSED).stderr)
 
     def test_nothing_to_read(self):
         (self.folder / "t.jsonl").write_text("")

@@ -88,6 +88,52 @@ class Scenes(PictureTest):
         told = self.draw('{"world": ' + "[" * 1_000_000, status=DIAGNOSED)
         self.assertIn("more than 256 brackets", told)
 
+    def test_too_much(self):
+        """What would take minutes is refused at once."""
+        circle = {"shape": "circle", "x": "position", "y": 0, "radius": 1}
+        self.assertIn("no more than 1000 expressions", self.draw({"shapes": [circle] * 1001}, status=DIAGNOSED))
+        many = {**circle, "for": {f"?s{k}": "segment" for k in range(30)}}
+        self.assertIn("more than 100000 tuples", self.draw({"shapes": [many]}, status=DIAGNOSED))
+        color = "red"
+        for _ in range(100_000):
+            color = '{"if": "true", "then": "blue", "else": ' + color + "}"
+            if len(color) > 100_000:
+                break
+        text = '{"shapes": [{"shape": "circle", "x": 0, "y": 0, "radius": 1, "color": %s}]}' % color
+        self.assertIn("more than 256 brackets", self.draw(text, status=DIAGNOSED))
+
+    def test_world_without_limits(self):
+        """It is from 0 to 1, whatever of that is told."""
+        shape = {"shape": "circle", "x": 0.5, "y": 0.5, "radius": 0.5}
+        pictures = []
+        for world in {}, {"world": {}}, {"world": {"right": 1}}, {"world": {"left": 0, "bottom": 0, "right": 1, "top": 1}}:
+            self.draw({**world, "shapes": [shape]})
+            pictures.append((self.folder / "a.png").read_bytes())
+        self.assertEqual(len(set(pictures)), 1)
+
+    def test_align(self):
+        def ink(align: str) -> tuple[int, int]:
+            self.draw({"world": {"right": 2}, "shapes": [
+                {"shape": "text", "x": 1, "y": 0.5, "text": "letters", "color": "#ff0000", "align": align}]})
+            with Image.open(self.folder / "a.png") as picture:
+                pixels = numpy.asarray(picture.convert("RGB"), dtype=int)
+            x = numpy.nonzero((pixels[:, :, 0] > 200) & (pixels[:, :, 1] < 100))[1]
+            return x.min(), x.max()
+
+        self.assertGreater(ink("left")[0], 298)
+        self.assertLess(ink("right")[1], 302)
+        self.assertAlmostEqual(sum(ink("center")) / 2, 300, delta=4)
+
+    def test_names_that_are_the_domains(self):
+        (self.folder / "d.rddl").write_text(
+            "domain d { types { o : object; }; pvariables { count-o : { non-fluent, real, default = 0.25 };"
+            " x : { state-fluent, real, default = 1.0 }; a : { action-fluent, bool, default = false }; };"
+            " cpfs { x' = x; }; reward = x; } non-fluents n { domain = d; objects { o : {o1, o2}; }; }"
+            " instance i { domain = d; non-fluents = n; horizon = 2; discount = 1.0; }")
+        (self.folder / "s.json").write_text(json.dumps({"shapes": [
+            {"shape": "text", "for": {"?o": "o"}, "x": "count-o", "y": "index-o(?o) / 2", "text": "{?o}"}]}))
+        self.rddl("run", "d.rddl", "--engine=interpreter", "--quiet", "--png=a.png", "--scene=s.json")
+
     def test_braces_within_a_text(self):
         self.draw({"world": {"right": 2, "top": 1}, "shapes": [
             {"shape": "text", "x": 1, "y": 0.5, "text": "{max_{?s: segment} [position]} in all"}]})

@@ -47,7 +47,8 @@ ProblemFiles files_of_header(const std::string& line, const RenderOptions& optio
     try {
         header = parse_json(line);
     } catch (const std::exception&) {
-        throw unknown;
+        throw Failure(fmt::format("'{}' is no trace: its first line is no JSON", options.trace),
+                      "'rddl run --trace FILE' writes traces");
     }
     const auto files = header.is_object() ? header.find("files") : header.end();
     if (files == header.end() || !files->is_array() || files->empty()) throw unknown;
@@ -79,6 +80,11 @@ ExitStatus render_trace(const RenderOptions& options) {
     require_one_on_standard_output(options.pictures);
     require_different_files(options.pictures);
     if (!options.beside.empty()) require_pages_alone(options);
+    if (is_folder(options.trace))
+        throw Failure(
+            fmt::format("'{}' is a folder, and no trace", options.trace),
+            "'rddl run --gif FILE' runs a problem and draws it; 'rddl run --trace FILE' writes a "
+            "trace");
     UsedFiles used;
     // The first line says which problem it is, which would say how long lines can be.
     LineReader input(options.trace, used, largest_text);

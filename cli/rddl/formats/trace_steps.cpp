@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -16,10 +15,13 @@ namespace rddlc::cli {
 
 namespace {
 
-std::int64_t count_in(const nlohmann::json& line, const char* member, std::int64_t otherwise) {
-    const auto found = line.find(member);
-    return found != line.end() && found->is_number_integer() ? found->get<std::int64_t>()
-                                                             : otherwise;
+// For people, of the header.
+std::string course_in(const nlohmann::json& header) {
+    const auto policy = header.find("policy"), seed = header.find("seed");
+    if (policy == header.end() || !policy->is_string()) return {};
+    const std::string text = "policy " + policy->get<std::string>();
+    return seed != header.end() && seed->is_number_integer() ? text + ", seed " + seed->dump()
+                                                             : text;
 }
 
 bool is_set(const nlohmann::json& line, const char* member) {
@@ -63,6 +65,18 @@ void TraceSteps::fail(const std::string& message) const {
     throw Failure(fmt::format("'{}', line {}: {}", name_, line_, message));
 }
 
+std::int64_t TraceSteps::count_in(const nlohmann::json& line, const char* member,
+                                  std::int64_t otherwise) const {
+    const auto found = line.find(member);
+    if (found == line.end() || found->is_null()) return otherwise;
+    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+    const bool is_count = found->is_number_unsigned() && found->get<std::uint64_t>() <= most;
+    const bool is_signed = found->is_number_integer() && !found->is_number_unsigned();
+    if (!is_count && !(is_signed && found->get<std::int64_t>() >= 0))
+        fail(fmt::format("'{}' is an int from 0 on, not {}", member, found->dump()));
+    return found->get<std::int64_t>();
+}
+
 std::optional<TraceStep> TraceSteps::read(std::string_view line) {
     ++line_;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) return std::nullopt;
@@ -79,7 +93,8 @@ std::optional<TraceStep> TraceSteps::read(std::string_view line) {
     if (!object.is_object()) fail("the line is not a JSON object");
     if (!object.contains("rddl_trace")) return read_object(object);
     if (const auto complaint = complaint_about_header(object, problem_)) fail(*complaint);
-    horizon_ = std::max<std::int64_t>(count_in(object, "horizon", horizon_), 0);
+    horizon_ = count_in(object, "horizon", horizon_);
+    course_ = course_in(object);
     return std::nullopt;
 }
 

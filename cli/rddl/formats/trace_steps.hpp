@@ -47,9 +47,13 @@ class TraceSteps {
 
     std::optional<std::int64_t> episode() const { return episode_; }
     std::int64_t horizon() const { return horizon_; }  // of the header or the problem; 0: none
-    bool has_ended() const { return !end_.empty(); }   // the last step says so
+    // "policy random, seed 0", as the header tells; empty where it does not.
+    const std::string& course() const { return course_; }
+    bool has_ended() const { return !end_.empty(); }  // the last step says so
 
   private:
+    std::int64_t count_in(const nlohmann::json& line, const char* member,
+                          std::int64_t otherwise) const;
     std::optional<TraceStep> read_object(const nlohmann::json& line);
     void read_record(const RecordLayout& layout, const nlohmann::json& line, const char* member,
                      std::vector<std::byte>& record) const;
@@ -62,6 +66,7 @@ class TraceSteps {
     RecordLayout state_layout_, action_layout_;
     std::int64_t line_ = 0;  // the number of the last one, from 1 on
     std::int64_t horizon_;
+    std::string course_;
     std::vector<std::byte> state_;  // what the last step led to, or the initial state
     bool has_next_state_ = false;
     std::int64_t next_number_ = 0;

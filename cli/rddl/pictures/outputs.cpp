@@ -64,10 +64,12 @@ Output single_output(const std::string& path, std::optional<std::int64_t> step, 
     };
     output.add = [=](const Drawn& drawn) {
         const std::int64_t number = drawn.film.moment().now().number;
-        if (step ? *step == number : drawn.is_last) *bytes = bytes_of(drawn.film);
+        const bool is_wanted = step ? *step == number : drawn.is_last;
+        if (is_wanted) *bytes = bytes_of(drawn.film);
         if (drawn.is_last && !*bytes)
             throw Failure(
                 fmt::format("there is no state {}: the episode has {} steps", *step, number));
+        return is_wanted;
     };
     output.finish = [=, &used] {
         write_output(path, bytes->value(), used);
@@ -79,15 +81,19 @@ Output single_output(const std::string& path, std::optional<std::int64_t> step, 
 Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_of,
                      UsedFiles& used) {
     std::error_code error;
+    if (fs::is_symlink(folder) && !fs::exists(folder))
+        throw Failure(fmt::format("cannot write '{}': it is a link to a folder that is not there",
+                                  folder.string()));
     fs::create_directories(folder, error);
     if (error) throw UnwritableFile(folder, error.value());
     Output output;
     output.begin = [](const Show&) {
     };
     output.add = [=, &used](const Drawn& drawn) {
-        if (!drawn.in_movie) return;
+        if (!drawn.in_movie) return false;
         const std::int64_t number = drawn.film.moment().now().number;
         write_file(folder / fmt::format("{:06}{}", number, ending), bytes_of(drawn.film), used);
+        return true;
     };
     output.finish = [] {
     };
@@ -144,6 +150,7 @@ Output gif_output(const PictureOptions& options, UsedFiles& used) {
         if (drawn.in_movie)
             gif->writer.add(drawn.film.picture(),
                             drawn.is_last ? last_frame_seconds : gif->seconds);
+        return drawn.in_movie;
     };
     output.finish = [=] {
         gif->writer.finish();
@@ -162,6 +169,7 @@ Output video_output(const PictureOptions& options, UsedFiles& used) {
     };
     output.add = [=](const Drawn& drawn) {
         if (drawn.in_movie) (*video)->add(drawn.film.picture());
+        return drawn.in_movie;
     };
     output.finish = [=, &used] {
         (*video)->finish(used);
@@ -188,6 +196,7 @@ Output page_output(const PictureOptions& options, UsedFiles& used) {
     };
     output.add = [=](const Drawn& drawn) {
         if (drawn.in_movie) (*page)->add(drawn.film.moment(), drawn.film.picture());
+        return drawn.in_movie;
     };
     output.finish = [=, &used] {
         write_output(options.html, (*page)->html(), used);

@@ -31,8 +31,8 @@ struct Drawn {
 // Opened before anything is drawn, so that what cannot be written is known at once.
 struct Output {
     std::function<void(const Show&)> begin;  // an episode
-    std::function<void(const Drawn&)> add;
-    std::function<void()> finish;  // the file has its name from here on
+    std::function<bool(const Drawn&)> add;   // whether it shows the state
+    std::function<void()> finish;            // the file has its name from here on
 };
 
 Output gif_output(const PictureOptions& options, UsedFiles& used);

@@ -11,7 +11,6 @@
 #include <render/moment.hpp>
 #include <render/visualizer.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -44,7 +43,7 @@ render::Visualizer choose_visualizer(const PictureOptions& options, const Proble
         tell(
             "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem has not; "
             "it is drawn by 'auto'\n",
-            name, missing);
+            name, missing.substr(0, missing.find('|')));
         return *render::find_visualizer("auto");
     }
     return *found;
@@ -126,9 +125,15 @@ void PictureWriter::begin_second(const std::string& name) {
 }
 
 std::string PictureWriter::finish() {
-    std::int64_t states = 0;
-    for (Reel& reel : state_->reels) states = std::max(states, reel.finish());
-    return fmt::format("{} states drawn by '{}'", states, state_->visualizer.name);
+    StatesDrawn states;
+    for (Reel& reel : state_->reels) {
+        const StatesDrawn of_reel = reel.finish();
+        if (of_reel.drawn > states.drawn) states = of_reel;
+    }
+    const std::string of =
+        states.drawn < states.all ? fmt::format(" of {}", states.all) : std::string();
+    return fmt::format("{}{} state{} drawn by '{}'", states.drawn, of, states.all == 1 ? "" : "s",
+                       state_->visualizer.name);
 }
 
 }  // namespace rddlc::cli

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <utility>
 
 namespace rddlc::cli {
@@ -31,45 +32,66 @@ void Reel::add_line(std::string_view line) {
         step = steps_->read(line);
     }
     if (!step) return;
-    if (pending_) draw(std::move(*std::exchange(pending_, std::nullopt)), false);
+    if (pending_) take(std::move(*std::exchange(pending_, std::nullopt)), false);
     // At once, for somebody may be watching.
     if (steps_->has_last())
-        draw(std::move(*step), false);
+        take(std::move(*step), false);
     else
         pending_ = std::move(step);
 }
 
-// When the first state is there, for the horizon is known then.
-void Reel::begin_episode() {
-    const std::int64_t horizon = steps_->horizon();
-    pace_ = choose_pace(options_, world_, horizon);
+// A header's horizon may be wrong, and there may be none: files wait for the episode's end. Who
+// watches does not.
+void Reel::take(TraceStep&& step, bool is_last) {
+    if (!wanted_ || !options_.most_frames) return draw(std::move(step), is_last);
+    held_.push_back(std::move(step));
+    if (!is_last) return;
+    begin_episode(static_cast<std::int64_t>(held_.size()) - 1);
+    for (std::size_t i = 0; i < held_.size(); ++i) draw(std::move(held_[i]), i + 1 == held_.size());
+    held_.clear();
+}
+
+// When the first state is there, for the horizon is known then. An episode has `length` steps, so
+// far as is known.
+void Reel::begin_episode(std::int64_t length) {
+    pace_ = choose_pace(options_, world_, length);
     film_.emplace(world_, visualizer_, options_.width, options_.height, *steps_->episode(),
-                  horizon);
-    for (const Output& output : outputs_) output.begin({world_, pace_, trace_});
+                  steps_->horizon());
+    const std::string name = steps_->course().empty() || steps_->course() == trace_
+                                 ? trace_
+                                 : fmt::format("{} ({})", trace_, steps_->course());
+    for (const Output& output : outputs_) output.begin({world_, pace_, name});
 }
 
 void Reel::draw(TraceStep&& step, bool is_last) {
     if (is_interrupted()) return;
-    if (!film_) begin_episode();
+    if (!film_) begin_episode(steps_->horizon());
     film_->add({step.number, std::move(step.state), std::move(step.action), step.reward, step.total,
                 std::move(step.end)});
-    const bool in_movie = is_last || pace_.shows(drawn_);
-    ++drawn_;
-    for (const Output& output : outputs_) output.add({*film_, in_movie, is_last});
+    const bool has_room = !options_.most_frames || in_movie_ + 1 < *options_.most_frames;
+    const bool in_movie = is_last || (has_room && pace_.shows(added_));
+    ++added_;
+    in_movie_ += in_movie;
+    bool is_drawn = false;
+    for (const Output& output : outputs_)
+        if (output.add({*film_, in_movie, is_last})) is_drawn = true;
+    states_.drawn += is_drawn;
 }
 
 void Reel::finish_episode() {
     std::optional<TraceStep> end = steps_->last();
-    if (pending_) draw(std::move(*std::exchange(pending_, std::nullopt)), !end);
-    if (end) draw(std::move(*end), true);
-    if (!film_ && !is_interrupted())
+    if (pending_) take(std::move(*std::exchange(pending_, std::nullopt)), !end);
+    if (end) take(std::move(*end), true);
+    give_up_if_interrupted("drawing");
+    if (!film_)
         throw Failure(wanted_ ? fmt::format("'{}' has no step of episode {}", trace_, *wanted_)
                               : fmt::format("'{}' has no step", trace_));
     if (!steps_->has_ended())
         tell("rddl: warning: episode {} does not end in '{}'; it is drawn as far as it goes\n",
              steps_->episode().value_or(0), trace_);
     film_.reset();
-    states_ += std::exchange(drawn_, 0);
+    states_.all += std::exchange(added_, 0);
+    in_movie_ = 0;
 }
 
 void Reel::begin_second(std::string trace) {
@@ -78,7 +100,7 @@ void Reel::begin_second(std::string trace) {
     steps_.emplace(world_.simulator(), wanted_, trace_);
 }
 
-std::int64_t Reel::finish() {
+StatesDrawn Reel::finish() {
     finish_episode();
     for (const Output& output : outputs_) output.finish();
     return states_;

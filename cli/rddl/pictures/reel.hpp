@@ -15,6 +15,11 @@
 
 namespace rddlc::cli {
 
+struct StatesDrawn {
+    std::int64_t drawn = 0;  // by one of the outputs, or more
+    std::int64_t all = 0;
+};
+
 class Reel {
   public:
     // World and visualizer must outlive it. `trace` is the name of the trace in messages. Draws the
@@ -27,11 +32,12 @@ class Reel {
     void add_line(std::string_view line);
     // The lines that follow are of another trace of the same problem.
     void begin_second(std::string trace);
-    // The files have their names from here on. How many states were drawn.
-    std::int64_t finish();
+    // The files have their names from here on.
+    StatesDrawn finish();
 
   private:
-    void begin_episode();
+    void take(TraceStep&& step, bool is_last);
+    void begin_episode(std::int64_t length);
     void draw(TraceStep&& step, bool is_last);
     void finish_episode();
 
@@ -45,8 +51,10 @@ class Reel {
     std::optional<TraceStep> pending_;        // the last one may turn out to be the end
     std::optional<rddl::render::Film> film_;  // of the episode that has begun
     Pace pace_;
-    std::int64_t drawn_ = 0;  // states of the episode
-    std::int64_t states_ = 0;
+    // Of an episode of which only some states are drawn, all: how many there are tells which.
+    std::vector<TraceStep> held_;
+    std::int64_t added_ = 0, in_movie_ = 0;  // states of the episode
+    StatesDrawn states_;
 };
 
 }  // namespace rddlc::cli

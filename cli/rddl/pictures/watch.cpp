@@ -181,6 +181,7 @@ Output watch_output(const PictureOptions& options) {
     };
     output.add = [=](const Drawn& drawn) {
         if (drawn.in_movie) watch->show(drawn);
+        return drawn.in_movie;
     };
     output.finish = [=] {
         if (watch->is_terminal) fmt::print("\n");

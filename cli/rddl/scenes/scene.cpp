@@ -71,6 +71,7 @@ render::Shape shape_of(const SceneProgram& program, const SceneShape& shape,
     result.size = program.value(shape.size, grounding);
     result.thickness = program.value(shape.thickness, grounding);
     result.outline = shape.outline;
+    result.align = shape.align;
     result.color = color_of(program, shape.color, grounding);
     result.text = text_of(program, shape, grounding);
     return result;

@@ -113,6 +113,9 @@ class SceneReader {
         if (source_.text().substr(span.begin, span.end - span.begin).find('\\') !=
             std::string::npos)
             fail(span, "an expression has no backslash, and stands on one line");
+        if (scene_.expressions.size() == most_scene_expressions)
+            fail(span,
+                 fmt::format("a scene has no more than {} expressions", most_scene_expressions));
         scene_.expressions.push_back({span, is_bool, variables_});
         return scene_.expressions.size() - 1;
     }
@@ -137,6 +140,14 @@ class SceneReader {
         if (!value.is_boolean()) fail(place_of(value), "'outline' is true or false");
         return value.get<bool>();
     }
+    render::Align read_align(const Json& shape) const {
+        if (!shape.contains("align")) return render::Align::Center;
+        const Json& value = shape["align"];
+        if (value == "left") return render::Align::Left;
+        if (value == "center") return render::Align::Center;
+        if (value == "right") return render::Align::Right;
+        fail(place_of(value), "'align' is left, center or right");
+    }
     SceneNumber number_or(const Json& shape, const char* name, double otherwise) {
         return shape.contains(name) ? read_number(shape[name]) : SceneNumber(otherwise);
     }
@@ -151,8 +162,8 @@ class SceneReader {
         allow(world, place_of(world), {"left", "bottom", "right", "top"});
         scene_.left = number_or(world, "left", 0);
         scene_.bottom = number_or(world, "bottom", 0);
-        scene_.right = read_number(member(world, "right", "world"));
-        scene_.top = read_number(member(world, "top", "world"));
+        scene_.right = number_or(world, "right", 1);
+        scene_.top = number_or(world, "top", 1);
     }
 
     // {"?b": "basin"}
@@ -296,10 +307,11 @@ class SceneReader {
             result.kind = Kind::Polygon;
             read_polygon(shape, result);
         } else if (kind == "text") {
-            also({"x", "y", "text", "size"});
+            also({"x", "y", "text", "size", "align"});
             result.kind = Kind::Text;
             add_points(shape, result, {{"x", "y"}}, "text");
             result.text = read_text(member(shape, "text", "text"));
+            result.align = read_align(shape);
         } else {
             const auto near =
                 did_you_mean(kind, {"circle", "line", "rectangle", "cell", "polygon", "text"});

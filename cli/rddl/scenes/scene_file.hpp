@@ -34,6 +34,9 @@ using ExpressionIndex = std::size_t;
 
 using SceneNumber = std::variant<double, ExpressionIndex>;
 
+// More take the compiler minutes.
+inline constexpr std::size_t most_scene_expressions = 1000;
+
 struct SceneColor;
 struct SceneColorChoice {
     ExpressionIndex condition;
@@ -59,6 +62,7 @@ struct SceneShape {
     std::vector<SceneNumber> numbers;      // x, y of each point
     SceneNumber radius = 0.0, size = 12.0, thickness = 2.0;
     bool outline = false;
+    rddl::render::Align align = rddl::render::Align::Center;
     SceneColor color;
     std::optional<ExpressionIndex> visible;
     SceneText text;

@@ -50,6 +50,7 @@ class SceneCompiler {
         auto* const fluents = section_of<ast::PVariables>(*domain);
         auto* const cpfs = section_of<ast::Cpfs>(*domain);
         if (!fluents || !cpfs) return;
+        for (const SceneShape& shape : scene.shapes) require_few(shape);
         std::set<std::string> types;
         for (std::size_t i = 0; i < scene.expressions.size(); ++i) {
             const SceneExpression& expression = scene.expressions[i];
@@ -96,14 +97,16 @@ class SceneCompiler {
         const Span span{};
         const ast::Constant zero{ast::Integer{0}, span};
         const ast::Constant count{ast::Integer{static_cast<std::int64_t>(objects.size())}, span};
-        fluents.declarations.push_back({{"count-" + type, span},
-                                        false,
-                                        {},
-                                        {"non-fluent", span},
-                                        {"int", span},
-                                        count,
-                                        std::nullopt,
-                                        span});
+        if (!is_declared(fluents, "count-" + type))
+            fluents.declarations.push_back({{"count-" + type, span},
+                                            false,
+                                            {},
+                                            {"non-fluent", span},
+                                            {"int", span},
+                                            count,
+                                            std::nullopt,
+                                            span});
+        if (is_declared(fluents, name)) return;
         fluents.declarations.push_back({{name, span},
                                         false,
                                         {{type, span}},
@@ -118,6 +121,27 @@ class SceneCompiler {
             values.assignments.push_back({{name, span}, false, {objects[i]}, {span}, number, span});
         }
         append(std::move(values));
+    }
+
+    // A name that the domain has itself is the domain's.
+    static bool is_declared(const ast::PVariables& fluents, const std::string& name) {
+        return std::ranges::any_of(fluents.declarations, [&](const ast::PVariable& fluent) {
+            return fluent.name.text == name;
+        });
+    }
+
+    // Each is computed and drawn for each picture.
+    void require_few(const SceneShape& shape) const {
+        constexpr std::size_t most = 100'000;
+        std::size_t tuples = 1;
+        for (const SceneVariable& variable : shape.variables) {
+            tuples *= std::max<std::size_t>(objects_of(variable.type).size(), 1);
+            if (tuples <= most) continue;
+            const Position position = source_.position(shape.variables.front().span.begin);
+            throw Failure(fmt::format("{}:{}:{}: 'for' has more than {} tuples of objects",
+                                      source_.path(), position.line, position.column, most),
+                          "a shape over fewer variables is drawn fewer times");
+        }
     }
 
     std::vector<ast::Symbol> objects_of(const std::string& type) const {

@@ -110,8 +110,9 @@ void draw_building(Canvas& canvas, const Box& area, const Moment& moment, People
             people(canvas, house, moment, e, cabin);
         }
         const Box shaft = house.shaft(e, 0);
+        const std::string action = action_of(moment, e);
         label(canvas, {shaft.x, house.shafts.bottom() + 2, shaft.width, 15},
-              std::string(at.object(0, e)) + ": " + action_of(moment, e),
+              action.empty() ? at.object(0, e) : at.object(0, e) + (": " + action),
               {.size = 11, .align = Align::Center});
     }
     const Entry entries[] = {{"closed", rgb(0xc9dcec)}, {"open", rgb(0xfdf3cf)}};
