@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <type_traits>
@@ -111,6 +112,10 @@ template <class Number>
 Number number_of(const std::string& option, const std::string& word, Number least, Number most) {
     Number value{};
     if (reads_as_number(word, value) && value >= least && value <= most) return value;
+    if (std::is_integral_v<Number> && most == std::numeric_limits<Number>::max() && least >= 0 &&
+        least <= 1)
+        throw UsageError(fmt::format("{}: '{}' is not {}", option, word,
+                                     least == 0 ? "an int from 0 on" : "a positive int"));
     throw UsageError(fmt::format("{}: '{}' is not {} from {} to {}", option, word,
                                  std::is_integral_v<Number> ? "an int" : "a number", least, most));
 }

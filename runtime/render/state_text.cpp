@@ -50,6 +50,7 @@ std::vector<TextLine> state_lines(const Moment& moment) {
 
 std::string action_text(const Moment& moment) {
     std::string text;
+    std::size_t left_out = 0;
     const rddl_problem& problem = moment.problem();
     Step passive;  // whose actions are the default's
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
@@ -59,15 +60,19 @@ std::string action_text(const Moment& moment) {
         const Values usual = moment.values_in(passive, fluent);
         for (std::size_t g = 0; g < taken.numbers.size(); ++g) {
             if (taken.numbers[g] == usual.numbers[g]) continue;
+            if (text.size() > 2000) {
+                ++left_out;
+                continue;
+            }
             std::string name = moment.world().name_of(fluent, static_cast<std::int64_t>(g));
             if (fluent.scalar != RDDL_BOOL)
                 name += " = " + value_text(taken, g);
             else if (taken.numbers[g] == 0)
                 name = "not " + name;
             text += (text.empty() ? "" : ", ") + name;
-            if (text.size() > 2000) return text + ", …";
         }
     }
+    if (left_out > 0) return text + ", +" + std::to_string(left_out) + " more";
     return text.empty() ? "default" : text;
 }
 

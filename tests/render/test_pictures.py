@@ -377,6 +377,7 @@ class Errors(PictureTest):
         for option, complaint in (("--size=600", "not WIDTHxHEIGHT"), ("--size=9x9", "16"),
                                   ("--size=99999x100", "8192"), ("--fps=0", "--fps"),
                                   ("--visualizer=mountain_cat", "did you mean 'mountain_car'?"),
+                                  ("--max-frames=0", "'0' is not a positive int"), ("--step=-1", "not an int from 0 on"),
                                   ("--environment=1", "there is no episode 1")):
             text = self.run_car("--gif=a.gif", option, status=USAGE).stderr
             self.assertIn(complaint, text)

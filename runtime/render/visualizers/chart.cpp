@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t most_lines = 7;  // as many as the palette has colours
 constexpr std::size_t most_panels = 24;
+constexpr std::size_t many_panels = 7;  // these share their axis and what colours mean
 constexpr double names_size = 9;
 
 // Else rows of cells.
@@ -36,12 +37,20 @@ Axis axis_of(const Moment& moment) {
     return {first, whole ? std::max(moment.horizon(), now) : std::max(now, first + 49)};
 }
 
+// What a panel has beside its plot.
+struct Look {
+    double names;  // room at the left
+    bool has_axis, has_axis_title;
+    bool shares_key;  // of bools
+};
+
 struct Panel {
     const Moment& moment;
     const rddl_fluent& fluent;
     std::vector<Values> past;  // one a step
     Range range;
     Axis axis;
+    Look look;
     Box plot;
 
     Scale time() const {
@@ -82,7 +91,8 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
         for (std::int64_t i = 0; i < type.object_count; ++i) {
             const double y = height(static_cast<double>(i));
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
-            if (room >= 9)
+            // The ends at least.
+            if (room >= 9 || i == 0 || i + 1 == type.object_count)
                 canvas.text({plot.x - 4, y},
                             shortened_name(canvas, type.objects[i], names_size, 64),
                             {.size = 9, .color = colors::muted, .align = Align::Right});
@@ -158,6 +168,7 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
 // What the colours mean, at the right of the title.
 void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     const Values& values = panel.past.back();
+    if (panel.look.shares_key && panel.fluent.scalar == RDDL_BOOL) return;
     if (!has_lines(panel.fluent)) {
         draw_key(canvas, box, values, panel.range);
         return;
@@ -192,32 +203,57 @@ double names_width(const Canvas& canvas, const Moment& moment, const rddl_fluent
 }
 
 void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent,
-                const Axis& axis, double names, bool with_axis_title) {
-    Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, {}};
+                const Axis& axis, const Look& look) {
+    Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, look, {}};
     for (const Step& step : moment.steps()) panel.past.push_back(moment.values_in(step, fluent));
-    panel.plot = box.below(18).above(with_axis_title ? 25 : 15).after(names).before(14);
-    const std::string title = shortened(canvas, fluent.name, 12, box.width * 0.7);
-    canvas.text({box.x, box.y + 8}, title);
-    const double used = canvas.text_width(title, 12) + 12;
+    const double below = look.has_axis_title ? 25 : look.has_axis ? 15 : 4;
+    panel.plot = box.below(18).above(below).after(look.names).before(14);
+    // Where a key has no room, or is shared, the title has the row.
+    const bool is_alone = look.shares_key && (fluent.scalar == RDDL_BOOL ||
+                                              canvas.text_width(fluent.name, 12) > box.width / 2);
+    const double room = is_alone ? box.width : box.width * 0.7;
+    double size = 12;
+    while (look.shares_key && size > names_size && canvas.text_width(fluent.name, size) > room)
+        size -= 0.5;
+    const std::string title = shortened_name(canvas, fluent.name, size, room);
+    canvas.text({box.x, box.y + 8}, title, {.size = size});
+    const double used = canvas.text_width(title, size) + (look.shares_key ? 6 : 12);
     draw_panel_key(canvas, box.top(16).after(used).before(4), panel);
     has_lines(fluent) ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
-    draw_time_axis(canvas, panel, with_axis_title);
+    if (look.has_axis) draw_time_axis(canvas, panel, look.has_axis_title);
+}
+
+// Nothing stands below it in its column.
+bool is_lowest(const std::vector<Box>& boxes, std::size_t panel) {
+    return std::none_of(boxes.begin(), boxes.end(), [&](const Box& other) {
+        return other.x == boxes[panel].x && other.y > boxes[panel].y;
+    });
 }
 
 void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
     std::vector<const rddl_fluent*> fluents = state_fluents(moment.problem());
     const std::size_t left_out = fluents.size() > most_panels ? fluents.size() - most_panels : 0;
     fluents.resize(fluents.size() - left_out);
-    const Box area = left_out > 0 ? whole.above(8) : whole;
+    const bool shares = fluents.size() >= many_panels;
+    const Box area = shares ? whole.above(16) : whole;
     const std::vector<Box> boxes = panel_boxes(area, fluents.size(), 3, 10);
     const Axis axis = axis_of(moment);
     double names = 0;  // the same in all panels, so that steps stand below steps
     for (const rddl_fluent* const fluent : fluents)
         names = std::max(names, names_width(canvas, moment, *fluent));
     for (std::size_t i = 0; i < fluents.size(); ++i)
-        draw_panel(canvas, boxes[i], moment, *fluents[i], axis, names, boxes[i].height > 70);
+        draw_panel(
+            canvas, boxes[i], moment, *fluents[i], axis,
+            {names, !shares || is_lowest(boxes, i), !shares && boxes[i].height > 70, shares});
+    if (shares) {
+        const Box below = whole.lowest(12);
+        canvas.text({below.x, below.center().y}, "from left to right: steps",
+                    {.size = 9, .color = colors::muted});
+        legend(canvas, below.after(130),
+               std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}}, 9);
+    }
     if (left_out > 0)
-        canvas.text({whole.right(), whole.bottom() + 1},
+        canvas.text({whole.right(), whole.lowest(12).center().y},
                     "and " + std::to_string(left_out) + " more fluents",
                     {.size = 9, .color = colors::muted, .align = Align::Right});
 }

@@ -83,9 +83,17 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
               {"from above (x, y)", "pos-x", "pos-y", "GOAL-X", "GOAL-Y"});
     draw_view(canvas, body.after(body.width * 0.56 + 14), moment,
               {"from the side (x, height)", "pos-x", "pos-z", "GOAL-X", "GOAL-Z"});
-    const Entry entries[] = {
-        {"colours: aircraft that are controlled, and their goals", colors::blue},
-        {"others", colors::muted}};
+    std::vector<Entry> entries;
+    const Values& ours = moment["CONTROLLABLE"];
+    bool others = false;
+    for (int i = 0; i < ours.count(0); ++i) {
+        if (ours.is(i))
+            entries.push_back({std::string(ours.object(0, i)) + " and its goal",
+                               series_color(static_cast<std::size_t>(i))});
+        else
+            others = true;
+    }
+    if (others) entries.push_back({"others", colors::muted});
     legend(canvas, area.lowest(14), entries);
 }
 
