@@ -19,6 +19,7 @@ import sys
 import tempfile
 import termios
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 import numpy
@@ -334,6 +335,16 @@ class Errors(PictureTest):
             changed = json.dumps({**json.loads(header), "horizon": horizon})
             (self.folder / "t.jsonl").write_text("".join([changed + "\n", *steps]))
             self.assertIn("line 1: 'horizon' is an int from 0 on", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+
+    def test_texts_of_a_trace_are_only_text(self):
+        *lines, last = self.trace()
+        cause = "\x1b]0;mine\x07\x1b[2J\x7f</text><script>&\"'"
+        (self.folder / "t.jsonl").write_text("".join(lines) + json.dumps({**json.loads(last), "causes": [cause]}) + "\n")
+        done = self.rddl("render", "t.jsonl", "--watch", "--svg=a.svg", "--quiet")
+        self.assertIn("ended: ?]0;mine??[2J?</text>", done.stdout)
+        self.assertNotRegex(done.stdout, "[\x00-\x09\x0b-\x1f\x7f]")
+        self.assertNotIn("<script", (self.folder / "a.svg").read_text())
+        xml.etree.ElementTree.parse(self.folder / "a.svg")
 
     def test_what_is_no_trace(self):
         (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)

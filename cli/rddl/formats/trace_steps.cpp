@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -36,13 +37,20 @@ double reward_in(const nlohmann::json& line) {
     return number_in_json(*found).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+// A trace may be anybody's: nothing in it drives the terminal that shows it.
+std::string without_controls(std::string text) {
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+    return text;
+}
+
 // In a word or some: "terminated", "horizon, invariant".
 std::string end_in(const nlohmann::json& line) {
     std::string text;
     if (const auto causes = line.find("causes"); causes != line.end() && causes->is_array())
         for (const auto& cause : *causes)
             if (cause.is_string()) text += (text.empty() ? "" : ", ") + cause.get<std::string>();
-    if (!text.empty()) return text;
+    if (!text.empty()) return without_controls(text);
     return is_set(line, "terminated") ? "terminated" : is_set(line, "truncated") ? "truncated" : "";
 }
 
