@@ -11,7 +11,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 # For code that never runs long, such as that of the command lines: it compiles in three quarters of the time.
 add_library(rddlc_cold INTERFACE)
-target_compile_options(rddlc_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+target_compile_options(rddlc_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-Og>)
 if(RDDLC_SANITIZE)
   # No -Werror: g++ warns of things that are not so in instrumented code (GCC bug 105616).
   # A null pointer ends the program without a test at each use, which would take a third of the build.
