@@ -166,6 +166,7 @@ std::string meaning_of(const ProgramScope& scope, std::size_t output) {
     for (const RealHead& head : space.reals) {
         if (head.column != column) continue;
         switch (head.range) {
+            case RealHead::Range::Squashed:  // of PPO alone
             case RealHead::Range::Bounded:
                 if (head.lower == -1 && head.upper == 1) return "";
                 return fmt::format("   [-1 is {}, 1 is {}]", number(head.lower),

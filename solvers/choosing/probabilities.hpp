@@ -62,6 +62,41 @@ void for_each_category(const ActionSpace& space, const std::int32_t* indices,
     }
 }
 
+// ln(1 - tanh(u)^2), also where tanh(u) rounds to 1.
+template <class Real>
+Real log_squash_slope(Real u) {
+    constexpr Real ln2 = Real(0.69314718055994530942);
+    return 2 * (ln2 - std::abs(u) - std::log1p(std::exp(-2 * std::abs(u))));
+}
+
+// The mean of that over u ~ N(mean, deviation^2), which squashing adds to the entropy, and its
+// derivatives: by Gauss and Hermite's rule of seven points.
+template <class Real>
+struct SquashEntropy {
+    Real value = 0, by_mean = 0, by_log_deviation = 0;
+};
+template <class Real>
+SquashEntropy<Real> squash_entropy(Real mean, Real deviation) {
+    constexpr double points[] = {0, 1.1544053947399682, 2.3667594107345415, 3.7504397177257425};
+    constexpr double weights[] = {0.45714285714285714, 0.24012317860501271, 0.030757123967586498,
+                                  0.00054826885597221875};
+    SquashEntropy<Real> sum;
+    for (int p = -3; p <= 3; ++p) {
+        const auto weight = static_cast<Real>(weights[std::abs(p)]);
+        const Real z = static_cast<Real>(points[std::abs(p)]) * (p < 0 ? Real(-1) : Real(1));
+        const Real u = mean + deviation * z;
+        const Real slope = -2 * std::tanh(u) * weight;
+        sum.value += weight * log_squash_slope(u);
+        sum.by_mean += slope;
+        sum.by_log_deviation += slope * deviation * z;
+    }
+    return sum;
+}
+
+inline bool is_squashed(const ActionSpace& space, int real) {
+    return space.reals[static_cast<std::size_t>(real)].range == RealHead::Range::Squashed;
+}
+
 // With picks a real counts where it was picked.
 inline bool real_is_chosen(const ActionSpace& space, int real, const std::int32_t* indices) {
     if (space.picks == 0) return true;
@@ -84,6 +119,9 @@ Category<Real> look_at_choice(const ActionSpace& space, const Real* outputs,
         constexpr Real half_log_2pi = Real(0.91893853320467274178);
         all.log_probability -= Real(0.5) * z * z + log_deviation + half_log_2pi;
         all.entropy += Real(0.5) + half_log_2pi + log_deviation;
+        if (!is_squashed(space, r)) continue;
+        all.log_probability -= log_squash_slope(numbers[r]);
+        all.entropy += squash_entropy(outputs[r] + shifts[r], std::exp(log_deviation)).value;
     }
     for_each_category<Real>(
         space, indices, masks, outputs + reals, nullptr,
@@ -111,6 +149,10 @@ void choice_gradient(const ActionSpace& space, const Real* outputs, const Real* 
         const Real z = (numbers[r] - outputs[r] - shifts[r]) * per_deviation;
         d_outputs[r] = by_log_probability * z * per_deviation;
         d_log_deviations[r] += by_log_probability * (z * z - 1) + by_entropy;
+        if (!is_squashed(space, r) || by_entropy == 0) continue;
+        const auto squash = squash_entropy(outputs[r] + shifts[r], 1 / per_deviation);
+        d_outputs[r] += by_entropy * squash.by_mean;
+        d_log_deviations[r] += by_entropy * squash.by_log_deviation;
     }
     for_each_category<Real>(
         space, indices, masks, outputs + reals, d_outputs + reals,

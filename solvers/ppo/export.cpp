@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -51,6 +52,19 @@ std::string with_points(std::string text) {
         result += text[i];
     }
     return result;
+}
+
+bool squashes(const PpoModel& model) {
+    return std::any_of(
+        model.actions.reals.begin(), model.actions.reals.end(),
+        [](const RealHead& head) { return head.range == RealHead::Range::Squashed; });
+}
+// For each output whether it ends with tanh.
+std::vector<float> squashed_outputs(const PpoModel& model) {
+    std::vector<float> squashed(static_cast<std::size_t>(model.policy.outputs()));
+    for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
+        squashed[r] = model.actions.reals[r].range == RealHead::Range::Squashed;
+    return squashed;
 }
 
 // ------------------------------------------------------------------------------------ ONNX
@@ -162,6 +176,10 @@ std::string ppo_policy_cpp(const PpoModel& model) {
                             : l % 2 ? "a"
                                     : "b");
     }
+    const std::vector<float> squashed = squashed_outputs(model);
+    for (std::size_t o = 0; o < squashed.size(); ++o)
+        if (squashed[o] > 0)
+            text += fmt::format("    outputs[{0}] = std::tanh(outputs[{0}]);\n", o);
     return text + "}\n\n}  // namespace policy\n";
 }
 
@@ -178,8 +196,15 @@ std::string ppo_policy_onnx(const PpoModel& model) {
         const bool last = l + 1 == network.layers.size();
         add_node(node(
             "Gemm", {fmt::format("x{}", l), fmt::format("weights{}", l), fmt::format("bias{}", l)},
-            last ? "outputs" : fmt::format("sum{}", l), true));
+            last ? (squashes(model) ? "all" : "outputs") : fmt::format("sum{}", l), true));
         if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, fmt::format("x{}", l + 1)));
+    }
+    if (squashes(model)) {
+        // all + squashed * (tanh(all) - all)
+        add_node(node("Tanh", {"all"}, "tanh"));
+        add_node(node("Sub", {"tanh", "all"}, "change"));
+        add_node(node("Mul", {"change", "squashed"}, "some"));
+        add_node(node("Add", {"all", "some"}, "outputs"));
     }
     append_bytes(graph, 2, "policy");
     const auto add_tensor = [&](const std::string& name, const std::vector<std::int64_t>& shape,
@@ -188,6 +213,7 @@ std::string ppo_policy_onnx(const PpoModel& model) {
     };
     add_tensor("means", {model.features()}, model.normaliser.means);
     add_tensor("factors", {model.features()}, model.normaliser.factors);
+    if (squashes(model)) add_tensor("squashed", {network.outputs()}, squashed_outputs(model));
     add_tensor("least", {}, {-10});
     add_tensor("most", {}, {10});
     for (std::size_t l = 0; l < network.layers.size(); ++l) {

@@ -85,6 +85,7 @@ PpoModel make_model(const ObservationSpace& observations, const ActionSpace& act
     PpoModel model;
     model.observations = observations;
     model.actions = actions;
+    if (options.squashes) squash_bounded(model.actions);
     model.noise = options.noise;
     model.correlation = options.correlation;
     model.noise_steps = options.noise_steps;

@@ -39,6 +39,7 @@ struct PpoOptions {
     double correlation = 0.9;  // of Ar1, between a step and the next
     int noise_steps = 8;       // of Sde, with the same weights
     double log_deviation = 0;  // of noise, at the start
+    bool squashes = false;     // reals with two bounds are tanh of a normal number, not cut
     // Where nearly all episodes earn the same, seeing more of the problem is rewarded
     // (curiosity.hpp).
     bool curious = true;

@@ -44,6 +44,8 @@ const char* name_of(RealHead::Range range) {
     switch (range) {
         case RealHead::Range::Bounded:
             return "bounded";
+        case RealHead::Range::Squashed:
+            return "squashed";
         case RealHead::Range::AboveLower:
             return "above lower";
         case RealHead::Range::BelowUpper:
@@ -152,6 +154,8 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         seen.at("time").get<bool>() ? ObservationOptions::Time::On : ObservationOptions::Time::Off;
     model->observations = observation_space(simulator, options);
     model->actions = action_space(simulator);
+    for (const Json& real : json.at("action").at("reals"))
+        if (real.at("range") == "squashed") squash_bounded(model->actions);
     const auto stands = [text](const char* name, const std::string& space) {
         return text.find(fmt::format("\"{}\":{}", name, space)) != text.npos;
     };

@@ -55,7 +55,8 @@ class Policy:
         softplus = max(x, 0.0) + math.log1p(math.exp(-abs(x)))
         lower = -math.inf if head["lower"] is None else head["lower"]
         upper = math.inf if head["upper"] is None else head["upper"]
-        value = {"bounded": lambda: lower + (max(-1.0, min(1.0, x)) + 1) / 2 * (upper - lower),
+        value = {"squashed": lambda: lower + (math.tanh(x) + 1) / 2 * (upper - lower),
+                 "bounded": lambda: lower + (max(-1.0, min(1.0, x)) + 1) / 2 * (upper - lower),
                  "above lower": lambda: lower + head["scale"] * softplus,
                  "below upper": lambda: upper - head["scale"] * softplus,
                  "free": lambda: head["centre"] + head["scale"] * x}[head["range"]]()

@@ -254,12 +254,20 @@ ActionSpace action_space(const rddl_simulator& simulator) {
     return space;
 }
 
+void squash_bounded(ActionSpace& space) {
+    for (RealHead& head : space.reals)
+        if (head.range == RealHead::Range::Bounded) head.range = RealHead::Range::Squashed;
+}
+
 double real_value(const RealHead& head, double number) {
     double value = 0;
     switch (head.range) {
         case RealHead::Range::Bounded:
             value =
                 head.lower + (std::clamp(number, -1.0, 1.0) + 1) * 0.5 * (head.upper - head.lower);
+            break;
+        case RealHead::Range::Squashed:
+            value = head.lower + (std::tanh(number) + 1) * 0.5 * (head.upper - head.lower);
             break;
         case RealHead::Range::AboveLower:
             value = head.lower + head.scale * softplus(number);

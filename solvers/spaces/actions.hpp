@@ -18,13 +18,14 @@ namespace rddlc::solvers {
 
 // A number u of the learner's, and the value of a real (or of an int of many values):
 struct RealHead {
-    enum class Range { Bounded, AboveLower, BelowUpper, Free } range = Range::Free;
+    enum class Range { Bounded, Squashed, AboveLower, BelowUpper, Free } range = Range::Free;
     int column = 0;
     bool rounds = false;          // an int
     double lower = 0, upper = 0;  // of Bounded: the middle for u = 0, the bounds for -1 and 1
-    double scale = 1;             // of the others: lower + scale * softplus(u), or
-    double centre = 0;            // centre + scale * u
-    int choice = -1;              // with picks: the choice that sets it
+    // Squashed: the same of tanh(u), which never leaves the bounds.
+    double scale = 1;   // of the others: lower + scale * softplus(u), or
+    double centre = 0;  // centre + scale * u
+    int choice = -1;    // with picks: the choice that sets it
 };
 
 // The values of a bool, an object or an int, each by itself.
@@ -68,6 +69,9 @@ struct ActionSpace {
 // Looks at the problem, and by a few random steps at what its preconditions forbid. Throws a
 // Failure where the problem has no actions that differ from each other.
 ActionSpace action_space(const rddl_simulator& simulator);
+
+// Reals with two bounds become squashed.
+void squash_bounded(ActionSpace& space);
 
 // The value of a real for the learner's number.
 double real_value(const RealHead& head, double number);

@@ -48,7 +48,10 @@ ActionSpace space_of(int reals, const std::vector<int>& categories, int picks = 
 }
 
 std::vector<Case> cases() {
-    return {{"reals", space_of(2, {})},
+    ActionSpace squashed = space_of(2, {3});
+    for (RealHead& head : squashed.reals) head.range = RealHead::Range::Squashed;
+    return {{"squashed", squashed},
+            {"reals", space_of(2, {})},
             {"one bool", space_of(0, {2})},
             {"categories", space_of(0, {2, 5, 3})},
             {"masked categories", space_of(0, {2, 5, 3}, 0, 0, true)},
@@ -243,6 +246,26 @@ TEST(Choosing, ProbabilitiesOfAllChoicesAddUpToOne) {
     }
     EXPECT_NEAR(sum, 1, 1e-9);
     EXPECT_NEAR(entropy, last.entropy, 1e-9);
+}
+
+// The density of tanh(u), over what it may be; and where tanh(u) is 1 to all digits.
+TEST(Choosing, SquashedDensityAddsUpToOne) {
+    ActionSpace real = space_of(1, {});
+    real.reals[0].range = RealHead::Range::Squashed;
+    const double mean = 0.4, log_deviation = -0.3, shift = 0.25;
+    double sum = 0, entropy = 0, said = 0;
+    for (double u = -8; u <= 8; u += 1e-3) {
+        const auto at =
+            look_at_choice<double>(real, &mean, &log_deviation, &u, &shift, 1, nullptr, nullptr);
+        const double area = 1e-3 * (1 - std::tanh(u) * std::tanh(u));
+        sum += std::exp(at.log_probability) * area;
+        entropy -= std::exp(at.log_probability) * at.log_probability * area;
+        said = at.entropy;
+    }
+    EXPECT_NEAR(sum, 1, 1e-9);
+    EXPECT_NEAR(entropy, said, 1e-3);
+    EXPECT_NEAR(log_squash_slope(0.7), std::log(1 - std::pow(std::tanh(0.7), 2)), 1e-12);
+    EXPECT_NEAR(log_squash_slope(300.0), 2 * std::log(2.0) - 600, 1e-9);
 }
 
 // Draws have the frequencies that the logits say, and the noise of reals its correlation.

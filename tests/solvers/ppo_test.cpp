@@ -279,6 +279,17 @@ TEST(StateNoise, IsPartOfCheckpointsAndPolicies) {
     }
 }
 
+TEST(Ppo, SquashedPoliciesAreReadAsTheyWereWritten) {
+    PpoOptions options = small_training();
+    options.squashes = true;
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    PpoTrainer trainer(car, options);
+    trainer.update();
+    const std::string text = ppo_policy_text(car, trainer.model());
+    EXPECT_NE(text.find("\"squashed\""), std::string::npos);
+    EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, text)), text);
+}
+
 TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
     const PpoOptions options = small_training();
     PpoTrainer car(*rddl_simulator_mountain_car_mountain_car_1(), options);

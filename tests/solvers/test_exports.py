@@ -39,13 +39,8 @@ def check_picture(svg, dot):
         assert 0 < x < x + float(box.get("width")) < width and 0 < y < y + float(box.get("height")) < height, svg
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--rddl", required=True)
-    parser.add_argument("--examples", type=Path, required=True)
-    parser.add_argument("--cxx", required=True)
-    parser.add_argument("--cache", required=True)
-    arguments = parser.parse_args()
+def check_exports(arguments, *ppo_options):
+    """Returns the number of steps in which exports and rddl agree. PPO is trained with these options."""
     problem = [str(arguments.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
     environment = {**os.environ, "XDG_CACHE_HOME": arguments.cache}
 
@@ -57,7 +52,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         rddl("train", "ppo", "--steps", "20000", "--envs", "16", "--rollout", "64", "--minibatch", "256", "--quiet",
-             "--out", str(folder / "ppo"))
+             *ppo_options, "--out", str(folder / "ppo"))
         rddl("train", "cgp", "--gens", "40", "--quiet", "--out", str(folder / "cgp"))
         network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "ppo/policy.json")
         rddl("export", "--policy", str(folder / "cgp"), "--as", "py", "-o", str(folder / "formula.py"))
@@ -94,6 +89,17 @@ def main():
         assert len(out) == len(expected) > 0
         for found, action in zip(out, expected):
             assert abs(max(-1.0, min(1.0, float(found))) - action) < 1e-5, (found, action)
+    return steps
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--rddl", required=True)
+    parser.add_argument("--examples", type=Path, required=True)
+    parser.add_argument("--cxx", required=True)
+    parser.add_argument("--cache", required=True)
+    arguments = parser.parse_args()
+    steps = check_exports(arguments) + check_exports(arguments, "--squash", "on")
     print(f"{steps} steps agree")
     return 0
 

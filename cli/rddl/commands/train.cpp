@@ -178,6 +178,10 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                       0.0, 0.9999);
     add_number_option(command, "--log-std", "X", "Logarithm of the noise's deviation at first (0)",
                       ppo.log_deviation, -20.0, 5.0);
+    add_choice_option<bool>(command, "--squash", "WHEN",
+                            "Whether reals with two bounds are tanh of a normal number (on), or "
+                            "cut at their bounds (off, default)",
+                            ppo.squashes, {{"on", true}, {"off", false}});
     add_choice_option<bool>(command, "--curiosity", "WHEN",
                             "Whether seeing more of the problem is rewarded as long as nearly all "
                             "episodes earn the same: on (default; off in sb3 and rllib), off",
