@@ -5,6 +5,8 @@
 #include "solvers/spaces/observations.hpp"
 #include "support/failure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -219,6 +221,9 @@ double softplus(double x) {
     return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
 }
 
+// Bytes of the masks of one environment in one step: rollouts keep thousands of them.
+constexpr std::int64_t most_mask_bytes = 10'000'000;
+
 }  // namespace
 
 ActionSpace action_space(const rddl_simulator& simulator) {
@@ -248,6 +253,11 @@ ActionSpace action_space(const rddl_simulator& simulator) {
         add_masks_of_categories(space, simulator, columns);
     space.masked = space.picks > 0 || !space.logit_of_mask.empty();
     space.may_be_illegal = bites;
+    if (space.masked &&
+        std::int64_t{space.logit_count} * std::max(space.picks, 1) > most_mask_bytes)
+        throw Failure(fmt::format(
+            "this problem has too many choices for the learners: {} picks in a step, among {} each",
+            std::max(space.picks, 1), space.logit_count));
     if (space.output_count() == 0 || space.logit_count == 1)
         throw Failure(
             "there is nothing to choose in this problem: it has no action but the default");
