@@ -54,12 +54,7 @@ std::string with_points(std::string text) {
     return result;
 }
 
-bool squashes(const PpoModel& model) {
-    return std::any_of(
-        model.actions.reals.begin(), model.actions.reals.end(),
-        [](const RealHead& head) { return head.range == RealHead::Range::Squashed; });
-}
-// For each output whether it ends with tanh.
+// For each output 1 where it ends with tanh, else 0.
 std::vector<float> squashed_outputs(const PpoModel& model) {
     std::vector<float> squashed(static_cast<std::size_t>(model.policy.outputs()));
     for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
@@ -185,6 +180,8 @@ std::string ppo_policy_cpp(const PpoModel& model) {
 
 std::string ppo_policy_onnx(const PpoModel& model) {
     const Network& network = model.policy;
+    const std::vector<float> squashed = squashed_outputs(model);
+    const bool squashes = std::ranges::count(squashed, 1.0f) > 0;
     std::string graph;
     const auto add_node = [&](const std::string& bytes) {
         append_bytes(graph, 1, bytes);
@@ -196,10 +193,10 @@ std::string ppo_policy_onnx(const PpoModel& model) {
         const bool last = l + 1 == network.layers.size();
         add_node(node(
             "Gemm", {fmt::format("x{}", l), fmt::format("weights{}", l), fmt::format("bias{}", l)},
-            last ? (squashes(model) ? "all" : "outputs") : fmt::format("sum{}", l), true));
+            last ? (squashes ? "all" : "outputs") : fmt::format("sum{}", l), true));
         if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, fmt::format("x{}", l + 1)));
     }
-    if (squashes(model)) {
+    if (squashes) {
         // all + squashed * (tanh(all) - all)
         add_node(node("Tanh", {"all"}, "tanh"));
         add_node(node("Sub", {"tanh", "all"}, "change"));
@@ -213,7 +210,7 @@ std::string ppo_policy_onnx(const PpoModel& model) {
     };
     add_tensor("means", {model.features()}, model.normaliser.means);
     add_tensor("factors", {model.features()}, model.normaliser.factors);
-    if (squashes(model)) add_tensor("squashed", {network.outputs()}, squashed_outputs(model));
+    if (squashes) add_tensor("squashed", {network.outputs()}, squashed);
     add_tensor("least", {}, {-10});
     add_tensor("most", {}, {10});
     for (std::size_t l = 0; l < network.layers.size(); ++l) {

@@ -272,12 +272,12 @@ void squash_bounded(ActionSpace& space) {
 double real_value(const RealHead& head, double number) {
     double value = 0;
     switch (head.range) {
+        case RealHead::Range::Squashed:
+            number = std::tanh(number);
+            [[fallthrough]];
         case RealHead::Range::Bounded:
             value =
                 head.lower + (std::clamp(number, -1.0, 1.0) + 1) * 0.5 * (head.upper - head.lower);
-            break;
-        case RealHead::Range::Squashed:
-            value = head.lower + (std::tanh(number) + 1) * 0.5 * (head.upper - head.lower);
             break;
         case RealHead::Range::AboveLower:
             value = head.lower + head.scale * softplus(number);

@@ -39,57 +39,51 @@ def check_picture(svg, dot):
         assert 0 < x < x + float(box.get("width")) < width and 0 < y < y + float(box.get("height")) < height, svg
 
 
-def check_exports(arguments, *ppo_options):
-    """Returns the number of steps in which exports and rddl agree. PPO is trained with these options."""
-    problem = [str(arguments.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
-    environment = {**os.environ, "XDG_CACHE_HOME": arguments.cache}
+def trained(rddl, folder, *words):
+    """Trains, runs an episode, and returns the state and the action of each of its steps."""
+    rddl("train", *words, "--quiet", "--out", str(folder / "run"))
+    rddl("run", "--policy", str(folder / "run"), "--trace", str(folder / "trace.jsonl"), "--quiet")
+    steps = [json.loads(line) for line in (folder / "trace.jsonl").read_text().splitlines()[1:]]
+    assert steps
+    # Traces leave out defaults.
+    return [(step["step"], step["state"], step["action"].get("throttle", 0.0)) for step in steps]
 
-    def rddl(*words):
-        return subprocess.run([arguments.rddl, words[0], *words[1:2], *problem, *words[2:]] if words[0] == "train"
-                              else [arguments.rddl, words[0], *problem, *words[1:]],
-                              check=True, capture_output=True, text=True, env=environment).stdout
 
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        rddl("train", "ppo", "--steps", "20000", "--envs", "16", "--rollout", "64", "--minibatch", "256", "--quiet",
-             *ppo_options, "--out", str(folder / "ppo"))
-        rddl("train", "cgp", "--gens", "40", "--quiet", "--out", str(folder / "cgp"))
-        network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "ppo/policy.json")
-        rddl("export", "--policy", str(folder / "cgp"), "--as", "py", "-o", str(folder / "formula.py"))
-        formula = load("formula", folder / "formula.py")
-        check_picture(rddl("export", "--policy", str(folder / "cgp"), "--as", "svg"),
-                      rddl("export", "--policy", str(folder / "cgp"), "--as", "dot"))
-        rddl("export", "--policy", str(folder / "ppo"), "--as", "cpp", "-o", str(folder / "network.hpp"))
-        (folder / "main.cpp").write_text(
-            '#include "network.hpp"\n#include <cstdio>\nint main() {\n    float x[policy::feature_count], y[1];\n'
-            '    while (std::scanf("%f %f %f", x, x + 1, x + 2) == 3) {\n        policy::act(x, y);\n'
-            '        std::printf("%.9g\\n", double(y[0]));\n    }\n}\n')
-        subprocess.run([arguments.cxx, "-std=c++17", "-o", folder / "main", folder / "main.cpp"], check=True)
+def check_formula(rddl, folder):
+    """Of CGP. Returns the number of steps in which it and rddl agree."""
+    steps = trained(rddl, folder, "cgp", "--gens", "40")
+    rddl("export", "--policy", str(folder / "run"), "--as", "py", "-o", str(folder / "formula.py"))
+    formula = load("formula", folder / "formula.py")
+    check_picture(rddl("export", "--policy", str(folder / "run"), "--as", "svg"),
+                  rddl("export", "--policy", str(folder / "run"), "--as", "dot"))
+    for number, state, action in steps:
+        found = max(-1.0, min(1.0, formula.act([state[n] for n in formula.INPUTS])[0]))
+        assert abs(found - action) < 1e-5, (number, found)
+    return len(steps)
 
-        rows, expected = [], []
-        steps = 0
-        for solver in "ppo", "cgp":
-            rddl("run", "--policy", str(folder / solver), "--trace", str(folder / "trace.jsonl"), "--quiet")
-            for line in (folder / "trace.jsonl").read_text().splitlines()[1:]:
-                step = json.loads(line)
-                state, action = step["state"], step["action"].get("throttle", 0.0)  # traces leave out defaults
-                if solver == "ppo":
-                    found = network.act(state, step["step"])["throttle"]
-                    rows.append(network.features(state, step["step"]))
-                    expected.append(action)
-                else:
-                    inputs = [state[n] for n in formula.INPUTS]
-                    found = max(-1.0, min(1.0, formula.act(inputs)[0]))
-                # Floats there, doubles here.
-                assert abs(found - action) < 1e-5, (solver, step, found)
-                steps += 1
-        assert steps > 100, steps
-        text = "\n".join(" ".join(f"{x:.9g}" for x in row) for row in rows)
-        out = subprocess.run([folder / "main"], input=text, check=True, capture_output=True, text=True).stdout.split()
-        assert len(out) == len(expected) > 0
-        for found, action in zip(out, expected):
-            assert abs(max(-1.0, min(1.0, float(found))) - action) < 1e-5, (found, action)
-    return steps
+
+def check_network(rddl, folder, cxx, *options):
+    """Of PPO, trained with these options. Returns the number of steps in which it and rddl agree."""
+    steps = trained(rddl, folder, "ppo", "--steps", "20000", "--envs", "16", "--rollout", "64", "--minibatch", "256",
+                    *options)
+    network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "run/policy.json")
+    for number, state, action in steps:
+        found = network.act(state, number)["throttle"]
+        # Floats there, doubles here.
+        assert abs(found - action) < 1e-5, (number, found)
+
+    rddl("export", "--policy", str(folder / "run"), "--as", "cpp", "-o", str(folder / "network.hpp"))
+    (folder / "main.cpp").write_text(
+        '#include "network.hpp"\n#include <cstdio>\nint main() {\n    float x[policy::feature_count], y[1];\n'
+        '    while (std::scanf("%f %f %f", x, x + 1, x + 2) == 3) {\n        policy::act(x, y);\n'
+        '        std::printf("%.9g\\n", double(y[0]));\n    }\n}\n')
+    subprocess.run([cxx, "-std=c++17", "-o", folder / "main", folder / "main.cpp"], check=True)
+    text = "\n".join(" ".join(f"{x:.9g}" for x in network.features(state, number)) for number, state, _ in steps)
+    out = subprocess.run([folder / "main"], input=text, check=True, capture_output=True, text=True).stdout.split()
+    assert len(out) == len(steps)
+    for found, (number, _, action) in zip(out, steps):
+        assert abs(max(-1.0, min(1.0, float(found))) - action) < 1e-5, (number, found, action)
+    return len(steps)
 
 
 def main():
@@ -99,7 +93,22 @@ def main():
     parser.add_argument("--cxx", required=True)
     parser.add_argument("--cache", required=True)
     arguments = parser.parse_args()
-    steps = check_exports(arguments) + check_exports(arguments, "--squash", "on")
+    problem = [str(arguments.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
+    environment = {**os.environ, "XDG_CACHE_HOME": arguments.cache}
+
+    def rddl(*words):
+        return subprocess.run([arguments.rddl, words[0], *words[1:2], *problem, *words[2:]] if words[0] == "train"
+                              else [arguments.rddl, words[0], *problem, *words[1:]],
+                              check=True, capture_output=True, text=True, env=environment).stdout
+
+    def in_folder(check, *more):
+        with tempfile.TemporaryDirectory() as name:
+            return check(rddl, Path(name), *more)
+
+    formula = in_folder(check_formula)
+    networks = [in_folder(check_network, arguments.cxx, *options) for options in ((), ("--squash", "on"))]
+    assert formula + networks[0] > 100 and formula + networks[1] > 100, (formula, networks)
+    steps = formula + sum(networks)
     print(f"{steps} steps agree")
     return 0
 

@@ -94,14 +94,7 @@ std::string wrong_value(const RecordEntry& entry, const json& value, std::string
 
 std::optional<std::int64_t> as_int(const json& value) {
     if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-    if (value.is_number_unsigned()) {
-        const auto number = value.get<std::uint64_t>();
-        if (number > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-            return {};
-        return static_cast<std::int64_t>(number);
-    }
-    if (value.is_number_integer()) return value.get<std::int64_t>();
-    return {};
+    return int_in_json(value);
 }
 
 std::optional<double> as_real(const json& value) {
@@ -288,6 +281,13 @@ std::optional<double> number_in_json(const json& value) {
     if (value == "inf") return std::numeric_limits<double>::infinity();
     if (value == "-inf") return -std::numeric_limits<double>::infinity();
     return {};
+}
+
+std::optional<std::int64_t> int_in_json(const json& value) {
+    if (!value.is_number_integer()) return {};
+    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() > most) return {};
+    return value.get<std::int64_t>();
 }
 
 void write_string(std::string& out, std::string_view text) {

@@ -79,6 +79,8 @@ void write_real(std::string& out, double value);
 nlohmann::ordered_json json_number(double value);
 // Back; nothing for any other JSON.
 std::optional<double> number_in_json(const nlohmann::json& value);
+// An int of 64 bits with a sign; nothing for any other JSON, or a number beyond it.
+std::optional<std::int64_t> int_in_json(const nlohmann::json& value);
 
 // A JSON string in quotes, of valid UTF-8 whatever the text.
 void write_string(std::string& out, std::string_view text);

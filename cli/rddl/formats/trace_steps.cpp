@@ -77,12 +77,10 @@ std::int64_t TraceSteps::count_in(const nlohmann::json& line, const char* member
                                   std::int64_t otherwise) const {
     const auto found = line.find(member);
     if (found == line.end() || found->is_null()) return otherwise;
-    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
-    const bool is_count = found->is_number_unsigned() && found->get<std::uint64_t>() <= most;
-    const bool is_signed = found->is_number_integer() && !found->is_number_unsigned();
-    if (!is_count && !(is_signed && found->get<std::int64_t>() >= 0))
+    const auto count = int_in_json(*found);
+    if (!count || *count < 0)
         fail(fmt::format("'{}' is an int from 0 on, not {}", member, found->dump()));
-    return found->get<std::int64_t>();
+    return *count;
 }
 
 std::optional<TraceStep> TraceSteps::read(std::string_view line) {

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -98,13 +97,6 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
     output.finish = [] {
     };
     return output;
-}
-
-std::string extension_of(const std::string& path) {
-    std::string extension = fs::path(path).extension();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return std::tolower(c); });
-    return extension;
 }
 
 // What others read as a file of another kind.

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <limits>
 #include <vector>
 
@@ -25,6 +27,13 @@ void read_size(const std::string& text, int& width, int& height) {
 }
 
 }  // namespace
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
 
 bool PictureOptions::any_on_standard_output() const {
     return gif == "-" || png == "-" || svg == "-" || html == "-";

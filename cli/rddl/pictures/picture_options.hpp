@@ -4,6 +4,7 @@
 #include "command_line/command_line.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ struct PictureOptions {
 void require_one_on_standard_output(const PictureOptions& options, std::string_view other = {});
 // Throws a Failure where two outputs have the same file, the trace of `rddl run` included.
 void require_different_files(const PictureOptions& options, const std::string& trace = {});
+
+// The ending of a file's name, in small letters: ".mp4" of a.MP4.
+std::string extension_of(const std::filesystem::path& file);
 
 // --size
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation);

@@ -1,5 +1,6 @@
 #include "pictures/video.hpp"
 
+#include "pictures/picture_options.hpp"
 #include "support/failure.hpp"
 
 #include <fcntl.h>
@@ -9,8 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -24,16 +23,9 @@ namespace rddlc::cli {
 
 namespace {
 
-// Of a.MP4, too.
-std::string ending_of(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending;
-}
-
 // Of ffmpeg, by the file's ending.
 std::vector<std::string> format_options(const std::filesystem::path& file) {
-    const std::string ending = ending_of(file);
+    const std::string ending = extension_of(file);
     // Half the colours of most players' videos need an even size.
     if (ending == ".mp4")
         return {"-c:v",      "libx264",   "-pix_fmt",
@@ -89,7 +81,7 @@ void require_video(const std::filesystem::path& file, const UsedFiles& used) {
 
 VideoWriter::VideoWriter(std::filesystem::path file, int width, int height,
                          double frames_per_second, const UsedFiles& used)
-    : file_(std::move(file)), made_(folder_.path() / ("movie" + ending_of(file_))) {
+    : file_(std::move(file)), made_(folder_.path() / ("movie" + extension_of(file_))) {
     require_video(file_, used);
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-loglevel", "error", "-y",
                                      "-f",     "rawvideo", "-pix_fmt",  "bgr0"};

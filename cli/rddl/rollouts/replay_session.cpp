@@ -1,6 +1,7 @@
 #include "rollouts/replay_session.hpp"
 
 #include "engines/faults.hpp"
+#include "formats/records_json.hpp"
 #include "formats/trace.hpp"
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
@@ -66,15 +67,8 @@ std::optional<std::int64_t> read_count(const json& line, const char* name, std::
                                        std::int64_t most) {
     const auto found = line.find(name);
     if (found == line.end()) return std::nullopt;
-    // What is beyond an int64 is an unsigned one, or a real.
-    const bool fits =
-        found->is_number_integer() &&
-        (!found->is_number_unsigned() ||
-         found->get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<std::int64_t>::max()});
-    if (fits) {
-        const auto value = found->get<std::int64_t>();
-        if (value >= least && value <= most) return value;
-    }
+    const auto value = int_in_json(*found);
+    if (value && *value >= least && *value <= most) return value;
     throw Refusal{fmt::format("'{}' is not an int from {} to {}", name, least, most)};
 }
 

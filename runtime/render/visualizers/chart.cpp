@@ -245,15 +245,15 @@ void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
         draw_panel(
             canvas, boxes[i], moment, *fluents[i], axis,
             {names, !shares || is_lowest(boxes, i), !shares && boxes[i].height > 70, shares});
+    const Box below = whole.lowest(12);
     if (shares) {
-        const Box below = whole.lowest(12);
         canvas.text({below.x, below.center().y}, "from left to right: steps",
                     {.size = 9, .color = colors::muted});
         legend(canvas, below.after(130),
                std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}}, 9);
     }
     if (left_out > 0)
-        canvas.text({whole.right(), whole.lowest(12).center().y},
+        canvas.text({whole.right(), below.center().y},
                     "and " + std::to_string(left_out) + " more fluents",
                     {.size = 9, .color = colors::muted, .align = Align::Right});
 }
