@@ -4,8 +4,9 @@
     benchmarks/solvers/train_all.py --out ippc2023.jsonl --context ippc2023 --without 0 --instances 5
     benchmarks/solvers/train_all.py --out results.jsonl --table             the table of what is there
 
---jobs N trains on so many problems at the same time; each learner has one thread. It can be interrupted at any time: what is in the file already is not done again. --seconds is the time
-that each solver may train, after the problem was compiled.
+--jobs N trains on so many problems at the same time; each learner has one thread. It can be
+interrupted at any time: what is in the file already is not done again. --seconds is the time that
+each solver may train, after the problem was compiled.
 """
 
 import argparse
@@ -14,7 +15,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
+from multiprocessing import Pool
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -95,7 +97,8 @@ def jobs_of(problems, done, arguments):
                 yield problem["name"], instance
 
 
-def solve_or_failure(problem, instance, arguments):
+def solve_or_failure(arguments, job):
+    problem, instance = job
     try:
         return solve(arguments.rddl, problem, instance, arguments)
     except (RuntimeError, subprocess.TimeoutExpired) as failure:
@@ -124,10 +127,10 @@ def main():
         return 0
     done = {(result["problem"], result["instance"]) for result in results}
     problems = json.loads(run([arguments.rddl, "list", "--json"], 600))
-    with ThreadPoolExecutor(arguments.jobs) as pool:
-        solved = [pool.submit(solve_or_failure, *job, arguments) for job in jobs_of(problems, done, arguments)]
-        for result in as_completed(solved):
-            line = json.dumps(result.result())
+    # Processes, not threads, which Ctrl-C would wait for.
+    with Pool(arguments.jobs) as pool:
+        for result in pool.imap_unordered(partial(solve_or_failure, arguments), jobs_of(problems, done, arguments)):
+            line = json.dumps(result)
             with arguments.out.open("a") as file:
                 file.write(line + "\n")
             print(line, flush=True)
