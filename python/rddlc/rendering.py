@@ -10,6 +10,7 @@ from gymnasium.error import DependencyNotInstalled
 from numpy.typing import NDArray
 
 from . import _native
+from .errors import Error
 
 
 class Renderer:
@@ -61,8 +62,14 @@ class Renderer:
                 "render_mode='human' shows a window with pygame: pip install pygame-ce"
             ) from missing
         if self._window is None:
-            pygame.display.init()
-            self._window = pygame.display.set_mode(self._size)
+            try:
+                pygame.display.init()
+                self._window = pygame.display.set_mode(self._size)
+            except pygame.error as refused:
+                raise Error(
+                    f"render_mode='human' cannot open a window ({refused}); "
+                    "'rgb_array' needs none"
+                ) from refused
             self._clock = pygame.time.Clock()
         frame = np.swapaxes(self.pixels(), 0, 1)
         pygame.surfarray.blit_array(self._window, frame)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.util
+import os
+import unittest.mock
 import copy
 import multiprocessing
 import pickle
@@ -284,6 +287,15 @@ class Pictures(unittest.TestCase):
         self.assertIn("<html", env.replay_page())
         with self.assertRaisesRegex(rddlc.Error, "render_mode"):
             example("mountain_car").replay_page()
+
+    def test_a_window_that_cannot_open_is_an_error(self) -> None:
+        if importlib.util.find_spec("pygame") is None:
+            self.skipTest("pygame is not installed")
+        env = example("mountain_car", render_mode="human")
+        with unittest.mock.patch.dict(os.environ, SDL_VIDEODRIVER="none_such"):
+            with self.assertRaisesRegex(rddlc.Error, "cannot open a window.*rgb_array"):
+                env.reset(seed=1)
+                env.render()
 
     def test_a_notebook_shows_an_environment(self) -> None:
         env = example("mountain_car")
