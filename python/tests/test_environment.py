@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
-import os
-import unittest.mock
 import copy
+import importlib.util
 import multiprocessing
+import os
 import pickle
 import tempfile
 import unittest
+import unittest.mock
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
