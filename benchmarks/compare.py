@@ -1,4 +1,4 @@
-"""Steps per second of the real pyRDDLGym and of our compiled simulators, side by side.
+"""Steps for a second of processor time of the real pyRDDLGym and of our compiled simulators, side by side.
 
     .venv/bin/python benchmarks/compare.py                       all problems; half an hour
     .venv/bin/python benchmarks/compare.py SysAdmin_MDP_ippc2011 some problems
@@ -8,8 +8,8 @@
 Of each problem of rddlrepository the smallest and the largest instance, by the size of their text.
 All play random legal actions that are drawn beforehand; resets, where an episode ends, are part of the
 time. pyRDDLGym steps one environment in its vectorised form, its quicker one; ours is `rddl bench` with
-one thread: a single environment, and a batch. They take turns, and nothing runs beside pyRDDLGym; the
-ratios are those of the medians.
+one thread: a single environment, and a batch. They take turns; processor time is not inflated by other
+programs on the machine. The ratios are those of the medians.
 
 What is measured is kept in a file (--results), a line for each instance, so that a run that was
 interrupted goes on where it was; --fresh begins anew. Simulators are compiled before anything is measured.
@@ -48,7 +48,7 @@ BATCH_MEAN, SINGLE_MEAN, LEAST = 3000.0, 1000.0, 50.0
 
 @dataclass
 class Comparison:
-    """Of one instance: steps per second, one figure a round."""
+    """Of one instance: steps for a second of processor time, one figure a round."""
 
     problem: str
     instance: str
@@ -69,10 +69,14 @@ class Comparison:
         return statistics.median(self.batch) / statistics.median(self.pyrddlgym)
 
 
+def speed(measurement: dict) -> float:
+    return measurement["steps"] / measurement["processor_seconds"]
+
+
 def our_speeds(rddl: Path, case: Case, seconds: float) -> tuple[float, float]:
     """Of a single environment and of a batch."""
     figures = bench(rddl, case.domain_path, case.instance_path, "--threads", 1, "--seconds", seconds)
-    single, *batches = [m["steps_per_second"] for m in figures["measurements"]]
+    single, *batches = map(speed, figures["measurements"])
     return single, max(batches)
 
 
@@ -80,8 +84,7 @@ def compare(case: Case, options: argparse.Namespace) -> Comparison:
     reference = VectorizedEnvironment(str(case.domain_path), str(case.instance_path), options.seconds)
     comparison = Comparison(case.problem, case.instance, [], [], [])
     for _ in range(options.rounds):
-        figures = reference.measure(options.seconds)
-        comparison.pyrddlgym.append(figures["steps"] / figures["seconds"])
+        comparison.pyrddlgym.append(speed(reference.measure(options.seconds)))
         single, batch = our_speeds(options.rddl, case, options.seconds)
         comparison.single.append(single)
         comparison.batch.append(batch)

@@ -2,7 +2,7 @@
 #
 #   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...] [FAST])
 #
-# FAST is for stages that large instances keep busy: compiled for speed.
+# FAST is for what runs long: compiled for speed.
 # Headers are included as "check/check.hpp". Each stage has an include folder of its own that
 # holds nothing but a link to it, so including a stage that is not in USES does not compile.
 include(RddlcUnity)

@@ -1,21 +1,18 @@
 # Several files of a library are compiled as one: each header that they share is read, and each template
 # made, once for all of them. That saves more than a third of the time of a build.
 #
-#   rddlc_unity(<target>)           twelve files in a row at once
+#   rddlc_unity(<target>)           24 files in a row at once
 #   rddlc_unity(<target> ALL)       all files at once
-#   rddlc_unity(<target> GROUPS)    those with the same source property UNITY_GROUP at once
 #
 # So two files of a folder give different names to different things, in namespaces without a name, too.
 # -DRDDLC_UNITY=OFF compiles each file by itself, which is quicker for who changes one again and again.
 option(RDDLC_UNITY "Compile several files of a library at once" ON)
 
 function(rddlc_unity target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "ALL;GROUPS" "" "")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "ALL" "" "")
   set_target_properties(${target} PROPERTIES
-    UNITY_BUILD ${RDDLC_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+    UNITY_BUILD ${RDDLC_UNITY} UNITY_BUILD_BATCH_SIZE 24)
   if(ARG_ALL)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
-  elseif(ARG_GROUPS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   endif()
 endfunction()

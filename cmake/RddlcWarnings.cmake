@@ -5,6 +5,9 @@ target_compile_options(rddlc_options INTERFACE
   # Interpreter and compiled simulators agree bit for bit: no fused multiply-add.
   -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC collects its own garbage from 128 MB on, again and again, which takes a tenth of its time. Without
+  # that, a compiler takes a fifth more memory, up to 1.3 GB.
+  target_compile_options(rddlc_options INTERFACE --param=ggc-min-heapsize=1000000)
   # g++ 12 warns of much that is not so in the standard library (GCC bugs 105651, 105329, 105562).
   target_compile_options(rddlc_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds
     -Wno-maybe-uninitialized)

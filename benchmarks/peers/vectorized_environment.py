@@ -17,19 +17,34 @@ class VectorizedEnvironment:
         self.env.reset(seed=0)
         self.load_seconds = time.perf_counter() - begin
         self.course = draw_course(self.env, seconds_to_draw)
-        self.first_step_seconds = self.load_seconds + self._pass_seconds(self.course[:1])
+        self.first_step_seconds = self.load_seconds + self._play(self.course[:1])[0]
 
     def measure(self, seconds: float) -> dict:
         """The same trajectory again and again, so that the actions are legal every time."""
-        steps, elapsed = steps_in(seconds, lambda: (len(self.course), self._pass_seconds(self.course)))
-        return {"environments": 1, "threads": 1, "steps": steps, "seconds": elapsed}
+        processor_seconds = 0.0
 
-    def _pass_seconds(self, actions: list[dict]) -> float:
+        def play() -> tuple[int, float]:
+            nonlocal processor_seconds
+            elapsed, of_processor = self._play(self.course)
+            processor_seconds += of_processor
+            return len(self.course), elapsed
+
+        steps, elapsed = steps_in(seconds, play)
+        return {
+            "environments": 1,
+            "threads": 1,
+            "steps": steps,
+            "seconds": elapsed,
+            "processor_seconds": processor_seconds,
+        }
+
+    def _play(self, actions: list[dict]) -> tuple[float, float]:
+        """The seconds that the actions took, and those of the processor."""
         env = self.env
         env.reset(seed=0)
-        begin = time.perf_counter()
+        begin, processor_begin = time.perf_counter(), time.process_time()
         for action in actions:
             _, _, terminated, truncated, _ = env.step(action)
             if terminated or truncated:
                 env.reset()
-        return time.perf_counter() - begin
+        return time.perf_counter() - begin, time.process_time() - processor_begin

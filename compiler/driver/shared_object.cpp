@@ -107,9 +107,11 @@ constexpr const char* batches_name = "batches.o";
 constexpr const char* header_name = "simulator.hpp";
 constexpr const char* precompiled_name = "simulator.hpp.gch";
 
-std::vector<std::string> batches_command(const fs::path& source, const fs::path& output) {
+std::vector<std::string> batches_command(const fs::path& source, const fs::path& output,
+                                         RealType real) {
     std::vector<std::string> command = compiler_command(Processors::LikeThis);
-    command.insert(command.end(), {"-c", "-o", output.string(), source.string()});
+    command.insert(command.end(), {fmt::format("-DRDDL_BATCHES_OF={}", name_of(real)), "-c", "-o",
+                                   output.string(), source.string()});
     return command;
 }
 
@@ -268,12 +270,12 @@ std::vector<std::string> shared_object_command(const fs::path& source, const fs:
     return command;
 }
 
-bool prepare_runtime(const fs::path& folder) {
+bool prepare_runtime(const fs::path& folder, RealType real) {
     const fs::path runtime = runtime_include_folder().value_or("") / "rddl";
     auto header =
         start_compiler(header_command(runtime / "simulator.hpp", folder / precompiled_name));
     const auto batches =
-        run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name));
+        run_compiler(batches_command(runtime / "batches.cpp", folder / batches_name, real));
     UsedFiles used;
     write_file(folder / header_name, "#include <rddl/simulator.hpp>\n", used);
     const auto header_result = header.get();

@@ -1,6 +1,7 @@
 // Emitted text -> shared object, by the machine's C++ compiler.
 #pragma once
 
+#include "ir/ir.hpp"
 #include "support/diagnostic.hpp"
 
 #include <filesystem>
@@ -27,9 +28,9 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
                                                Processors processors);
 
 // Compiles into a folder what is the same for all simulators for processors like this one: the code
-// of batches (rddl/batches.cpp), which they can link, and, if the compiler can do that, the headers
-// that they include. False if there is no such code afterwards.
-bool prepare_runtime(const std::filesystem::path& folder);
+// of batches with that type of reals (rddl/batches.cpp), which they can link, and, if the compiler
+// can do that, the headers that they include. False if there is no such code afterwards.
+bool prepare_runtime(const std::filesystem::path& folder, RealType real);
 
 // For any processor of x86-64, the object holds the simulator for each instruction set; its entry
 // chooses when it is called. For those like this one, it is made with what prepare_runtime has put

@@ -94,7 +94,7 @@ Behaviour behaviour_of(const fs::path& object, int lanes = 0) {
 }
 
 TEST_F(SharedObject, is_the_same_with_and_without_what_is_prepared) {
-    ASSERT_TRUE(prepare_runtime(folder_));
+    ASSERT_TRUE(prepare_runtime(folder_, RealType::Double));
     const fs::path header = folder_ / "simulator.hpp.gch";
     EXPECT_TRUE(fs::exists(header));
     ASSERT_TRUE(builds(folder_ / "prepared.so", folder_));

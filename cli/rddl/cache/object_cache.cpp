@@ -67,8 +67,9 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     const fs::path source = work.path() / "simulator.cpp", object = work.path() / "simulator.so";
     UsedFiles used;
     write_file(source, text, used);
-    const auto prepared =
-        options.links_batches ? prepared_runtime(target.parent_path(), toolchain) : std::nullopt;
+    std::optional<fs::path> prepared;
+    if (const auto real = options.linked_batches)
+        prepared = prepared_runtime(target.parent_path(), toolchain, *real);
     give_up_if_interrupted();
     Diagnostics diagnostics;
     bool built = false;

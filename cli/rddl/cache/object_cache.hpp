@@ -2,6 +2,8 @@
 // $XDG_CACHE_HOME/rddlc (or ~/.cache/rddlc), so that a text is compiled once.
 #pragma once
 
+#include "ir/ir.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,8 +17,9 @@ struct CacheOptions {
     bool quiet = false;
     // The user's headers that the text includes: a change to one is a change to the text.
     std::vector<std::filesystem::path> extern_headers = {};
-    // Whether the text links what is the same for all simulators: batches of one lane count alone.
-    bool links_batches = true;
+    // The reals of the batches that the text links, which are the same for all simulators; nothing
+    // if it links none.
+    std::optional<RealType> linked_batches = std::nullopt;
 };
 
 struct CachedObject {

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* extension = ".runtime";
+constexpr const char* runtime_extension = ".runtime";
 
 // All headers of the runtime, by name; empty if there are none.
 std::string runtime_text() {
@@ -55,7 +55,7 @@ void remove_old(const fs::path& cache) {
     std::error_code ignored;
     std::vector<std::pair<fs::file_time_type, fs::path>> folders;
     for (const auto& entry : fs::directory_iterator(cache, ignored))
-        if (entry.path().extension() == extension)
+        if (entry.path().extension() == runtime_extension)
             folders.emplace_back(entry.last_write_time(ignored), entry.path());
     std::sort(folders.rbegin(), folders.rend());
     for (std::size_t i = kept; i < folders.size(); ++i) fs::remove_all(folders[i].second, ignored);
@@ -71,8 +71,10 @@ std::string toolchain_text() {
                        compiler_version(command));
 }
 
-std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::string& toolchain) {
-    const fs::path target = cache / (sha256(toolchain) + extension);
+std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::string& toolchain,
+                                         RealType real) {
+    const fs::path target =
+        cache / (sha256(fmt::format("{}\n{}", toolchain, name_of(real))) + runtime_extension);
     if (is_sealed_folder(target)) return target;
     const BuildersTurn turn(cache);
     if (is_sealed_folder(target)) return target;  // by whom we have waited for
@@ -80,7 +82,7 @@ std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::strin
     const fs::path made = work.path() / "runtime";
     std::error_code error;
     if (!fs::create_directory(made, error)) throw UnwritableFile(made, error.value());
-    if (!prepare_runtime(made)) return std::nullopt;
+    if (!prepare_runtime(made, real)) return std::nullopt;
     seal_folder(made);
     std::error_code exists_by_now;
     fs::remove_all(target, exists_by_now);

@@ -2,6 +2,8 @@
 // headers.
 #pragma once
 
+#include "ir/ir.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,9 +15,9 @@ namespace rddlc::cli {
 std::string toolchain_text();  // fails on an interrupt
 
 // The folder within `cache` that prepare_runtime (driver/shared_object.hpp) fills for that
-// toolchain, now or earlier, intact; nothing if it cannot. Those of other toolchains are removed
+// toolchain and type of reals, now or earlier, intact; nothing if it cannot. Other ones are removed
 // but for the latest few.
 std::optional<std::filesystem::path> prepared_runtime(const std::filesystem::path& cache,
-                                                      const std::string& toolchain);
+                                                      const std::string& toolchain, RealType real);
 
 }  // namespace rddlc::cli

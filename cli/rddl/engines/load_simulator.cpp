@@ -83,7 +83,8 @@ LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
     costs.emitted_bytes = static_cast<std::int64_t>(text.size());
     const CompiledSimulator compiled = compiled_simulator(
         text,
-        {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers});
+        {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers,
+         options.real});
     costs.build_seconds = compiled.object.build_seconds;
     if (const auto key = key_of(files, options)) remember_object(*key, compiled.object.path);
     costs.object_bytes =

@@ -15,7 +15,7 @@ namespace rddlc::cli {
 
 namespace {
 
-constexpr std::size_t chunk = std::size_t{1} << 18;
+constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 
 Failure unreadable(const std::string& path) {
     return Failure(fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
@@ -82,10 +82,10 @@ bool LineReader::leave_out_rest() {
 
 bool LineReader::fill() {
     const std::size_t old_size = buffer_.size();
-    buffer_.resize(old_size + chunk);
+    buffer_.resize(old_size + bytes_at_once);
     ssize_t count = 0;
     do {
-        count = is_interrupted() ? 0 : read(descriptor_, buffer_.data() + old_size, chunk);
+        count = is_interrupted() ? 0 : read(descriptor_, buffer_.data() + old_size, bytes_at_once);
     } while (count < 0 && errno == EINTR);
     const int error = errno;
     buffer_.resize(old_size + static_cast<std::size_t>(count > 0 ? count : 0));
@@ -100,7 +100,7 @@ LineWriter::LineWriter(const std::string& path, const UsedFiles& used)
 
 void LineWriter::write(const std::string& lines) {
     buffer_ += lines;
-    if (prompt_ || buffer_.size() >= chunk) flush();
+    if (prompt_ || buffer_.size() >= bytes_at_once) flush();
 }
 
 void LineWriter::flush() {

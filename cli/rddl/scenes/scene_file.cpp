@@ -36,14 +36,14 @@ class SceneReader {
         : source_(source), texts_(texts_of(source.text(), file)), file_(file) {}
 
     Scene read() {
-        const Json json = parse();
-        locate(json);
-        if (!json.is_object()) fail(whole(), "a scene is a JSON object");
-        allow(json, whole(), {"world", "shapes", "about"});
-        if (json.contains("world")) read_world(json["world"]);
-        if (!json.contains("shapes") || !json["shapes"].is_array())
+        const Json scene = parse();
+        locate(scene);
+        if (!scene.is_object()) fail(whole(), "a scene is a JSON object");
+        allow(scene, whole(), {"world", "shapes", "about"});
+        if (scene.contains("world")) read_world(scene["world"]);
+        if (!scene.contains("shapes") || !scene["shapes"].is_array())
             fail(whole(), "a scene has an array 'shapes'");
-        for (const Json& shape : json["shapes"]) scene_.shapes.push_back(read_shape(shape));
+        for (const Json& shape : scene["shapes"]) scene_.shapes.push_back(read_shape(shape));
         return std::move(scene_);
     }
 

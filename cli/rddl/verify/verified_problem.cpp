@@ -65,9 +65,9 @@ Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int 
     const Compilation compilation = compile_or_give_up(options);
     // What is compiled once for all simulators has batches of the usual packs.
     const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
-    return compiled_simulator(compilation.text, {files.name, load.ignore_cache, load.quiet,
-                                                 options.extern_headers, usual})
-        .simulator;
+    CacheOptions cache{files.name, load.ignore_cache, load.quiet, options.extern_headers};
+    if (usual) cache.linked_batches = options.real;
+    return compiled_simulator(compilation.text, cache).simulator;
 }
 
 void add_compiled(VerifiedProblem& problem, int lanes, bool first) {
