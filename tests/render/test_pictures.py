@@ -169,7 +169,7 @@ class Files(PictureTest):
             " instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }")
         done = self.rddl("run", "over.rddl", "--engine=interpreter", "--quiet", "--gif=a.gif", "--png=a.png",
                          "--html=a.html", "--watch", "--episodes=2")
-        self.assertEqual(done.stdout, "i  step 0 / 5  return 0  ended: terminated\n  x 1\n\n"
+        self.assertEqual(done.stdout, "i  episode 0  step 0 / 5  return 0  ended: terminated\n  x 1\n\n"
                          "i  episode 1  step 0 / 5  return 0  ended: terminated\n  x 1\n\n")
         self.assertEqual(len(frames_of(self.folder / "a.gif")), 1)
 
@@ -472,8 +472,8 @@ class Terminal(PictureTest):
 
     def test_one_episode_after_the_other(self):
         text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2", "--threads=2")
-        seen = re.findall(r"mountain_car_1  (episode 1  )?step (\d)", text)
-        self.assertEqual(seen, [(episode, str(k)) for episode in ("", "episode 1  ") for k in range(4)])
+        seen = re.findall(r"mountain_car_1  episode (\d)  step (\d)", text)
+        self.assertEqual(seen, [(episode, str(k)) for episode in "01" for k in range(4)])
         one = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2",
                          "--environment=1")
         self.assertEqual(one.split("\x1b[H")[1:], text.split("\x1b[H")[5:])
@@ -496,6 +496,7 @@ class Terminal(PictureTest):
         others = re.findall(r"\x1b]1337;File=inline=1;size=\d+:([^\a]*)\a", iterm)
         self.assertEqual(pictures, others)
         self.assertEqual(len(pictures), 4)
+        self.assertEqual(re.findall(r"\x1b\[Hmountain_car_1  episode 0  step (\d)", kitty), list("0123"))
         for picture in pictures:
             with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
                 self.assertEqual(image.size, (600, 400))
@@ -503,7 +504,7 @@ class Terminal(PictureTest):
     def test_no_terminal(self):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
-        self.assertEqual(len(re.findall(r"^mountain_car_1  step \d+ / 30", text, re.M)), 31)
+        self.assertEqual(len(re.findall(r"^mountain_car_1  episode 0  step \d+ / 30", text, re.M)), 31)
         # With files of one episode all are shown, too, and a trace is the same as ever.
         both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
         self.assertTrue(both.startswith(text))

@@ -49,9 +49,7 @@ std::string text_of(const SceneProgram& program, const SceneShape& shape, std::s
             [&](const SceneVariableName& name) {
                 return object_name(program, shape, name.variable, grounding);
             },
-            [&](const SceneNumber& number) {
-                return render::number_text(program.value(number, grounding));
-            });
+            [&](ExpressionIndex shown) { return program.shown(shown, grounding); });
     return text;
 }
 
