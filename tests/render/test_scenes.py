@@ -129,7 +129,9 @@ class Scenes(PictureTest):
         circle = {"shape": "circle", "x": "position", "y": 0, "radius": 1}
         self.assertIn("no more than 1000 expressions", self.draw({"shapes": [circle] * 1001}, status=DIAGNOSED))
         many = {**circle, "for": {f"?s{k}": "segment" for k in range(30)}}
-        self.assertIn("more than 100000 tuples", self.draw({"shapes": [many]}, status=DIAGNOSED))
+        few = {**circle, "for": {f"?s{k}": "segment" for k in range(3)}}
+        for shapes in [many], [few] * 300:
+            self.assertIn("more than 100000 shapes", self.draw({"shapes": shapes}, status=DIAGNOSED))
         color = "red"
         for _ in range(100_000):
             color = '{"if": "true", "then": "blue", "else": ' + color + "}"

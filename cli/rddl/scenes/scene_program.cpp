@@ -172,16 +172,18 @@ class SceneCompiler {
     }
 
     // Each is computed and drawn for each picture.
-    void require_few(const SceneShape& shape) const {
+    void require_few(const SceneShape& shape) {
         constexpr std::size_t most = 100'000;
         std::size_t tuples = 1;
         for (const SceneVariable& variable : shape.variables) {
             tuples *= std::max<std::size_t>(objects_of(variable.type).size(), 1);
-            if (tuples > most)
+            if (tuple_count_ + tuples > most)
                 fail(shape.variables.front().span,
-                     fmt::format("'for' has more than {} tuples of objects", most),
+                     fmt::format("the scene has more than {} shapes, one for each tuple of objects",
+                                 most),
                      "a shape over fewer variables is drawn fewer times");
         }
+        tuple_count_ += tuples;
     }
 
     std::vector<ast::Symbol> objects_of(const std::string& type) const {
@@ -244,6 +246,7 @@ class SceneCompiler {
     const Source& source_;
     Diagnostics& diagnostics_;
     Standard standard_;
+    std::size_t tuple_count_ = 0;  // of objects, of all shapes
 };
 
 template <class T>
