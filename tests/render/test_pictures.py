@@ -322,12 +322,26 @@ class Errors(PictureTest):
                                 ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
                                 ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
                                 ('{"state": {}, "episode": 18446744073709551615}', "'episode' is an int from 0 on"),
+                                ('{"state": {}, "step": 9007199254740993}', "'step' is no more than 9007199254740992"),
                                 ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
             (self.folder / "t.jsonl").write_text(line)
             text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
                                EXAMPLE / "instance.rddl", "--gif=a.gif")
             self.assertIn(complaint, text)
             self.assertFalse((self.folder / "a.gif").exists())
+
+    def test_steps_that_are_far_apart(self):
+        """A chart has no column for each step that is not there."""
+        (self.folder / "many.rddl").write_text(
+            "domain d { types { o : object; }; pvariables { on(o) : { state-fluent, bool, default = false };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { on'(?o) = ~on(?o); }; reward = 0; } non-fluents n { domain = d; objects { o : {o1, o2}; }; }"
+            " instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }")
+        for last in 10**6, 10**12, 2**53:
+            (self.folder / "t.jsonl").write_text("".join(
+                json.dumps({"state": {"on___o1": True}, "step": step}) + "\n" for step in (0, 7, last)))
+            self.rddl("render", "t.jsonl", "many.rddl", "--visualizer=chart", "--gif=a.gif", "--html=a.html")
+            self.assertEqual(len(frames_of(self.folder / "a.gif")), 3)
 
     def test_horizons_that_are_no_ints(self):
         header, *steps = self.trace()

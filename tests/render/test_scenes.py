@@ -201,7 +201,8 @@ class Scenes(PictureTest):
             {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
         self.assertIn("nothing to see of the scene's world", self.draw(
             {"world": {"left": 1, "right": 1, "top": 1}, "shapes": [circle]}, status=DIAGNOSED))
-        self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
+        for scene in "none.json", "/dev/zero":
+            self.assertIn("cannot read", self.run_car("--png=a.png", f"--scene={scene}", status=DIAGNOSED).stderr)
 
 
 if __name__ == "__main__":

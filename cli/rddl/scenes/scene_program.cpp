@@ -261,7 +261,8 @@ T read(const std::byte* values, std::size_t index) {
 SceneProgram::SceneProgram(const ProblemFiles& files, const std::filesystem::path& scene_file) {
     CompileOptions options = compile_options(files, Stage::Verify);
     options.details = true;
-    const std::string text = read_file(scene_file);
+    constexpr std::size_t largest_scene = std::size_t{1} << 24;  // bytes
+    const std::string text = read_file(scene_file, largest_scene);
     options.extend = [&](ast::Program& program, Sources& sources, Diagnostics& diagnostics) {
         const FileId file = sources.add(scene_file.string(), text);
         scene_ = read_scene(sources[file], file);

@@ -141,14 +141,18 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
 void draw_rows(Canvas& canvas, const Panel& panel) {
     const Box& plot = panel.plot;
     const auto rows = static_cast<int>(panel.fluent.count);
-    const auto columns = static_cast<int>(panel.axis.count());
+    // One a step, unless steps are left out of the trace by the thousand.
+    constexpr std::int64_t most_columns = 4 * most_steps_remembered;
+    const auto columns = static_cast<int>(std::min(panel.axis.count(), most_columns));
     std::vector<std::uint32_t> cells(
         static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns),
         pixel_of(colors::paper));
     for (std::size_t i = 0; i < panel.past.size(); ++i) {
         const Values& values = panel.past[i];
+        const double part = static_cast<double>(panel.moment.steps()[i].number - panel.axis.first) /
+                            static_cast<double>(panel.axis.count());
         const auto column =
-            static_cast<std::size_t>(panel.moment.steps()[i].number - panel.axis.first);
+            static_cast<std::size_t>(std::min(std::floor(part * columns + 1e-6), columns - 1.0));
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
             cells[g * static_cast<std::size_t>(columns) + column] =
                 pixel_of(value_color(values, values.numbers[g], panel.range));
