@@ -56,8 +56,8 @@ std::string rounded_text(double value) {
 void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range,
               const Box& other) {
     if (values.fluent->scalar == RDDL_BOOL) {
-        whole_legend_at_right(
-            canvas, box, std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}});
+        whole_legend_at_right(canvas, box,
+                              std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}});
         return;
     }
     if (const rddl_type* const type = values.range()) {

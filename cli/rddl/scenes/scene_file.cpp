@@ -179,7 +179,8 @@ class SceneReader {
             fail(place_of(list), "'for' is an object such as {\"?x\": \"type\"}");
         for (const auto& [name, type] : list.items()) {
             const Span key = key_.at(&type);
-            if (name.size() < 2 || name[0] != '?' || !std::ranges::all_of(name.substr(1), is_of_name))
+            if (name.size() < 2 || name[0] != '?' ||
+                !std::ranges::all_of(name.substr(1), is_of_name))
                 fail(key, "a variable is '?' and a name of letters, digits, '-' and '_'");
             if (!type.is_string()) fail(key, "the type of a variable is a text");
             variables_.push_back({name.substr(1), type.get<std::string>(), place_of(type)});

@@ -65,6 +65,8 @@ struct Panel {
         return objects_of(moment, fluent, grounding);
     }
     const rddl_type* objects_of_range() const { return past.front().range(); }
+    // Where a label at the left stands for a height of the plot: not in the title.
+    Point label_place(double y) const { return {plot.x - 4, std::max(y, plot.y + 4)}; }
 };
 
 void draw_time_axis(Canvas& canvas, const Panel& panel, bool with_title) {
@@ -97,7 +99,7 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
             // The ends at least.
             if (room >= 9 || i == 0 || i + 1 == type.object_count)
-                canvas.text({plot.x - 4, y},
+                canvas.text(panel.label_place(y),
                             shortened_name(canvas, type.objects[i], names_size, 64),
                             {.size = 9, .color = colors::muted, .align = Align::Right});
         }
@@ -109,7 +111,7 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
             if (last - y < 9) continue;  // it would lie on the number below
             last = y;
-            canvas.text({plot.x - 4, y}, number_text(tick),
+            canvas.text(panel.label_place(y), number_text(tick),
                         {.size = 9, .color = colors::muted, .align = Align::Right});
         }
     }
@@ -167,7 +169,7 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
     // Names of all rows, or of as many as can be read.
     const int every = static_cast<int>(std::ceil(9.5 / row));
     for (int g = 0; g < rows && panel.fluent.rank > 0; g += every)
-        canvas.text({plot.x - 4, plot.y + (g + 0.5) * row},
+        canvas.text(panel.label_place(plot.y + (g + 0.5) * row),
                     shortened_name(canvas, panel.objects(g), names_size, 64),
                     {.size = 9, .color = colors::muted, .align = Align::Right});
     canvas.outline(plot, colors::rule, 0.8);
@@ -289,8 +291,8 @@ void draw_shared_key(Canvas& canvas, const Box& row, const SharedKey& key) {
     Box rest = row.after(canvas.text_width(axis, names_size) + 14);
     if (key.of_bools) {
         constexpr double width = 84;
-        legend(canvas, rest,
-               std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}}, names_size);
+        legend(canvas, rest, std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}},
+               names_size);
         rest = rest.after(width);
     }
     if (!key.lines.empty()) draw_key_of_lines(canvas, rest, key.lines);

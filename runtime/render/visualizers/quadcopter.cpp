@@ -153,7 +153,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     }
     for (int i = 0; i < x.count(0); ++i)
         draw_drone(canvas, camera, moment, i, series_color(static_cast<std::size_t>(i)));
-    canvas.text({area.x, area.bottom() - 6}, "crosses: targets; dots: places on the ground below; arrows: where the rotors push",
+    canvas.text({area.x, area.bottom() - 6},
+                "crosses: targets; dots: places on the ground below; arrows: where the rotors push",
                 {.size = 11, .color = colors::muted});
 }
 
