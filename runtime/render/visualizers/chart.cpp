@@ -167,11 +167,14 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
                         colors::paper);
     }
     // Names of all rows, or of as many as can be read.
-    const int every = static_cast<int>(std::ceil(9.5 / row));
-    for (int g = 0; g < rows && panel.fluent.rank > 0; g += every)
-        canvas.text(panel.label_place(plot.y + (g + 0.5) * row),
-                    shortened_name(canvas, panel.objects(g), names_size, 64),
+    double last = -INFINITY;
+    for (int g = 0; g < rows && panel.fluent.rank > 0; ++g) {
+        const Point place = panel.label_place(plot.y + (g + 0.5) * row);
+        if (place.y - last < 9.5) continue;
+        last = place.y;
+        canvas.text(place, shortened_name(canvas, panel.objects(g), names_size, 64),
                     {.size = 9, .color = colors::muted, .align = Align::Right});
+    }
     canvas.outline(plot, colors::rule, 0.8);
 }
 
