@@ -37,7 +37,7 @@ using ExpressionIndex = std::size_t;
 
 using SceneNumber = std::variant<double, ExpressionIndex>;
 
-// More take the compiler minutes.
+// So many take the compiler a second or two.
 inline constexpr std::size_t most_scene_expressions = 1000;
 
 struct SceneColor;
