@@ -183,13 +183,12 @@ void run_stages(Run& run) {
 
     // The IR keeps its invariants, or else the compiler is wrong.
     result.program = run.measure(Stage::Verify, [&] { return verified(*std::move(grounded)); });
-    if (run.ends_after(Stage::Verify)) return;
-
-    // What those want to know who ask about a step, by a program that no pass has changed.
+    // What those want to know who ask about a step, by a program that no pass changes.
     if (run.options.details) {
         result.details = make_details(*result.program);
         result.details->program = verified(std::move(result.details->program));
     }
+    if (run.ends_after(Stage::Verify)) return;
 
     // IR -> IR that computes the same values with less work.
     result.program = run.measure(Stage::Optimise, [&] {

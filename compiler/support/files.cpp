@@ -126,7 +126,7 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
-std::string read_file(const fs::path& path) {
+std::string read_file(const fs::path& path, std::size_t largest) {
     struct Descriptor {
         int number;
         ~Descriptor() {
@@ -135,7 +135,7 @@ std::string read_file(const fs::path& path) {
     };
     const Descriptor file{open_file(path, O_RDONLY)};
     if (file.number < 0) throw unreadable(path.string(), errno);
-    return read_descriptor(file.number, path.string());
+    return read_descriptor(file.number, path.string(), largest);
 }
 
 // ------------------------------------------------------------------------ what must not be lost

@@ -20,9 +20,9 @@ namespace rddlc {
 bool is_there(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 
-// The bytes of a file, which may be a pipe; "-" is no special name. Throws a Failure "cannot read
-// 'x': Is a directory".
-std::string read_file(const std::filesystem::path& path);
+// The bytes of a file, which may be a pipe, and may have so many; "-" is no special name. Throws a
+// Failure "cannot read 'x': Is a directory".
+std::string read_file(const std::filesystem::path& path, std::size_t largest = std::string::npos);
 // The same of an open file, called `name` in messages, which may have so many bytes.
 std::string read_descriptor(int descriptor, std::string_view name,
                             std::size_t largest = std::string::npos);

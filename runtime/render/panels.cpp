@@ -53,9 +53,11 @@ std::string rounded_text(double value) {
 
 }  // namespace
 
-void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range) {
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range,
+              const Box& other) {
     if (values.fluent->scalar == RDDL_BOOL) {
-        legend_at_right(canvas, box, {{"true", colors::blue}, {"false", colors::faint}});
+        whole_legend_at_right(canvas, box,
+                              std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}});
         return;
     }
     if (const rddl_type* const type = values.range()) {
@@ -63,14 +65,16 @@ void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range&
         for (std::int64_t i = 0; i < type->object_count; ++i)
             entries.push_back(
                 {type->objects[i], value_color(values, static_cast<double>(i), range)});
-        legend_at_right(canvas, box, entries);
+        if (whole_legend_at_right(canvas, box, entries)) return;
+        legend_at_right(canvas, other.width > box.width ? other : box, entries);
         return;
     }
     const Color low = sequential_color(0), high = sequential_color(1);
-    if (!legend_at_right(canvas, box,
-                         {{number_text(range.low), low}, {number_text(range.high), high}}))
-        legend_at_right(canvas, box,
-                        {{rounded_text(range.low), low}, {rounded_text(range.high), high}});
+    for (const auto text_of : {number_text, rounded_text})
+        if (whole_legend_at_right(
+                canvas, box,
+                std::vector<Entry>{{text_of(range.low), low}, {text_of(range.high), high}}))
+            return;
 }
 
 std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding) {

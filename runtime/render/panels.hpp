@@ -32,7 +32,9 @@ Range range_of(const Moment& moment, const rddl_fluent& fluent);
 Color value_color(const Values& values, double value, const Range& range);
 
 // What the colours of its values mean, at the right of the box; nothing where there is no room.
-void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range);
+// Names of objects stand in `other` where they have no room in the box, if they have it there.
+void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range,
+              const Box& other = {});
 
 // "r1, c2" of "at(r1, c2)": the objects of a grounding.
 std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int64_t grounding);

@@ -180,21 +180,27 @@ void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, doub
     }
 }
 
-bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
-    const double size = legend_width(canvas, entries, 11) <= box.width ? 11 : 9;
-    const Spaces spaces(size);
-    if (legend_width(canvas, entries, size) > box.width) {
-        if (entries.size() <= 2) return false;
-        // Each name has as much room as the others, if that tells anything.
-        constexpr double least = 28;
-        const double room = (box.width + spaces.between) / static_cast<double>(entries.size()) -
-                            spaces.swatch - spaces.before_name - spaces.between;
-        for (Entry& entry : entries)
-            entry.name = shortened_name(canvas, entry.name, size, std::max(room, least));
+bool whole_legend_at_right(Canvas& canvas, const Box& box, std::span<const Entry> entries) {
+    for (const double size : {11.0, 9.0}) {
+        const double width = legend_width(canvas, entries, size);
+        if (width > box.width) continue;
+        legend(canvas, box.rightmost(width), entries, size);
+        return true;
     }
+    return false;
+}
+
+void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
+    if (whole_legend_at_right(canvas, box, entries)) return;
+    // Each name has as much room as the others, if that tells anything.
+    constexpr double size = 9, least = 28;
+    const Spaces spaces(size);
+    const double room = (box.width + spaces.between) / static_cast<double>(entries.size()) -
+                        spaces.swatch - spaces.before_name - spaces.between;
+    for (Entry& entry : entries)
+        entry.name = shortened_name(canvas, entry.name, size, std::max(room, least));
     const double width = legend_width(canvas, entries, size);
     legend(canvas, box.rightmost(std::min(width, box.width)), entries, size);
-    return true;
 }
 
 Grid::Grid(const Box& outer, int wanted_columns, int wanted_rows, bool square)

@@ -66,8 +66,10 @@ struct Entry {
 };
 void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size = 11);
 // At the right of the box instead; where room is short, with smaller letters and shorter names.
-// False: of one or two, not all have room, and none is drawn.
-bool legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
+void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
+// The same of numbers and the like, which cannot be shortened. False: they have no room, and none
+// is drawn.
+bool whole_legend_at_right(Canvas& canvas, const Box& box, std::span<const Entry> entries);
 
 // A grid of cells in a box: square where that is sensible.
 struct Grid {

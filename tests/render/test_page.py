@@ -164,6 +164,16 @@ class Page(PictureTest):
         self.browser.evaluate("document.getElementById('theme').click()")
         self.assertEqual(self.browser.evaluate("document.documentElement.dataset.theme"), "light")
 
+    def test_pictures_keep_their_shape(self):
+        self.trace("other.jsonl", "--seed=5")
+        self.open("--beside=other.jsonl")
+        for width, height in (360, 700), (500, 900), (1000, 300), (1000, 900), (1600, 900):
+            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                              mobile=False)
+            for shape in self.browser.evaluate("[...document.querySelectorAll('figure img')].map("
+                                               "(i) => [i.clientWidth, i.clientHeight])"):
+                self.assertAlmostEqual(shape[0] / shape[1], 1.5, delta=0.02, msg=f"{width}x{height}")
+
     def test_names_are_no_markup(self):
         (self.folder / "<b>&.jsonl").write_text((self.folder / "car.jsonl").read_text())
         self.rddl("render", "car.jsonl", "--html=page.html", "--beside=<b>&.jsonl")

@@ -169,7 +169,7 @@ class Files(PictureTest):
             " instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }")
         done = self.rddl("run", "over.rddl", "--engine=interpreter", "--quiet", "--gif=a.gif", "--png=a.png",
                          "--html=a.html", "--watch", "--episodes=2")
-        self.assertEqual(done.stdout, "i  step 0 / 5  return 0  ended: terminated\n  x 1\n\n"
+        self.assertEqual(done.stdout, "i  episode 0  step 0 / 5  return 0  ended: terminated\n  x 1\n\n"
                          "i  episode 1  step 0 / 5  return 0  ended: terminated\n  x 1\n\n")
         self.assertEqual(len(frames_of(self.folder / "a.gif")), 1)
 
@@ -322,12 +322,26 @@ class Errors(PictureTest):
                                 ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
                                 ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
                                 ('{"state": {}, "episode": 18446744073709551615}', "'episode' is an int from 0 on"),
+                                ('{"state": {}, "step": 9007199254740993}', "'step' is no more than 9007199254740992"),
                                 ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
             (self.folder / "t.jsonl").write_text(line)
             text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
                                EXAMPLE / "instance.rddl", "--gif=a.gif")
             self.assertIn(complaint, text)
             self.assertFalse((self.folder / "a.gif").exists())
+
+    def test_steps_that_are_far_apart(self):
+        """A chart has no column for each step that is not there."""
+        (self.folder / "many.rddl").write_text(
+            "domain d { types { o : object; }; pvariables { on(o) : { state-fluent, bool, default = false };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { on'(?o) = ~on(?o); }; reward = 0; } non-fluents n { domain = d; objects { o : {o1, o2}; }; }"
+            " instance i { domain = d; non-fluents = n; horizon = 5; discount = 1.0; }")
+        for last in 10**6, 10**12, 2**53:
+            (self.folder / "t.jsonl").write_text("".join(
+                json.dumps({"state": {"on___o1": True}, "step": step}) + "\n" for step in (0, 7, last)))
+            self.rddl("render", "t.jsonl", "many.rddl", "--visualizer=chart", "--gif=a.gif", "--html=a.html")
+            self.assertEqual(len(frames_of(self.folder / "a.gif")), 3)
 
     def test_horizons_that_are_no_ints(self):
         header, *steps = self.trace()
@@ -472,8 +486,8 @@ class Terminal(PictureTest):
 
     def test_one_episode_after_the_other(self):
         text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2", "--threads=2")
-        seen = re.findall(r"mountain_car_1  (episode 1  )?step (\d)", text)
-        self.assertEqual(seen, [(episode, str(k)) for episode in ("", "episode 1  ") for k in range(4)])
+        seen = re.findall(r"mountain_car_1  episode (\d)  step (\d)", text)
+        self.assertEqual(seen, [(episode, str(k)) for episode in "01" for k in range(4)])
         one = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl", "--episodes=2",
                          "--environment=1")
         self.assertEqual(one.split("\x1b[H")[1:], text.split("\x1b[H")[5:])
@@ -496,6 +510,7 @@ class Terminal(PictureTest):
         others = re.findall(r"\x1b]1337;File=inline=1;size=\d+:([^\a]*)\a", iterm)
         self.assertEqual(pictures, others)
         self.assertEqual(len(pictures), 4)
+        self.assertEqual(re.findall(r"\x1b\[Hmountain_car_1  episode 0  step (\d)", kitty), list("0123"))
         for picture in pictures:
             with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
                 self.assertEqual(image.size, (600, 400))
@@ -503,7 +518,7 @@ class Terminal(PictureTest):
     def test_no_terminal(self):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
-        self.assertEqual(len(re.findall(r"^mountain_car_1  step \d+ / 30", text, re.M)), 31)
+        self.assertEqual(len(re.findall(r"^mountain_car_1  episode 0  step \d+ / 30", text, re.M)), 31)
         # With files of one episode all are shown, too, and a trace is the same as ever.
         both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
         self.assertTrue(both.startswith(text))

@@ -73,6 +73,42 @@ class Scenes(PictureTest):
             self.assertIn("^", text, expression)
             self.assertFalse((self.folder / "a.png").exists())
 
+    def test_what_texts_show(self):
+        """Bools and objects in words, whatever expression they are of."""
+        (self.folder / "d.rddl").write_text(
+            "domain d { types { o : object; colour : {@red, @green}; }; pvariables {"
+            " on(o) : { state-fluent, bool, default = true }; light : { state-fluent, colour, default = @green };"
+            " place(o) : { state-fluent, o }; x : { state-fluent, real, default = 1.5 };"
+            " a : { action-fluent, bool, default = false }; };"
+            " cpfs { on'(?o) = on(?o); light' = light; place'(?o) = place(?o); x' = x; }; reward = x; }"
+            " non-fluents n { domain = d; objects { o : {o1, o2}; }; }"
+            " instance i { domain = d; non-fluents = n; init-state { place(o1) = o2; place(o2) = o2; };"
+            " horizon = 2; discount = 1.0; }")
+
+        def drawn(text: str) -> bytes:
+            (self.folder / "s.json").write_text(json.dumps({"world": {"right": 2}, "shapes": [
+                {"shape": "text", "for": {"?o": "o"}, "x": 1, "y": "0.2 + index-o(?o) / 2", "text": text}]}))
+            self.rddl("run", "d.rddl", "--engine=interpreter", "--quiet", "--png=a.png", "--scene=s.json")
+            return (self.folder / "a.png").read_bytes()
+
+        for expression, words in (("on(?o)", "true"), ("~on(?o)", "false"), ("on(?o) ^ x > 1", "true"),
+                                  ("light", "green"), ("light == @red", "false"), ("place(?o)", "o2"),
+                                  ("a", "false"), ("x", "1.5"), ("index-o(?o) - index-o(?o)", "0"),
+                                  ("if (on(?o)) then 1 else 0", "1"), ("sum_{?p : o} [on(?p)]", "2")):
+            self.assertEqual(drawn(f"is {{{expression}}}"), drawn(f"is {words}"), expression)
+
+    def test_a_mistake_is_told_once_in_words_of_the_scene(self):
+        circle = {"shape": "circle", "x": 1, "y": 1, "radius": 1}
+        text = self.draw({"shapes": [{**circle, "visible": "position"}]}, status=DIAGNOSED)
+        self.assertRegex(text, r"scene.json:1:\d+: error: the value of 'expression 1 of the scene' must be bool")
+        text = self.draw({"shapes": [{"shape": "circle", "for": {"?w": "wheel"}, "x": "index-wheel(?w)",
+                                      "y": "index-wheel(?w)", "radius": 1}]}, status=DIAGNOSED)
+        self.assertEqual(text.count("wheel"), 1)
+        # The other expressions are no mistakes, and nothing is told of them.
+        text = self.draw({"shapes": [{**circle, "x": "positoin", "y": "velocity", "radius": "1 + 1"}]}, status=DIAGNOSED)
+        self.assertIn("1 error\n", text)
+        self.assertNotIn("warning", text)
+
     def test_mistakes_without_an_expression(self):
         """What only constants stand beside is looked at, too."""
         def told(**members) -> str:
@@ -93,7 +129,9 @@ class Scenes(PictureTest):
         circle = {"shape": "circle", "x": "position", "y": 0, "radius": 1}
         self.assertIn("no more than 1000 expressions", self.draw({"shapes": [circle] * 1001}, status=DIAGNOSED))
         many = {**circle, "for": {f"?s{k}": "segment" for k in range(30)}}
-        self.assertIn("more than 100000 tuples", self.draw({"shapes": [many]}, status=DIAGNOSED))
+        few = {**circle, "for": {f"?s{k}": "segment" for k in range(3)}}
+        for shapes in [many], [few] * 300:
+            self.assertIn("more than 100000 shapes", self.draw({"shapes": shapes}, status=DIAGNOSED))
         color = "red"
         for _ in range(100_000):
             color = '{"if": "true", "then": "blue", "else": ' + color + "}"
@@ -151,18 +189,20 @@ class Scenes(PictureTest):
                 ({"shapes": [{**circle, "color": {"if": "true"}}]}, "'then' of the color is missing"),
                 ({"shapes": [{**circle, "x": True}]}, "a number, or a text"),
                 ({"shapes": [{**circle, "visible": 1}]}, "a condition is a text"),
-                ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "begins with '?'"),
+                ({"shapes": [{**circle, "for": {"x": "segment"}}]}, "a variable is '?' and a name"),
+                ({"shapes": [{**circle, "for": {"?x y": "segment"}}]}, "a variable is '?' and a name"),
                 ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a {b"}]}, "is not closed"),
                 ({"shapes": [{"shape": "text", "x": 0, "y": 0, "text": "a\nb"}]}, "stands on one line"),
                 ({"shapes": [{"shape": "polygon", "points": [[0, 0]]}]}, "three or more")):
             text = self.draw(scene, status=DIAGNOSED)
             self.assertRegex(text, r"scene.json:\d+:\d+: ")
             self.assertIn(complaint, text)
-        self.assertIn("is not declared", self.draw(
+        self.assertIn("there is no type of objects 'wheel'", self.draw(
             {"shapes": [{**circle, "x": "1 * index-wheel(?w)", "for": {"?w": "wheel"}}]}, status=DIAGNOSED))
         self.assertIn("nothing to see of the scene's world", self.draw(
             {"world": {"left": 1, "right": 1, "top": 1}, "shapes": [circle]}, status=DIAGNOSED))
-        self.assertIn("cannot read", self.run_car("--png=a.png", "--scene=none.json", status=DIAGNOSED).stderr)
+        for scene in "none.json", "/dev/zero":
+            self.assertIn("cannot read", self.run_car("--png=a.png", f"--scene={scene}", status=DIAGNOSED).stderr)
 
 
 if __name__ == "__main__":

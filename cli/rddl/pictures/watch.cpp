@@ -86,9 +86,8 @@ std::string cut_off(std::string_view text, std::size_t columns) {
 
 std::string heading(const render::Moment& moment) {
     const render::Step& now = moment.now();
-    std::string text = moment.problem().instance;
-    if (moment.episode() > 0) text += fmt::format("  episode {}", moment.episode());
-    text += fmt::format("  step {}", now.number);
+    std::string text = fmt::format("{}  episode {}  step {}", moment.problem().instance,
+                                   moment.episode(), now.number);
     if (moment.horizon() > 0) text += fmt::format(" / {}", moment.horizon());
     text += fmt::format("  return {}", render::number_text(now.total));
     if (moment.acts()) text += fmt::format("  reward {}", render::number_text(now.reward));
@@ -159,7 +158,8 @@ struct Watch {
             show_in_place(lines_of(moment, terminal_size(), tells_in_color()));
         } else {
             const std::string png = render::png_bytes(drawn.film.picture());
-            fmt::print("\x1b[H{}", images == Images::Kitty ? kitty_image(png) : iterm_image(png));
+            fmt::print("\x1b[H{}\x1b[K\n{}", cut_off(heading(moment), terminal_size().columns),
+                       images == Images::Kitty ? kitty_image(png) : iterm_image(png));
         }
         std::fflush(stdout);
         next = Clock::now() + pause;

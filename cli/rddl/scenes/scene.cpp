@@ -3,6 +3,7 @@
 #include "scenes/scene_program.hpp"
 #include "support/failure.hpp"
 #include "support/match.hpp"
+#include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <render/shapes.hpp>
@@ -49,9 +50,7 @@ std::string text_of(const SceneProgram& program, const SceneShape& shape, std::s
             [&](const SceneVariableName& name) {
                 return object_name(program, shape, name.variable, grounding);
             },
-            [&](const SceneNumber& number) {
-                return render::number_text(program.value(number, grounding));
-            });
+            [&](ExpressionIndex shown) { return program.shown(shown, grounding); });
     return text;
 }
 
@@ -87,6 +86,7 @@ void draw(SceneProgram& program, render::Canvas& canvas, const render::Box& area
     const Scene& scene = program.scene();
     std::vector<render::Shape> shapes;
     for (const SceneShape& shape : scene.shapes) {
+        give_up_if_interrupted("drawing");
         std::size_t groundings = 1;
         for (const SceneVariable& variable : shape.variables)
             groundings *= program.objects_of(variable.type).size();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <unordered_map>
 
 namespace rddlc::cli {
@@ -109,20 +110,23 @@ class SceneReader {
         return object[name];
     }
 
-    ExpressionIndex add_expression(Span span, bool is_bool) {
+    // `value` holds the expression.
+    ExpressionIndex add_expression(const Json& value, Span span, SceneRange range) {
         if (source_.text().substr(span.begin, span.end - span.begin).find('\\') !=
             std::string::npos)
             fail(span, "an expression has no backslash, and stands on one line");
         if (scene_.expressions.size() == most_scene_expressions)
             fail(span,
                  fmt::format("a scene has no more than {} expressions", most_scene_expressions));
-        scene_.expressions.push_back({span, is_bool, variables_});
+        const auto key = key_.find(&value);
+        scene_.expressions.push_back(
+            {span, key == key_.end() ? span : key->second, range, variables_});
         return scene_.expressions.size() - 1;
     }
 
     SceneNumber read_number(const Json& value) {
         if (value.is_number()) return value.get<double>();
-        if (value.is_string()) return add_expression(place_of(value), false);
+        if (value.is_string()) return add_expression(value, place_of(value), SceneRange::Real);
         fail(place_of(value), "here stands a number, or a text that is an RDDL expression");
     }
     // A length or a size.
@@ -154,7 +158,7 @@ class SceneReader {
     ExpressionIndex read_condition(const Json& value) {
         if (!value.is_string())
             fail(place_of(value), "a condition is a text with an RDDL expression");
-        return add_expression(place_of(value), true);
+        return add_expression(value, place_of(value), SceneRange::Bool);
     }
 
     void read_world(const Json& world) {
@@ -166,13 +170,18 @@ class SceneReader {
         scene_.top = number_or(world, "top", 1);
     }
 
+    static bool is_of_name(char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+    }
     // {"?b": "basin"}
     void read_variables(const Json& list) {
         if (!list.is_object())
             fail(place_of(list), "'for' is an object such as {\"?x\": \"type\"}");
         for (const auto& [name, type] : list.items()) {
             const Span key = key_.at(&type);
-            if (name.size() < 2 || name[0] != '?') fail(key, "a variable begins with '?'");
+            if (name.size() < 2 || name[0] != '?' ||
+                !std::ranges::all_of(name.substr(1), is_of_name))
+                fail(key, "a variable is '?' and a name of letters, digits, '-' and '_'");
             if (!type.is_string()) fail(key, "the type of a variable is a text");
             variables_.push_back({name.substr(1), type.get<std::string>(), place_of(type)});
         }
@@ -228,7 +237,7 @@ class SceneReader {
 
     // "level of {?b}: {water(?b)}"
     SceneText read_text(const Json& value) {
-        if (!value.is_string()) fail(place_of(value), "'text' is a text");
+        if (!value.is_string()) fail(place_of(value), "'text' is a text in quotation marks");
         const Span span = place_of(value);
         const std::string raw = source_.text().substr(span.begin, span.end - span.begin);
         SceneText text;
@@ -239,7 +248,7 @@ class SceneReader {
             if (open == raw.size()) break;
             const std::size_t close = closing_brace(raw, open);
             if (close == std::string::npos) fail(span, "a '{' is not closed");
-            text.push_back(read_piece(raw.substr(open + 1, close - open - 1),
+            text.push_back(read_piece(value, raw.substr(open + 1, close - open - 1),
                                       {file_, span.begin + static_cast<std::uint32_t>(open) + 1,
                                        span.begin + static_cast<std::uint32_t>(close)}));
             at = close + 1;
@@ -247,10 +256,10 @@ class SceneReader {
         return text;
     }
 
-    SceneText::value_type read_piece(const std::string& piece, Span span) {
+    SceneText::value_type read_piece(const Json& value, const std::string& piece, Span span) {
         for (std::size_t v = 0; v < variables_.size(); ++v)
             if (piece == "?" + variables_[v].name) return SceneVariableName{v};
-        return SceneNumber(add_expression(span, false));
+        return add_expression(value, span, SceneRange::Shown);
     }
 
     void add_points(const Json& shape, SceneShape& result,

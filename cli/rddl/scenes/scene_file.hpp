@@ -22,10 +22,13 @@ struct SceneVariable {
     Span span;
 };
 
+// What an expression must give. Texts show bools, numbers and objects.
+enum class SceneRange { Bool, Real, Shown };
+
 // RDDL in the file, over the variables of its shape.
 struct SceneExpression {
-    Span span;
-    bool is_bool = false;  // else real
+    Span span, member;  // `member` is the name of the member of the shape that it is of
+    SceneRange range;
     std::vector<SceneVariable> variables;
 };
 
@@ -34,7 +37,7 @@ using ExpressionIndex = std::size_t;
 
 using SceneNumber = std::variant<double, ExpressionIndex>;
 
-// More take the compiler minutes.
+// So many take the compiler a second or two.
 inline constexpr std::size_t most_scene_expressions = 1000;
 
 struct SceneColor;
@@ -50,11 +53,11 @@ struct SceneColor {
     std::variant<rddl::render::Color, SceneColorChoice, SceneColorScale> value;
 };
 
-// Pieces of a text: "level of ", ?b, ": ", a number.
+// Pieces of a text: "level of ", ?b, ": ", a value.
 struct SceneVariableName {
     std::size_t variable;  // of the shape
 };
-using SceneText = std::vector<std::variant<std::string, SceneVariableName, SceneNumber>>;
+using SceneText = std::vector<std::variant<std::string, SceneVariableName, ExpressionIndex>>;
 
 struct SceneShape {
     rddl::render::Shape::Kind kind;

@@ -7,20 +7,22 @@
 #include "support/files.hpp"
 
 #include <fmt/format.h>
+#include <render/moment.hpp>
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 namespace rddlc::cli {
 
 namespace {
 
-// No name that people give, and nothing else may be called so.
+// Messages tell it. No RDDL can name it, for it has blanks.
 std::string name_of_expression(ExpressionIndex index) {
-    return fmt::format("scene-expression-{}", index);
+    return fmt::format("expression {} of the scene", index + 1);
 }
 
 template <class Section>
@@ -50,14 +52,18 @@ class SceneCompiler {
         auto* const fluents = section_of<ast::PVariables>(*domain);
         auto* const cpfs = section_of<ast::Cpfs>(*domain);
         if (!fluents || !cpfs) return;
-        for (const SceneShape& shape : scene.shapes) require_few(shape);
+        for (const SceneShape& shape : scene.shapes) {
+            require_types(shape, *domain);
+            require_few(shape);
+        }
         std::set<std::string> types;
         for (std::size_t i = 0; i < scene.expressions.size(); ++i) {
             const SceneExpression& expression = scene.expressions[i];
             std::optional<ast::Expr> body =
                 parse_expression(source_, expression.span, diagnostics_, standard_);
             if (!body) continue;
-            fluents->declarations.push_back(declaration(i, expression));
+            fluents->declarations.push_back(
+                declaration(i, expression, range_of(expression, *body, *fluents)));
             cpfs->definitions.push_back(definition(i, expression, *std::move(body)));
             for (const SceneVariable& variable : expression.variables) types.insert(variable.type);
         }
@@ -65,14 +71,27 @@ class SceneCompiler {
     }
 
   private:
-    static ast::PVariable declaration(std::size_t index, const SceneExpression& expression) {
+    // A text may show a fluent whose values are objects; all else that it shows is a number.
+    static std::string range_of(const SceneExpression& expression, const ast::Expr& body,
+                                const ast::PVariables& fluents) {
+        if (expression.range == SceneRange::Bool) return "bool";
+        const auto* const named = std::get_if<ast::Reference>(&body.node);
+        if (expression.range == SceneRange::Shown && named)
+            for (const ast::PVariable& fluent : fluents.declarations)
+                if (fluent.name.text == named->name.text && fluent.range.text != "int")
+                    return fluent.range.text;
+        return "real";
+    }
+
+    static ast::PVariable declaration(std::size_t index, const SceneExpression& expression,
+                                      const std::string& range) {
         ast::PVariable fluent;
         fluent.name = {name_of_expression(index), expression.span};
         for (const SceneVariable& variable : expression.variables)
             fluent.parameters.push_back({variable.type, variable.span});
         fluent.kind = {"interm-fluent", expression.span};
-        fluent.range = {expression.is_bool ? "bool" : "real", expression.span};
-        fluent.span = expression.span;
+        fluent.range = {range, expression.span};
+        fluent.span = expression.member;
         return fluent;
     }
 
@@ -130,18 +149,41 @@ class SceneCompiler {
         });
     }
 
+    // Once for a shape, however many expressions it has.
+    void require_types(const SceneShape& shape, const ast::Domain& domain) const {
+        std::vector<std::string> names;
+        for (const ast::DomainSection& section : domain.sections)
+            if (const auto* const types = std::get_if<ast::Types>(&section.node))
+                for (const ast::TypeDeclaration& declared : types->declarations)
+                    names.push_back(declared.name.text);
+        for (const SceneVariable& variable : shape.variables) {
+            if (std::ranges::find(names, variable.type) != names.end()) continue;
+            const auto near = did_you_mean(variable.type, names);
+            fail(variable.span, fmt::format("there is no type of objects '{}'", variable.type),
+                 near ? fmt::format("did you mean '{}'?", *near) : "");
+        }
+    }
+
+    [[noreturn]] void fail(Span span, const std::string& message, std::string hint) const {
+        const Position position = source_.position(span.begin);
+        throw Failure(
+            fmt::format("{}:{}:{}: {}", source_.path(), position.line, position.column, message),
+            std::move(hint));
+    }
+
     // Each is computed and drawn for each picture.
-    void require_few(const SceneShape& shape) const {
+    void require_few(const SceneShape& shape) {
         constexpr std::size_t most = 100'000;
         std::size_t tuples = 1;
         for (const SceneVariable& variable : shape.variables) {
             tuples *= std::max<std::size_t>(objects_of(variable.type).size(), 1);
-            if (tuples <= most) continue;
-            const Position position = source_.position(shape.variables.front().span.begin);
-            throw Failure(fmt::format("{}:{}:{}: 'for' has more than {} tuples of objects",
-                                      source_.path(), position.line, position.column, most),
-                          "a shape over fewer variables is drawn fewer times");
+            if (tuple_count_ + tuples > most)
+                fail(shape.variables.front().span,
+                     fmt::format("the scene has more than {} shapes, one for each tuple of objects",
+                                 most),
+                     "a shape over fewer variables is drawn fewer times");
         }
+        tuple_count_ += tuples;
     }
 
     std::vector<ast::Symbol> objects_of(const std::string& type) const {
@@ -204,54 +246,53 @@ class SceneCompiler {
     const Source& source_;
     Diagnostics& diagnostics_;
     Standard standard_;
+    std::size_t tuple_count_ = 0;  // of objects, of all shapes
 };
+
+template <class T>
+T read(const std::byte* values, std::size_t index) {
+    T value;
+    std::memcpy(&value, values + index * sizeof value, sizeof value);
+    return value;
+}
 
 }  // namespace
 
 SceneProgram::SceneProgram(const ProblemFiles& files, const std::filesystem::path& scene_file) {
     CompileOptions options = compile_options(files, Stage::Verify);
     options.details = true;
-    options.stop_after = Stage::Optimise;
-    const std::string text = read_file(scene_file);
+    constexpr std::size_t largest_scene = std::size_t{1} << 24;  // bytes
+    const std::string text = read_file(scene_file, largest_scene);
     options.extend = [&](ast::Program& program, Sources& sources, Diagnostics& diagnostics) {
         const FileId file = sources.add(scene_file.string(), text);
         scene_ = read_scene(sources[file], file);
         SceneCompiler(program, sources[file], diagnostics, options.standard).add(scene_);
     };
     Compilation compilation = compile_or_give_up(options);
-    const ir::Program& program = compilation.details->program;
-    if (!program.externals.empty())
+    if (!compilation.details->program.externals.empty())
         throw Failure("scenes of problems with external functions cannot be drawn");
-    for (const auto& type : compilation.model->types) {
-        std::vector<std::string> objects(type.objects.begin(), type.objects.end());
-        objects_.emplace_back(type.name, std::move(objects));
-    }
-    require_types(Source(scene_file.string(), text));
-    std::vector<std::size_t> fluents(scene_.expressions.size());
-    for (std::size_t f = 0; f < program.fluents.size(); ++f)
-        for (std::size_t e = 0; e < fluents.size(); ++e)
-            if (program.fluents[f].name == name_of_expression(e)) fluents[e] = f;
+    for (const auto& type : compilation.model->types)
+        objects_.emplace_back(type.name, type.objects);
     details_ = std::make_unique<InterpretedDetails>(*std::move(compilation.details),
                                                     ir::ExternalFunctions{});
-    for (const std::size_t fluent : fluents)
-        offsets_.push_back(static_cast<std::size_t>(details_->offset_of(fluent)));
+    find_results(*compilation.model);
     scratch_.resize(details_->get()->scratch_size);
     record_.resize(details_->get()->record_size);
 }
 
-// The checker has seen the types of expressions; a shape may have none.
-void SceneProgram::require_types(const Source& source) const {
-    std::vector<std::string> names;
-    for (const auto& [name, objects] : objects_) names.push_back(name);
-    for (const SceneShape& shape : scene_.shapes)
-        for (const SceneVariable& variable : shape.variables) {
-            if (std::ranges::find(names, variable.type) != names.end()) continue;
-            const Position position = source.position(variable.span.begin);
-            const auto near = did_you_mean(variable.type, names);
-            throw Failure(fmt::format("{}:{}:{}: there is no type of objects '{}'", source.path(),
-                                      position.line, position.column, variable.type),
-                          near ? fmt::format("did you mean '{}'?", *near) : "");
-        }
+void SceneProgram::find_results(const model::Model& model) {
+    std::unordered_map<std::string, model::FluentId> fluents;
+    for (model::FluentId id = 0; id < model.fluents.size(); ++id)
+        fluents.emplace(model.fluents[id].name, id);
+    std::unordered_map<model::FluentId, const model::Expr*> bodies;
+    for (const model::Cpf& cpf : model.cpfs) bodies.emplace(cpf.fluent, &cpf.body);
+    for (std::size_t e = 0; e < scene_.expressions.size(); ++e) {
+        const model::FluentId id = fluents.at(name_of_expression(e));
+        const auto* const cast = std::get_if<model::Convert>(&bodies.at(id)->node);
+        const model::ValueType range = model.fluents[id].range;
+        results_.push_back({static_cast<std::size_t>(details_->offset_of(id)), range,
+                            (cast ? cast->operand->type : range) == model::bool_type});
+    }
 }
 
 const std::vector<std::string>& SceneProgram::objects_of(const std::string& type) const {
@@ -266,17 +307,26 @@ void SceneProgram::evaluate(const std::byte* state, const std::byte* action) {
 }
 
 double SceneProgram::value(ExpressionIndex expression, std::size_t grounding) const {
-    const std::byte* const begin = record_.data() + offsets_[expression];
-    if (scene_.expressions[expression].is_bool)
+    const Result& result = results_[expression];
+    const std::byte* const begin = record_.data() + result.offset;
+    if (result.range == model::bool_type)
         return static_cast<double>(begin[grounding] != std::byte{0});
-    double number;
-    std::memcpy(&number, begin + grounding * sizeof number, sizeof number);
-    return number;
+    if (result.range == model::real_type) return read<double>(begin, grounding);
+    return static_cast<double>(read<std::int64_t>(begin, grounding));
 }
 
 double SceneProgram::value(const SceneNumber& number, std::size_t grounding) const {
     if (const auto* const constant = std::get_if<double>(&number)) return *constant;
     return value(std::get<ExpressionIndex>(number), grounding);
+}
+
+std::string SceneProgram::shown(ExpressionIndex expression, std::size_t grounding) const {
+    const Result& result = results_[expression];
+    const double number = value(expression, grounding);
+    if (result.is_truth) return number != 0 ? "true" : "false";
+    if (result.range.kind == model::ValueType::Kind::Object)
+        return objects_[result.range.type].second[static_cast<std::size_t>(number)];
+    return rddl::render::number_text(number);
 }
 
 }  // namespace rddlc::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engines/interpreted_details.hpp"
+#include "model/model.hpp"
 #include "problems/problem_lookup.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -10,6 +11,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace rddlc::cli {
@@ -28,14 +31,22 @@ class SceneProgram {
     // `grounding` counts the tuples of the objects of the shape's variables, the last one fastest.
     double value(ExpressionIndex expression, std::size_t grounding) const;
     double value(const SceneNumber& number, std::size_t grounding) const;
+    // As a text shows it: "true", "3.5", the name of an object.
+    std::string shown(ExpressionIndex expression, std::size_t grounding) const;
 
   private:
-    void require_types(const Source& source) const;
+    // Where an expression's values lie in the record, and what they are.
+    struct Result {
+        std::size_t offset;
+        model::ValueType range;
+        bool is_truth;  // a bool, be it kept as a number
+    };
+    void find_results(const model::Model& model);
 
     Scene scene_;
     std::vector<std::pair<std::string, std::vector<std::string>>> objects_;  // by type
     std::unique_ptr<InterpretedDetails> details_;
-    std::vector<std::size_t> offsets_;  // of expressions, in the record
+    std::vector<Result> results_;  // of expressions
     std::vector<std::byte> scratch_, record_;
 };
 

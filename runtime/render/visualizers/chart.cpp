@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rddl::render::chart {
@@ -41,7 +44,8 @@ Axis axis_of(const Moment& moment) {
 struct Look {
     double names;  // room at the left
     bool has_axis, has_axis_title;
-    bool shares_key;  // of bools
+    bool is_small;    // its title has little room
+    bool shares_key;  // which stands below all panels
 };
 
 struct Panel {
@@ -61,6 +65,8 @@ struct Panel {
         return objects_of(moment, fluent, grounding);
     }
     const rddl_type* objects_of_range() const { return past.front().range(); }
+    // Where a label at the left stands for a height of the plot: not in the title.
+    Point label_place(double y) const { return {plot.x - 4, std::max(y, plot.y + 4)}; }
 };
 
 void draw_time_axis(Canvas& canvas, const Panel& panel, bool with_title) {
@@ -93,7 +99,7 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
             // The ends at least.
             if (room >= 9 || i == 0 || i + 1 == type.object_count)
-                canvas.text({plot.x - 4, y},
+                canvas.text(panel.label_place(y),
                             shortened_name(canvas, type.objects[i], names_size, 64),
                             {.size = 9, .color = colors::muted, .align = Align::Right});
         }
@@ -105,7 +111,7 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
             canvas.line({plot.x, y}, {plot.right(), y}, colors::faint);
             if (last - y < 9) continue;  // it would lie on the number below
             last = y;
-            canvas.text({plot.x - 4, y}, number_text(tick),
+            canvas.text(panel.label_place(y), number_text(tick),
                         {.size = 9, .color = colors::muted, .align = Align::Right});
         }
     }
@@ -137,14 +143,18 @@ void draw_lines(Canvas& canvas, const Panel& panel) {
 void draw_rows(Canvas& canvas, const Panel& panel) {
     const Box& plot = panel.plot;
     const auto rows = static_cast<int>(panel.fluent.count);
-    const auto columns = static_cast<int>(panel.axis.count());
+    // One a step, unless steps are left out of the trace by the thousand.
+    constexpr std::int64_t most_columns = 4 * most_steps_remembered;
+    const auto columns = static_cast<int>(std::min(panel.axis.count(), most_columns));
     std::vector<std::uint32_t> cells(
         static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns),
         pixel_of(colors::paper));
     for (std::size_t i = 0; i < panel.past.size(); ++i) {
         const Values& values = panel.past[i];
+        const double part = static_cast<double>(panel.moment.steps()[i].number - panel.axis.first) /
+                            static_cast<double>(panel.axis.count());
         const auto column =
-            static_cast<std::size_t>(panel.moment.steps()[i].number - panel.axis.first);
+            static_cast<std::size_t>(std::min(std::floor(part * columns + 1e-6), columns - 1.0));
         for (std::size_t g = 0; g < values.numbers.size(); ++g)
             cells[g * static_cast<std::size_t>(columns) + column] =
                 pixel_of(value_color(values, values.numbers[g], panel.range));
@@ -157,18 +167,33 @@ void draw_rows(Canvas& canvas, const Panel& panel) {
                         colors::paper);
     }
     // Names of all rows, or of as many as can be read.
-    const int every = static_cast<int>(std::ceil(9.5 / row));
-    for (int g = 0; g < rows && panel.fluent.rank > 0; g += every)
-        canvas.text({plot.x - 4, plot.y + (g + 0.5) * row},
-                    shortened_name(canvas, panel.objects(g), names_size, 64),
+    double last = -INFINITY;
+    for (int g = 0; g < rows && panel.fluent.rank > 0; ++g) {
+        const Point place = panel.label_place(plot.y + (g + 0.5) * row);
+        if (place.y - last < 9.5) continue;
+        last = place.y;
+        canvas.text(place, shortened_name(canvas, panel.objects(g), names_size, 64),
                     {.size = 9, .color = colors::muted, .align = Align::Right});
+    }
     canvas.outline(plot, colors::rule, 0.8);
+}
+
+std::vector<std::string> names_of_lines(const Moment& moment, const rddl_fluent& fluent) {
+    std::vector<std::string> names;
+    for (std::int64_t g = 0; g < fluent.count; ++g) names.push_back(objects_of(moment, fluent, g));
+    return names;
+}
+
+void draw_key_of_lines(Canvas& canvas, const Box& box, const std::vector<std::string>& names) {
+    std::vector<Entry> entries;
+    for (const std::string& name : names) entries.push_back({name, series_color(entries.size())});
+    legend_at_right(canvas, box, std::move(entries));
 }
 
 // What the colours mean, at the right of the title.
 void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     const Values& values = panel.past.back();
-    if (panel.look.shares_key && panel.fluent.scalar == RDDL_BOOL) return;
+    if (panel.look.shares_key) return;
     if (!has_lines(panel.fluent)) {
         draw_key(canvas, box, values, panel.range);
         return;
@@ -178,10 +203,18 @@ void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
                     {.size = 11, .color = series_color(0), .align = Align::Right});
         return;
     }
-    std::vector<Entry> entries;
-    for (std::int64_t g = 0; g < panel.fluent.count; ++g)
-        entries.push_back({panel.objects(g), series_color(static_cast<std::size_t>(g))});
-    legend_at_right(canvas, box, entries);
+    draw_key_of_lines(canvas, box, names_of_lines(panel.moment, panel.fluent));
+}
+
+// What is left of a row for the title, whose right end has the key, or a number.
+double room_for_title(const Canvas& canvas, double row, const Panel& panel) {
+    const rddl_fluent& fluent = panel.fluent;
+    if (panel.look.shares_key) return row;
+    if (fluent.rank == 0 && has_lines(fluent))
+        return row - canvas.text_width(value_text(panel.past.back(), 0), 11) - 16;
+    // A long one has the row; there would be no room for the key.
+    const bool is_long = canvas.text_width(fluent.name, 12) > row / 2;
+    return panel.look.is_small && is_long ? row : row * 0.7;
 }
 
 // The room for what stands at the left of a panel: numbers, or names of objects.
@@ -206,18 +239,15 @@ void draw_panel(Canvas& canvas, const Box& box, const Moment& moment, const rddl
                 const Axis& axis, const Look& look) {
     Panel panel{moment, fluent, {}, range_of(moment, fluent), axis, look, {}};
     for (const Step& step : moment.steps()) panel.past.push_back(moment.values_in(step, fluent));
-    const double below = look.has_axis_title ? 25 : look.has_axis ? 15 : 4;
+    const double below = look.is_small ? 4 : look.has_axis_title ? 25 : 15;
     panel.plot = box.below(18).above(below).after(look.names).before(14);
-    // Where a key has no room, or is shared, the title has the row.
-    const bool is_alone = look.shares_key && (fluent.scalar == RDDL_BOOL ||
-                                              canvas.text_width(fluent.name, 12) > box.width / 2);
-    const double room = is_alone ? box.width : box.width * 0.7;
+    const double room = room_for_title(canvas, box.width, panel);
     double size = 12;
-    while (look.shares_key && size > names_size && canvas.text_width(fluent.name, size) > room)
+    while (look.is_small && size > names_size && canvas.text_width(fluent.name, size) > room)
         size -= 0.5;
     const std::string title = shortened_name(canvas, fluent.name, size, room);
     canvas.text({box.x, box.y + 8}, title, {.size = size});
-    const double used = canvas.text_width(title, size) + (look.shares_key ? 6 : 12);
+    const double used = canvas.text_width(title, size) + (look.is_small ? 6 : 12);
     draw_panel_key(canvas, box.top(16).after(used).before(4), panel);
     has_lines(fluent) ? draw_lines(canvas, panel) : draw_rows(canvas, panel);
     if (look.has_axis) draw_time_axis(canvas, panel, look.has_axis_title);
@@ -230,32 +260,72 @@ bool is_lowest(const std::vector<Box>& boxes, std::size_t panel) {
     });
 }
 
+// Of many panels: what stands once below them, for all.
+struct SharedKey {
+    bool of_bools = false;
+    std::vector<std::string> lines;  // their names, in panels that have the same ones
+
+    bool has(const Moment& moment, const rddl_fluent& fluent) const {
+        if (fluent.scalar == RDDL_BOOL) return of_bools;
+        return !lines.empty() && has_lines(fluent) && names_of_lines(moment, fluent) == lines;
+    }
+};
+
+// The names that most panels have, if several have them.
+SharedKey shared_key_of(const Moment& moment, const std::vector<const rddl_fluent*>& fluents) {
+    SharedKey key;
+    std::map<std::vector<std::string>, int> panels;
+    int most = 1;
+    for (const rddl_fluent* const fluent : fluents) {
+        if (fluent->scalar == RDDL_BOOL) key.of_bools = true;
+        if (fluent->scalar == RDDL_BOOL || !has_lines(*fluent) || fluent->rank == 0) continue;
+        std::vector<std::string> names = names_of_lines(moment, *fluent);
+        const int count = ++panels[names];
+        if (count <= most) continue;
+        most = count;
+        key.lines = std::move(names);
+    }
+    return key;
+}
+
+void draw_shared_key(Canvas& canvas, const Box& row, const SharedKey& key) {
+    const std::string axis = "from left to right: steps";
+    canvas.text({row.x, row.center().y}, axis, {.size = names_size, .color = colors::muted});
+    Box rest = row.after(canvas.text_width(axis, names_size) + 14);
+    if (key.of_bools) {
+        constexpr double width = 84;
+        legend(canvas, rest, std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}},
+               names_size);
+        rest = rest.after(width);
+    }
+    if (!key.lines.empty()) draw_key_of_lines(canvas, rest, key.lines);
+}
+
 void draw(Canvas& canvas, const Box& whole, const Moment& moment) {
     std::vector<const rddl_fluent*> fluents = state_fluents(moment.problem());
     const std::size_t left_out = fluents.size() > most_panels ? fluents.size() - most_panels : 0;
     fluents.resize(fluents.size() - left_out);
-    const bool shares = fluents.size() >= many_panels;
-    const Box area = shares ? whole.above(16) : whole;
+    const bool are_many = fluents.size() >= many_panels;
+    // Below stand the numbers of the axis, and a row for all panels.
+    const Box area = are_many ? whole.above(28) : whole;
     const std::vector<Box> boxes = panel_boxes(area, fluents.size(), 3, 10);
     const Axis axis = axis_of(moment);
+    const SharedKey key = are_many ? shared_key_of(moment, fluents) : SharedKey{};
     double names = 0;  // the same in all panels, so that steps stand below steps
     for (const rddl_fluent* const fluent : fluents)
         names = std::max(names, names_width(canvas, moment, *fluent));
     for (std::size_t i = 0; i < fluents.size(); ++i)
-        draw_panel(
-            canvas, boxes[i], moment, *fluents[i], axis,
-            {names, !shares || is_lowest(boxes, i), !shares && boxes[i].height > 70, shares});
-    const Box below = whole.lowest(12);
-    if (shares) {
-        canvas.text({below.x, below.center().y}, "from left to right: steps",
-                    {.size = 9, .color = colors::muted});
-        legend(canvas, below.after(130),
-               std::vector<Entry>{{"true", colors::blue}, {"false", colors::faint}}, 9);
+        draw_panel(canvas, boxes[i], moment, *fluents[i], axis,
+                   {names, !are_many || is_lowest(boxes, i), !are_many && boxes[i].height > 70,
+                    are_many, key.has(moment, *fluents[i])});
+    Box below = whole.lowest(12);
+    if (left_out > 0) {
+        const std::string more = "and " + std::to_string(left_out) + " more fluents";
+        canvas.text({whole.right(), below.center().y}, more,
+                    {.size = names_size, .color = colors::muted, .align = Align::Right});
+        below = below.before(canvas.text_width(more, names_size) + 14);
     }
-    if (left_out > 0)
-        canvas.text({whole.right(), below.center().y},
-                    "and " + std::to_string(left_out) + " more fluents",
-                    {.size = 9, .color = colors::muted, .align = Align::Right});
+    if (are_many) draw_shared_key(canvas, below, key);
 }
 
 }  // namespace

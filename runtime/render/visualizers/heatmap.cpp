@@ -114,16 +114,19 @@ void draw_cells(Canvas& canvas, const Grid& grid, const Values& values, const Ra
 void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_fluent& fluent) {
     const Values& values = moment.values(fluent);
     const Range range = range_of(moment, fluent);
-    const std::string title = shortened(canvas, fluent.name, 12, box.width * 0.75);
+    // A key stands at its right.
+    const double room = fluent.rank > 0 ? box.width * 0.75 : box.width;
+    const std::string title = shortened(canvas, fluent.name, 12, room);
     canvas.text({box.x, box.y + 8}, title);
     if (fluent.scalar == RDDL_BOOL && fluent.rank == 0) {
         canvas.text({box.x, box.y + 26}, value_text(values, 0), {.color = colors::blue});
         return;
     }
-    if (fluent.rank > 0)
-        draw_key(canvas, box.top(16).after(canvas.text_width(title, 12) + 12), values, range);
     const Box inside = box.below(20).above(16);
     const Shape shape = shape_of(values, inside);
+    if (fluent.rank > 0)
+        draw_key(canvas, box.top(16).after(canvas.text_width(title, 12) + 12), values, range,
+                 shape.wrapped ? box.lowest(14) : Box{});
     const Box cells = inside.after(row_names_width(canvas, moment, values, shape));
     const Box used = shape.rows == 1 ? cells.top(std::min(cells.height, 40.0)) : cells;
     // Squares look like places, unless nobody would see them.

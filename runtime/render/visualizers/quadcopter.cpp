@@ -1,5 +1,5 @@
-// Drones in space, seen from a corner: their four rotors, their shadows on the ground, their ways
-// and their targets.
+// Drones in space, seen from a corner: their four rotors and where these push, their
+// shadows on the ground, their ways and their targets.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 
@@ -60,40 +60,52 @@ void draw_ground(Canvas& canvas, const Camera& camera) {
         const Place above{corner[0], corner[1], top};
         canvas.line(camera(corner), camera(above), colors::rule, 0.8);
     }
-    canvas.text(camera({left, front, top}), number_text(std::round(top * 10) / 10),
-                {.size = 9, .color = colors::muted, .align = Align::Right});
-    canvas.text(camera({left, front, floor}), number_text(std::round(floor * 10) / 10),
-                {.size = 9, .color = colors::muted, .align = Align::Right});
+    const auto number = [&](double value, const Place& at, double dx, double dy, Align align,
+                            const char* axis = "") {
+        const Point place = camera(at);
+        canvas.text({place.x + dx, place.y + dy}, axis + number_text(std::round(value * 10) / 10),
+                    {.size = 9, .color = colors::muted, .align = align});
+    };
+    number(top, {left, front, top}, -4, 0, Align::Right, "z ");
+    number(floor, {left, front, floor}, -4, -4, Align::Right);
+    number(left, {left, front, floor}, 4, 10, Align::Left, "x ");
+    number(right, {right, front, floor}, 4, 8, Align::Left, "x ");
+    number(front, {left, front, floor}, -4, 10, Align::Right, "y ");
+    number(back, {left, back, floor}, -4, 8, Align::Right, "y ");
 }
 
-// The arms' ends of a drone with these angles (roll, pitch, yaw), half a span from its middle.
-std::array<Place, 4> rotors(const Place& at, double phi, double theta, double psi, double span) {
-    std::array<Place, 4> ends;
-    for (int k = 0; k < 4; ++k) {
-        const double angle = M_PI / 2 * k;
-        const double bx = span * std::cos(angle), by = span * std::sin(angle);
-        // Rotation by roll, then pitch, then yaw, of (bx, by, 0).
-        const double x = bx * std::cos(theta) + by * std::sin(phi) * std::sin(theta);
-        const double y = by * std::cos(phi);
-        const double z = -bx * std::sin(theta) + by * std::sin(phi) * std::cos(theta);
-        ends[static_cast<std::size_t>(k)] = {at[0] + x * std::cos(psi) - y * std::sin(psi),
-                                             at[1] + x * std::sin(psi) + y * std::cos(psi),
-                                             at[2] + z};
-    }
-    return ends;
+// How a drone stands: where its two arms point, and where its rotors push it.
+struct Axes {
+    Place x, y, z;
+};
+
+// Of the angles of the domain's dynamics: it is turned by phi, leans by theta, and is turned by psi
+// (Euler angles z-x-z).
+Axes axes_of(double phi, double theta, double psi) {
+    const double cph = std::cos(phi), sph = std::sin(phi), cth = std::cos(theta),
+                 sth = std::sin(theta), cps = std::cos(psi), sps = std::sin(psi);
+    return {{cph * cps - cth * sph * sps, cph * sps + cth * sph * cps, sph * sth},
+            {-sph * cps - cth * cph * sps, -sph * sps + cth * cph * cps, cph * sth},
+            {sth * sps, -sth * cps, cth}};
 }
 
 void draw_drone(Canvas& canvas, const Camera& camera, const Moment& moment, int i, Color color) {
     const Place at{moment["x"](i), moment["y"](i), moment["z"](i)};
     // Far larger than it is, or nobody would see how it leans.
     const double span = 19 / camera.factor;
-    const auto ends = rotors(at, moment["phi"](i), moment["theta"](i), moment["psi"](i), span);
-    canvas.line(camera(ends[0]), camera(ends[2]), colors::ink, 2.5);
-    canvas.line(camera(ends[1]), camera(ends[3]), colors::ink, 2.5);
-    for (const Place& end : ends) {
-        canvas.disc(camera(end), 6, color.with_alpha(0.55));
-        canvas.ring(camera(end), 6, color, 1.2);
-    }
+    const Axes axes = axes_of(moment["phi"](i), moment["theta"](i), moment["psi"](i));
+    const auto end = [&](const Place& axis, double distance) {
+        return camera(
+            {at[0] + axis[0] * distance, at[1] + axis[1] * distance, at[2] + axis[2] * distance});
+    };
+    for (const Place& arm : {axes.x, axes.y})
+        canvas.line(end(arm, -span), end(arm, span), colors::ink, 2.5);
+    arrow(canvas, camera(at), end(axes.z, 1.3 * span), color, 2);
+    for (const Place& arm : {axes.x, axes.y})
+        for (const double side : {-span, span}) {
+            canvas.disc(end(arm, side), 6, color.with_alpha(0.55));
+            canvas.ring(end(arm, side), 6, color, 1.2);
+        }
     canvas.disc(camera(at), 4, colors::ink);
 }
 
@@ -121,7 +133,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     }
     low[2] = extents[2].low;
     high[2] = std::max(extents[2].rounded().high, low[2] + widest);
-    const Camera camera = camera_for(area.above(18).inset(24, 6), low, high);
+    const Camera camera = camera_for(area.above(34).below(4).inset(30, 0), low, high);
     draw_ground(canvas, camera);
     const Values& x = moment["x"];
     for (int i = 0; i < x.count(0); ++i) {
@@ -141,7 +153,8 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     }
     for (int i = 0; i < x.count(0); ++i)
         draw_drone(canvas, camera, moment, i, series_color(static_cast<std::size_t>(i)));
-    canvas.text({area.x, area.bottom() - 6}, "crosses: targets; dots: places on the ground below",
+    canvas.text({area.x, area.bottom() - 6},
+                "crosses: targets; dots: places on the ground below; arrows: where the rotors push",
                 {.size = 11, .color = colors::muted});
 }
 
