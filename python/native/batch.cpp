@@ -1,5 +1,6 @@
 #include "native/batch.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,7 +37,8 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
       batch_(nullptr, simulator_->destroy),
       process_(::getpid()),
       action_columns_(simulator_->action_value_count(simulator_.get())),
-      observation_columns_(simulator_->observation_value_count(simulator_.get())) {
+      observation_columns_(simulator_->observation_value_count(simulator_.get())),
+      records_of_values_(*simulator_) {
     solvers::require_room(*simulator_, settings.environments, default_memory_limit);
     batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;
@@ -63,7 +65,8 @@ Batch::Batch(const Batch& other)
       process_(::getpid()),
       action_columns_(other.action_columns_),
       observation_columns_(other.observation_columns_),
-      arrays_(other.arrays_) {}
+      arrays_(other.arrays_),
+      records_of_values_(other.records_of_values_) {}
 
 // A forked process has none of the threads of its parent: a copy has threads of its own. The old
 // batch is not destroyed there, since that waits for its threads.
@@ -173,11 +176,27 @@ std::string Batch::fault(std::int64_t environment) {
     return fault.faulty ? fault.message : "";
 }
 
-std::vector<std::int32_t> Batch::violated_preconditions() {
+std::vector<std::int32_t> Batch::violated_preconditions(std::span<const std::byte> actions) {
+    if (actions.size() != arrays_.actions.size())
+        throw Refused(fmt::format("actions of {} environments have {} bytes, not {}",
+                                  settings_.environments, arrays_.actions.size(), actions.size()));
     std::vector<std::int32_t> violated(static_cast<std::size_t>(settings_.environments));
     check(*simulator_,
-          simulator_->violated_preconditions(live(), arrays_.actions.data(), violated.data()));
+          simulator_->violated_preconditions(live(), actions.data(), violated.data()));
     return violated;
+}
+
+std::vector<std::int32_t> Batch::violated_preconditions(std::span<const float> values) {
+    const auto count = static_cast<std::size_t>(settings_.environments);
+    const auto columns = static_cast<std::size_t>(action_columns_);
+    if (values.size() != count * columns)
+        throw Refused(fmt::format("actions of {} environments have {} values, not {}", count,
+                                  count * columns, values.size()));
+    const std::size_t size = records_of_values_.record_size();
+    std::vector<std::byte> records(count * size);
+    for (std::size_t i = 0; i < count; ++i)
+        records_of_values_.write(values.data() + i * columns, records.data() + i * size);
+    return violated_preconditions(std::span<const std::byte>(records));
 }
 
 std::string Batch::explain_violation(std::int64_t environment) {

@@ -3,6 +3,7 @@
 
 #include "native/problem.hpp"
 #include "solvers/batches/batch.hpp"
+#include "solvers/spaces/actions.hpp"
 
 #include <rddl/simulator.h>
 
@@ -53,8 +54,10 @@ class Batch {
     std::uint8_t causes(std::int64_t environment);
     std::string fault(std::int64_t environment);
 
-    // Of the actions in action_records: for each environment the first precondition, or -1.
-    std::vector<std::int32_t> violated_preconditions();
+    // For each environment the first precondition that its action violates, or -1: of records, or of
+    // rows of values, which are floats.
+    std::vector<std::int32_t> violated_preconditions(std::span<const std::byte> actions);
+    std::vector<std::int32_t> violated_preconditions(std::span<const float> values);
     std::string explain_violation(std::int64_t environment);
     void action_masks(std::uint8_t* masks);
     // The action that the policy block chooses, into action_records.
@@ -83,6 +86,7 @@ class Batch {
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
     Arrays arrays_;
+    solvers::ActionRecords records_of_values_;
 };
 
 void add_batch(nanobind::module_& module);

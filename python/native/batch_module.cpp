@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <optional>
+#include <span>
 
 namespace nb = nanobind;
 
@@ -18,6 +19,8 @@ namespace {
 using Array = nb::ndarray<nb::numpy>;
 using Bytes = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using ConstBytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Records = nb::ndarray<const std::uint8_t, nb::c_contig, nb::device::cpu>;
+using Values = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 
 // The memory belongs to the batch, which lives as long as the array.
 Array rows(nb::handle owner, void* data, std::int64_t count, std::int64_t columns,
@@ -165,7 +168,13 @@ void add_batch(nb::module_& module) {
               [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
                   self.set_seeds(begin, seeds);
               });
-    batch.def("violated_preconditions", &Batch::violated_preconditions);
+    batch.def("violated_preconditions", [](Batch& self, const Records& records) {
+        return self.violated_preconditions(
+            std::as_bytes(std::span(records.data(), records.size())));
+    });
+    batch.def("violated_preconditions", [](Batch& self, const Values& values) {
+        return self.violated_preconditions(std::span(values.data(), values.size()));
+    });
     batch.def("explain_violation", &Batch::explain_violation);
     batch.def("choice_count", [](const Batch& self) {
         return self.simulator().action_choice_count(&self.simulator());

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _native, causes
 from .errors import EpisodeOver
 from .learning import ChoiceActions, FlatReader
+from .legal import legal_space
 from .lifted import LiftedActions, LiftedRows
 from .masks import ActionMasks
 from .model import Model
@@ -66,6 +67,8 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.single_action_space = self._writer.space
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
+        if problem.model.preconditions:
+            self.action_space = legal_space(self.action_space, self._writer, num_envs)
         batch = self._batch
         self._rewards, self._causes = batch.rewards, batch.causes
         self._terminated, self._truncated = batch.terminated, batch.truncated
