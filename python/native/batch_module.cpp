@@ -151,7 +151,10 @@ void add_batch(nb::module_& module) {
         nb::arg("simulator"), nb::arg("environments") = 1, nb::arg("threads") = 1,
         nb::arg("autoreset") = 0, nb::arg("horizon") = 0, nb::arg("doubles") = false,
         nb::arg("records") = true, nb::arg("values") = true);
-    batch.def("copy", [](const Batch& self) { return Batch(self); });
+    batch.def("copy", [](Batch& self) {
+        self.finish();
+        return new Batch(self);
+    });
     batch.def(
         "reset",
         [](Batch& self, std::optional<nb::ndarray<const bool, nb::ndim<1>, nb::c_contig>> mask) {
@@ -161,8 +164,15 @@ void add_batch(nb::module_& module) {
             self.reset(mask ? reinterpret_cast<const std::uint8_t*>(mask->data()) : nullptr);
         },
         nb::arg("mask") = nb::none());
-    batch.def("step", &Batch::step);
-    batch.def("step_values", &Batch::step_values);
+    batch.def(
+        "step",
+        [](Batch& self, const nb::object& into) { return self.step(self.outputs_in(into)); },
+        nb::arg("into") = nb::none());
+    batch.def(
+        "step_values",
+        [](Batch& self, const nb::object& into) { return self.step_values(self.outputs_in(into)); },
+        nb::arg("into") = nb::none());
+    batch.def("finish", &Batch::finish, "Waits for a step that Ctrl-C has left.");
     batch.def("set_seed", &Batch::set_seed);
     batch.def("set_seeds",
               [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {

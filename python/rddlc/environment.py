@@ -200,6 +200,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """
         if self._ended or self._seed is None:
             raise self._no_step()
+        self._batch.finish()
         self._writer.write(action)
         if self._enforces:
             self._check_preconditions()

@@ -145,6 +145,17 @@ class ChoiceActions:
             action = action["action"]  # as pyRDDLGym's agents of learners send it
         self.write_rows(_first_row(action))
 
+    def step_rows(self, actions: Any, into: Any) -> bool:
+        """A step by a row for each environment; `into`: see `_native.Batch.step`. Whether an episode
+        has ended. Raises ActionError, and has changed nothing then."""
+        if self._quick_rows is not None:
+            ended = self._quick_rows.step(actions, into)
+            if ended is not None:
+                return ended
+        self._batch.finish()
+        self.write_rows(actions)
+        return self.step(into)
+
     def write_rows(self, actions: Any) -> None:
         """A row for each environment. Raises ActionError, and has changed nothing then."""
         if self._quick_rows is not None and self._quick_rows.write(actions):

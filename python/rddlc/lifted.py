@@ -47,6 +47,12 @@ class LiftedActions:
         self.space = action_space(model, self._defaults, lifted=True)
         self.step = batch.step
 
+    def step_rows(self, actions: Mapping[str, Any], into: Any) -> bool:
+        """See `ChoiceActions.step_rows`."""
+        self._batch.finish()
+        self.write_rows(actions)
+        return self.step(into)
+
     def write_rows(self, actions: Mapping[str, Any]) -> None:
         """Raises ActionError, and has changed nothing then."""
         self._write(self._checked_arrays(actions), self._views)
