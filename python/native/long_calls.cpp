@@ -62,7 +62,10 @@ void LongCalls::enter() {
 
 LongCalls::Leaving::~Leaving() {
     calls.is_busy_ = false;
-    calls.is_long_ = std::chrono::steady_clock::now() - begin > is_much;
+    if (std::chrono::steady_clock::now() - begin > is_much)
+        calls.aside_ = few;
+    else if (calls.aside_ > 0)
+        --calls.aside_;
 }
 
 void LongCalls::run_aside(std::function<void()> job, nb::handle kept,

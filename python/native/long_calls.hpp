@@ -11,11 +11,12 @@ namespace rddlc::python {
 
 // The calls of one object, one after the other. Signals reach Python in its main thread alone, so
 // work that may take long is done by another thread there, while the main thread looks for signals.
-// What took long once is taken to do so the next time; all else is done at once.
+// That is so for the first few calls, and for the next few after one that has taken long; all
+// others are done at once.
 class LongCalls {
   public:
-    explicit LongCalls(bool may_be_long) : is_long_(may_be_long) {}
-    LongCalls(const LongCalls& other) : is_long_(other.is_long_) {}
+    explicit LongCalls(bool may_be_long) : aside_(may_be_long ? few : 0) {}
+    LongCalls(const LongCalls& other) : aside_(other.aside_) {}
     LongCalls& operator=(const LongCalls&) = delete;
     ~LongCalls();
 
@@ -26,7 +27,7 @@ class LongCalls {
     void run(const Job& job, nanobind::handle kept = {}, const std::function<void()>& stop = {}) {
         enter();
         const Leaving leaving{*this};
-        if (is_long_ && is_main_thread()) return run_aside(job, kept, stop);
+        if (aside_ > 0 && is_main_thread()) return run_aside(job, kept, stop);
         const nanobind::gil_scoped_release released;
         job();
     }
@@ -47,7 +48,10 @@ class LongCalls {
     void leave(std::future<void> job, nanobind::handle kept);
     static bool is_main_thread();
 
-    bool is_long_, is_busy_ = false;
+    static constexpr int few = 3;
+
+    int aside_;  // so many of the next calls
+    bool is_busy_ = false;
     std::future<void> left_;
     int left_in_ = 0;  // a process
     nanobind::object kept_;
