@@ -25,7 +25,14 @@ namespace {
 
 [[noreturn]] void refuse_to_list(std::string_view distribution) {
     throw Failure(fmt::format("the outcomes of {} are not listed one by one", distribution),
-                  "only those of Bernoulli, Discrete and their like are");
+                  "only those of Bernoulli, Discrete, Binomial, Multinomial and their like are");
+}
+
+void choose_counts(const TableArguments& multinomial, rddl::Place place, Outcomes& outcomes) {
+    const auto size = static_cast<std::size_t>(multinomial.size);
+    outcomes.choose_multinomial(place, multinomial.int_scalar,
+                                {reinterpret_cast<const double*>(multinomial.inputs[0]), size},
+                                {reinterpret_cast<std::int64_t*>(multinomial.output), size});
 }
 
 // Constant tables for which these bytes leave no room are looked up where they are.
@@ -237,8 +244,13 @@ void Evaluator::call(Callee callee, const Call& form, Frame& frame) const {
             arguments.int_scalar = value<std::int64_t>(scalar, frame);
         }
     }
-    if (frame.outcomes_ && is_draw(form.callee)) refuse_to_list("a whole vector");
-    call_on_tables(callee, arguments, place(form.place, frame), frame.context_);
+    const rddl::Place here = place(form.place, frame);
+    call_on_tables(callee, arguments, here, frame.context_);
+    if constexpr (std::is_same_v<Callee, VectorDistribution>) {
+        if (!frame.outcomes_ || frame.context_.fault) return;
+        if (callee != VectorDistribution::Multinomial) refuse_to_list(name_of(*program_, callee));
+        choose_counts(arguments, here, *frame.outcomes_);
+    }
 }
 
 void Evaluator::call(ExternalId callee, const Call& form, Frame& frame) const {
@@ -450,23 +462,30 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
 
 // ---------------------------------------------------------------------------------- draws
 
+// With outcomes, a draw is made all the same, to record what is wrong with its parameters.
 template <class T>
 T Evaluator::draw(const Sample& form, Frame& frame) const {
-    if (frame.outcomes_) return choose<T>(form, frame);
     const rddl::Place here = place(form.place, frame);
+    Outcomes* const outcomes = frame.outcomes_;
     if constexpr (std::is_same_v<T, bool>) {
         const double p = value<double>(form.parameters.front(), frame);
-        return rddl::sample::bernoulli(frame.context_, here, p);
+        const bool drawn = rddl::sample::bernoulli(frame.context_, here, p);
+        if (!outcomes || frame.context_.fault) return drawn;
+        return outcomes->choose(here, {1 - p, p}) == 1;
     } else {
         if constexpr (std::is_same_v<T, std::int64_t>) {
             if (form.distribution == Distribution::Binomial) {
                 const std::int64_t n = value<std::int64_t>(form.parameters.front(), frame);
                 const double p = value<double>(form.parameters.back(), frame);
-                return rddl::sample::binomial(frame.context_, here, n, p);
+                const std::int64_t drawn = rddl::sample::binomial(frame.context_, here, n, p);
+                if (!outcomes || frame.context_.fault) return drawn;
+                return outcomes->choose(here, binomial_probabilities(n, p));
             }
         }
         const double a = value<double>(form.parameters.front(), frame);
         const double b = form.parameters.size() == 2 ? value<double>(form.parameters[1], frame) : a;
+        if (outcomes && !is_certain(form.distribution, a, b))
+            refuse_to_list(name_of(form.distribution));
         if constexpr (std::is_same_v<T, double>) {
             return draw_real(form.distribution, a, b, here, frame.context_);
         } else {
@@ -502,18 +521,6 @@ std::int64_t Evaluator::draw(const DiscreteOver& form, Frame& frame) const {
     return form.normalise
                ? rddl::sample::unnormalised_discrete_over(frame.context_, here, size, weight)
                : rddl::sample::discrete_over(frame.context_, here, size, weight);
-}
-
-template <class T>
-T Evaluator::choose(const Sample& form, Frame& frame) const {
-    const rddl::Place here = place(form.place, frame);
-    if constexpr (std::is_same_v<T, bool>) {
-        const double p = value<double>(form.parameters.front(), frame);
-        // Records what is wrong with the probability.
-        static_cast<void>(rddl::sample::bernoulli(frame.context_, here, p));
-        return !frame.context_.fault && frame.outcomes_->choose(here, {1 - p, p}) == 1;
-    }
-    refuse_to_list(name_of(form.distribution));
 }
 
 template <class Weight>

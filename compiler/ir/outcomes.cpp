@@ -1,11 +1,21 @@
 #include "ir/outcomes.hpp"
 
+#include "support/failure.hpp"
+
+#include <rddl/distributions/saddle_point.hpp>
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace rddlc::ir {
 
 namespace {
+
+constexpr std::int64_t most_trials = 1'000'000;
 
 // The first one with a positive probability from `begin` on; the size if there is none.
 std::size_t next_possible(const std::vector<double>& probabilities, std::size_t begin) {
@@ -16,15 +26,69 @@ std::size_t next_possible(const std::vector<double>& probabilities, std::size_t 
 
 }  // namespace
 
-std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabilities) {
+std::vector<double> binomial_probabilities(std::int64_t trials, double p) {
+    if (trials > most_trials)
+        throw Failure(fmt::format("the outcomes of {} trials are not listed one by one", trials),
+                      fmt::format("those of {} are", most_trials));
+    std::vector<double> probabilities(static_cast<std::size_t>(trials) + 1);
+    if (p <= 0 || p >= 1 || trials == 0) {
+        (p >= 1 ? probabilities.back() : probabilities.front()) = 1;
+        return probabilities;
+    }
+    const auto n = static_cast<double>(trials);
+    for (std::size_t k = 0; k < probabilities.size(); ++k)
+        probabilities[k] = std::exp(rddl::ln_binomial_probability(static_cast<double>(k), n, p));
+    return probabilities;
+}
+
+bool is_certain(Distribution distribution, double a, double b) {
+    switch (distribution) {
+        case Distribution::Uniform:
+            return a == b;
+        case Distribution::Normal:
+            return b == 0;
+        case Distribution::Poisson:
+            return a == 0;
+        case Distribution::Geometric:
+            return a == 1;
+        case Distribution::NegativeBinomial:
+            return b == 1;
+        default:
+            return false;
+    }
+}
+
+std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabilities,
+                              std::size_t part) {
+    const auto is_same = [&](const Draw& draw) {
+        return draw.place.series == place.series && draw.place.index == place.index &&
+               draw.part == part;
+    };
     for (std::size_t i = 0; i < made_; ++i)
-        if (draws_[i].place.series == place.series && draws_[i].place.index == place.index)
+        if (is_same(draws_[i]))
             return static_cast<std::int64_t>(draws_[i].chosen);
     if (made_ == draws_.size()) {
         const std::size_t first = next_possible(probabilities, 0);
-        draws_.push_back({place, std::move(probabilities), first});
+        draws_.push_back({place, part, std::move(probabilities), first});
     }
     return static_cast<std::int64_t>(draws_[made_++].chosen);
+}
+
+// Each count is binomial given those before it; the last possible category gets what is left.
+void Outcomes::choose_multinomial(rddl::Place place, std::int64_t trials,
+                                  std::span<const double> probabilities,
+                                  std::span<std::int64_t> counts) {
+    double left = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+    std::fill(counts.begin(), counts.end(), 0);
+    std::size_t last = probabilities.size();
+    while (last > 1 && probabilities[last - 1] == 0) --last;
+    for (std::size_t i = 0; i + 1 < last; ++i) {
+        const double p = probabilities[i] < left ? probabilities[i] / left : 1.0;
+        counts[i] = choose(place, binomial_probabilities(trials, p), i);
+        trials -= counts[i];
+        left -= probabilities[i];
+    }
+    counts[last - 1] = trials;
 }
 
 double Outcomes::probability() const {

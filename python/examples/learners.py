@@ -34,14 +34,45 @@ def rddlc_cgp(problem: rddlc.Problem) -> Policy:
 def stable_baselines3_ppo(problem: rddlc.Problem) -> Policy:
     from stable_baselines3 import PPO
 
-    from rddlc.sb3 import VecEnv
+    from rddlc import sb3
 
-    envs = VecEnv(
-        rddlc.make_vec(problem, num_envs=16, actions="box", normalize=True, autoreset_mode="SameStep")
-    )
+    envs = sb3.make_vec(problem, num_envs=16, actions="box", normalize=True)
     model = PPO("MlpPolicy", envs, n_steps=256, batch_size=256, seed=SEED, device="cpu")
     model.learn(100_000)
     return from_flat(problem, lambda seen: model.predict(seen, deterministic=True)[0], normalize=True)
+
+
+def rllib_ppo(problem: rddlc.Problem) -> Policy:
+    import ray
+    import torch
+    from ray.rllib.algorithms.ppo import PPOConfig
+
+    from rddlc import rllib
+
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, ignore_reinit_error=True)
+    try:
+        algorithm = (
+            PPOConfig()
+            .environment(rllib.NAME, env_config=rllib.env_config(*problem.files))
+            .env_runners(num_env_runners=0, num_envs_per_env_runner=16)
+            .training(train_batch_size_per_learner=4000, minibatch_size=250, num_epochs=10)
+            .debugging(seed=SEED, log_level="ERROR")
+            .build_algo()
+        )
+        for _ in range(25):
+            algorithm.train()
+        module = algorithm.get_module()
+        algorithm.stop()
+    finally:
+        ray.shutdown()
+    kind = module.get_inference_action_dist_cls()
+
+    def act(seen: Any) -> Any:
+        with torch.no_grad():
+            outputs = module.forward_inference({"obs": torch.from_numpy(seen[np.newaxis])})
+        return kind.from_logits(outputs["action_dist_inputs"]).to_deterministic().sample()[0].numpy()
+
+    return from_flat(problem, act, normalize=True)
 
 
 def scikit_decide_cgp(problem: rddlc.Problem) -> Policy:
@@ -78,6 +109,7 @@ LEARNERS: dict[str, Callable[[rddlc.Problem], Policy]] = {
     "random": at_random,
     "rddlc PPO": rddlc_ppo,
     "rddlc CGP": rddlc_cgp,
+    "RLlib PPO": rllib_ppo,
     "Stable-Baselines3 PPO": stable_baselines3_ppo,
     "scikit-decide CGP": scikit_decide_cgp,
 }

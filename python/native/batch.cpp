@@ -1,8 +1,9 @@
 #include "native/batch.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cstring>
 #include <new>
 
 namespace nb = nanobind;
@@ -36,12 +37,14 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
       batch_(nullptr, simulator_->destroy),
       process_(::getpid()),
       action_columns_(simulator_->action_value_count(simulator_.get())),
-      observation_columns_(simulator_->observation_value_count(simulator_.get())) {
+      observation_columns_(simulator_->observation_value_count(simulator_.get())),
+      records_of_values_(*simulator_),
+      calls_(settings.environments > 1) {
     solvers::require_room(*simulator_, settings.environments, default_memory_limit);
     batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;
     const auto count = static_cast<std::size_t>(settings.environments);
-    const std::size_t size = settings.doubles ? sizeof(double) : sizeof(float);
+    const std::size_t size = number_size();
     const auto records = [&](std::int64_t bytes) {
         return std::vector<std::byte>(count * static_cast<std::size_t>(bytes));
     };
@@ -63,11 +66,14 @@ Batch::Batch(const Batch& other)
       process_(::getpid()),
       action_columns_(other.action_columns_),
       observation_columns_(other.observation_columns_),
-      arrays_(other.arrays_) {}
+      arrays_(other.arrays_),
+      records_of_values_(other.records_of_values_),
+      calls_(other.calls_) {}
 
 // A forked process has none of the threads of its parent: a copy has threads of its own. The old
 // batch is not destroyed there, since that waits for its threads.
 rddl_batch* Batch::live() {
+    finish();
     if (settings_.threads == 1 || process_ == ::getpid()) return batch_.get();
     solvers::Batch copy = copy_of(*simulator_, batch_.get());
     static_cast<void>(batch_.release());
@@ -76,7 +82,10 @@ rddl_batch* Batch::live() {
     return batch_.get();
 }
 
-rddl_transition Batch::transition() {
+rddl_transition Batch::transition(const Outputs& outputs) {
+    const auto given = [](auto* own, auto* other) {
+        return other ? other : own;
+    };
     rddl_transition out{};
     out.struct_size = sizeof out;
     if (settings_.shows_records) out.observations = arrays_.observations.data();
@@ -84,18 +93,21 @@ rddl_transition Batch::transition() {
         out.final_observations = arrays_.final_observations.data();
         out.final_states = arrays_.final_states.data();
     }
-    out.rewards = arrays_.rewards.data();
-    out.terminated = arrays_.terminated.data();
-    out.truncated = arrays_.truncated.data();
+    out.rewards = given(arrays_.rewards.data(), outputs.rewards);
+    out.terminated = given(arrays_.terminated.data(), outputs.terminated);
+    out.truncated = given(arrays_.truncated.data(), outputs.truncated);
     out.causes = arrays_.causes.data();
     return out;
 }
 
 void Batch::reset(const std::uint8_t* mask) {
     rddl_batch* const batch = live();
-    const nb::gil_scoped_release released;
-    check(*simulator_, simulator_->reset(batch, mask, arrays_.observations.data()));
-    read_values();
+    const std::vector<std::uint8_t> where(mask, mask ? mask + settings_.environments : mask);
+    calls_.run([=, this] {
+        check(*simulator_, simulator_->reset(batch, where.empty() ? nullptr : where.data(),
+                                             arrays_.observations.data()));
+        read_values();
+    });
 }
 
 void Batch::read_values() {
@@ -104,29 +116,79 @@ void Batch::read_values() {
                                                               arrays_.observation_values.data()));
 }
 
+// Eight at a time: few steps end anything.
 bool Batch::has_ended() const {
-    return std::ranges::any_of(arrays_.causes, [](std::uint8_t causes) { return causes != 0; });
+    const std::uint8_t* const causes = arrays_.causes.data();
+    const std::size_t count = arrays_.causes.size();
+    std::uint64_t all = 0;
+    std::size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        std::uint64_t some;
+        std::memcpy(&some, causes + i, sizeof some);
+        all |= some;
+    }
+    for (; i < count; ++i) all |= causes[i];
+    return all != 0;
 }
 
-bool Batch::step() {
+bool Batch::step(const Outputs& outputs) {
     rddl_batch* const batch = live();
-    const rddl_transition out = transition();
-    const nb::gil_scoped_release released;
-    check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
-    read_values();
+    const rddl_transition out = transition(outputs);
+    calls_.run(
+        [=, this] {
+            check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
+            read_values();
+        },
+        outputs.kept);
     return has_ended();
 }
 
-bool Batch::step_values() {
+bool Batch::step_values(const Outputs& outputs, const void* actions, nb::handle kept) {
     rddl_batch* const batch = live();
-    rddl_transition out = transition();
+    rddl_transition out = transition(outputs);
     if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP)
         out.final_observation_values = arrays_.final_values.data();
-    const nb::gil_scoped_release released;
-    void* const values = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
-    check(*simulator_,
-          simulator_->step_values(batch, number(), arrays_.action_values.data(), values, &out));
+    void* const own = settings_.shows_values ? arrays_.observation_values.data() : nullptr;
+    void* const values = outputs.values ? outputs.values : own;
+    calls_.run(
+        [=, this] {
+            check(*simulator_,
+                  simulator_->step_values(batch, number(), actions, values, &out));
+        },
+        kept.is_valid() ? kept : outputs.kept);
     return has_ended();
+}
+
+namespace {
+
+template <class T>
+T* memory_of(nb::handle array, std::size_t count, std::size_t size = sizeof(T)) {
+    Py_buffer view;
+    if (PyObject_GetBuffer(array.ptr(), &view, PyBUF_WRITABLE) != 0) throw nb::python_error();
+    void* const memory = view.buf;
+    const auto bytes = static_cast<std::size_t>(view.len);
+    PyBuffer_Release(&view);
+    if (bytes != count * size)
+        throw Refused(fmt::format("an array has {} bytes, not {}", bytes, count * size));
+    return static_cast<T*>(memory);
+}
+
+}  // namespace
+
+Outputs Batch::outputs_in(nb::handle arrays) const {
+    if (arrays.is_none()) return {};
+    if (!nb::isinstance<nb::tuple>(arrays) || nb::len(arrays) != 4)
+        throw Refused("a step writes into four arrays");
+    const auto count = static_cast<std::size_t>(settings_.environments);
+    Outputs outputs;
+    outputs.kept = arrays;
+    if (!arrays[0].is_none())
+        outputs.values = memory_of<std::byte>(
+            arrays[0], count * static_cast<std::size_t>(observation_columns_), number_size());
+    outputs.rewards = memory_of<double>(arrays[1], count);
+    outputs.terminated = memory_of<std::uint8_t>(arrays[2], count);
+    outputs.truncated = memory_of<std::uint8_t>(arrays[3], count);
+    return outputs;
 }
 
 void Batch::set_seed(std::uint64_t seed) {
@@ -173,11 +235,27 @@ std::string Batch::fault(std::int64_t environment) {
     return fault.faulty ? fault.message : "";
 }
 
-std::vector<std::int32_t> Batch::violated_preconditions() {
+std::vector<std::int32_t> Batch::violated_preconditions(std::span<const std::byte> actions) {
+    if (actions.size() != arrays_.actions.size())
+        throw Refused(fmt::format("actions of {} environments have {} bytes, not {}",
+                                  settings_.environments, arrays_.actions.size(), actions.size()));
     std::vector<std::int32_t> violated(static_cast<std::size_t>(settings_.environments));
     check(*simulator_,
-          simulator_->violated_preconditions(live(), arrays_.actions.data(), violated.data()));
+          simulator_->violated_preconditions(live(), actions.data(), violated.data()));
     return violated;
+}
+
+std::vector<std::int32_t> Batch::violated_preconditions(std::span<const float> values) {
+    const auto count = static_cast<std::size_t>(settings_.environments);
+    const auto columns = static_cast<std::size_t>(action_columns_);
+    if (values.size() != count * columns)
+        throw Refused(fmt::format("actions of {} environments have {} values, not {}", count,
+                                  count * columns, values.size()));
+    const std::size_t size = records_of_values_.record_size();
+    std::vector<std::byte> records(count * size);
+    for (std::size_t i = 0; i < count; ++i)
+        records_of_values_.write(values.data() + i * columns, records.data() + i * size);
+    return violated_preconditions(std::span<const std::byte>(records));
 }
 
 std::string Batch::explain_violation(std::int64_t environment) {

@@ -1,8 +1,10 @@
 // Environments of one simulator, and the arrays that they read and fill.
 #pragma once
 
+#include "native/long_calls.hpp"
 #include "native/problem.hpp"
 #include "solvers/batches/batch.hpp"
+#include "solvers/spaces/actions.hpp"
 
 #include <rddl/simulator.h>
 
@@ -27,8 +29,18 @@ struct BatchSettings {
     bool shows_records = true, shows_values = true;  // what steps and resets fill
 };
 
+// Where a step writes, if not into the batch's own arrays; null: there.
+struct Outputs {
+    void* values = nullptr;  // a matrix
+    double* rewards = nullptr;
+    std::uint8_t* terminated = nullptr;
+    std::uint8_t* truncated = nullptr;
+    nanobind::handle kept;  // whose memory that is
+};
+
 // Its arrays stay where they are, so that Python looks at them without copies. Values are the same
-// numbers as records, a column each. Functions that step release Python's lock.
+// numbers as records, a column each. Functions that step release Python's lock. A step that Ctrl-C
+// does not wait for is made nevertheless; what comes next waits for it.
 class Batch {
   public:
     Batch(cli::Simulator simulator, const BatchSettings& settings);
@@ -40,9 +52,18 @@ class Batch {
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
-    // By the rows of action_records, or those of action_values. Whether an episode has ended.
-    bool step();
-    bool step_values();
+    // By the rows of action_records, or of these values: floats or doubles. Whether an episode has
+    // ended.
+    bool step(const Outputs& outputs);
+    bool step_values(const Outputs& outputs, const void* values, nanobind::handle kept = {});
+    bool step_values(const Outputs& outputs) {
+        return step_values(outputs, arrays_.action_values.data());
+    }
+    // The memory of a tuple of arrays: values or None, rewards, terminated, truncated. None: the
+    // batch's own.
+    Outputs outputs_in(nanobind::handle arrays) const;
+    // Waits for a step that Ctrl-C has left.
+    void finish() { calls_.finish(); }
     void set_seed(std::uint64_t seed);
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
@@ -53,8 +74,10 @@ class Batch {
     std::uint8_t causes(std::int64_t environment);
     std::string fault(std::int64_t environment);
 
-    // Of the actions in action_records: for each environment the first precondition, or -1.
-    std::vector<std::int32_t> violated_preconditions();
+    // For each environment the first precondition that its action violates, or -1: of records, or of
+    // rows of values, which are floats.
+    std::vector<std::int32_t> violated_preconditions(std::span<const std::byte> actions);
+    std::vector<std::int32_t> violated_preconditions(std::span<const float> values);
     std::string explain_violation(std::int64_t environment);
     void action_masks(std::uint8_t* masks);
     // The action that the policy block chooses, into action_records.
@@ -72,7 +95,8 @@ class Batch {
 
   private:
     rddl_number number() const { return settings_.doubles ? RDDL_DOUBLE : RDDL_FLOAT; }
-    rddl_transition transition();
+    rddl_transition transition(const Outputs& outputs);
+    std::size_t number_size() const { return settings_.doubles ? sizeof(double) : sizeof(float); }
     rddl_batch* live();
     void read_values();
     bool has_ended() const;
@@ -83,6 +107,8 @@ class Batch {
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
     Arrays arrays_;
+    solvers::ActionRecords records_of_values_;
+    LongCalls calls_;  // the last one: a step that goes on writes into the others
 };
 
 void add_batch(nanobind::module_& module);

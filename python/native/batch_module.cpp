@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <optional>
+#include <span>
 
 namespace nb = nanobind;
 
@@ -18,6 +19,8 @@ namespace {
 using Array = nb::ndarray<nb::numpy>;
 using Bytes = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using ConstBytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Records = nb::ndarray<const std::uint8_t, nb::c_contig, nb::device::cpu>;
+using Values = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 
 // The memory belongs to the batch, which lives as long as the array.
 Array rows(nb::handle owner, void* data, std::int64_t count, std::int64_t columns,
@@ -148,7 +151,10 @@ void add_batch(nb::module_& module) {
         nb::arg("simulator"), nb::arg("environments") = 1, nb::arg("threads") = 1,
         nb::arg("autoreset") = 0, nb::arg("horizon") = 0, nb::arg("doubles") = false,
         nb::arg("records") = true, nb::arg("values") = true);
-    batch.def("copy", [](const Batch& self) { return Batch(self); });
+    batch.def("copy", [](Batch& self) {
+        self.finish();
+        return new Batch(self);
+    });
     batch.def(
         "reset",
         [](Batch& self, std::optional<nb::ndarray<const bool, nb::ndim<1>, nb::c_contig>> mask) {
@@ -158,14 +164,27 @@ void add_batch(nb::module_& module) {
             self.reset(mask ? reinterpret_cast<const std::uint8_t*>(mask->data()) : nullptr);
         },
         nb::arg("mask") = nb::none());
-    batch.def("step", &Batch::step);
-    batch.def("step_values", &Batch::step_values);
+    batch.def(
+        "step",
+        [](Batch& self, const nb::object& into) { return self.step(self.outputs_in(into)); },
+        nb::arg("into") = nb::none());
+    batch.def(
+        "step_values",
+        [](Batch& self, const nb::object& into) { return self.step_values(self.outputs_in(into)); },
+        nb::arg("into") = nb::none());
+    batch.def("finish", &Batch::finish, "Waits for a step that Ctrl-C has left.");
     batch.def("set_seed", &Batch::set_seed);
     batch.def("set_seeds",
               [](Batch& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
                   self.set_seeds(begin, seeds);
               });
-    batch.def("violated_preconditions", &Batch::violated_preconditions);
+    batch.def("violated_preconditions", [](Batch& self, const Records& records) {
+        return self.violated_preconditions(
+            std::as_bytes(std::span(records.data(), records.size())));
+    });
+    batch.def("violated_preconditions", [](Batch& self, const Values& values) {
+        return self.violated_preconditions(std::span(values.data(), values.size()));
+    });
     batch.def("explain_violation", &Batch::explain_violation);
     batch.def("choice_count", [](const Batch& self) {
         return self.simulator().action_choice_count(&self.simulator());

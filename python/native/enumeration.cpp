@@ -47,6 +47,7 @@ class Enumeration {
         ir::Outcomes outcomes;
         std::int64_t combinations = 0;
         do {
+            if (combinations % 256 == 0 && PyErr_CheckSignals() != 0) throw nb::python_error();
             if (++combinations > most)
                 throw Refused(fmt::format(
                     "a step has more than {} combinations of what it draws: allow more by "

@@ -2,6 +2,7 @@
 
 #include "learning/learned_policy.hpp"
 #include "native/batch.hpp"
+#include "native/long_calls.hpp"
 #include "native/options.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/policy_file.hpp"
@@ -13,7 +14,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -54,13 +59,22 @@ class Policy {
         actor_(decision);
     }
 
+    // Ctrl-C ends it.
     solvers::Summary evaluate(std::int64_t episodes, std::uint64_t seed, int threads) const {
         solvers::EpisodeOptions options;
         options.episodes = episodes;
         options.seed = seed;
         options.threads = threads;
-        const nb::gil_scoped_release released;
-        return summary_of(run_episodes(*simulator_, policy_, options, {}));
+        std::atomic<bool> stops = false;
+        solvers::Watch watch;
+        watch.stops = [&] {
+            return stops.load();
+        };
+        std::optional<solvers::Summary> summary;
+        LongCalls calls(true);  // the last one: it waits for the job, which works with the others
+        calls.run([&] { summary = summary_of(run_episodes(*simulator_, policy_, options, watch)); },
+                  {}, [&] { stops = true; });
+        return *std::move(summary);
     }
 
   private:
@@ -72,40 +86,60 @@ class Policy {
     std::vector<std::int32_t> violated_;
 };
 
+// Whether an update shall end early: what a learner's options ask.
+using Stop = std::shared_ptr<std::atomic<bool>>;
+
+std::function<bool()> asks(const Stop& stop) {
+    return [stop] {
+        return stop->load();
+    };
+}
+
 // A learner at work.
 class Learner {
   public:
-    Learner(Simulator simulator, solvers::Trainee trainee)
-        : simulator_(std::move(simulator)), trainee_(std::move(trainee)) {}
+    Learner(Simulator simulator, solvers::Trainee trainee, Stop stop)
+        : simulator_(std::move(simulator)), trainee_(std::move(trainee)), stop_(std::move(stop)) {}
 
-    bool done() const { return trainee_.done(); }
+    bool done() { return trainee().done(); }
+    // Ctrl-C ends it early, and leaves what has been learned by then.
     void update() {
-        const nb::gil_scoped_release released;
-        trainee_.update();
+        calls_.finish();
+        *stop_ = false;
+        calls_.run([this] { trainee_.update(); }, {}, [this] { *stop_ = true; });
     }
-    std::int64_t steps() const { return trainee_.steps(); }
-    std::string policy_text() const { return trainee_.policy_text(); }
-    std::string summary() const { return trainee_.summary ? trainee_.summary() : ""; }
-    nb::dict row() const {
+    std::int64_t steps() { return trainee().steps(); }
+    std::string policy_text() { return trainee().policy_text(); }
+    std::string summary() { return trainee().summary ? trainee().summary() : ""; }
+    nb::dict row() {
         nb::dict row;
-        for (const auto& [name, value] : trainee_.row()) row[name.c_str()] = value;
+        for (const auto& [name, value] : trainee().row()) row[name.c_str()] = value;
         return row;
     }
-    nb::bytes save() const {
-        const std::string bytes = trainee_.save();
+    nb::bytes save() {
+        const std::string bytes = trainee().save();
         return nb::bytes(bytes.data(), bytes.size());
     }
-    void load(const nb::bytes& bytes) { trainee_.load({bytes.c_str(), bytes.size()}); }
+    void load(const nb::bytes& bytes) { trainee().load({bytes.c_str(), bytes.size()}); }
 
   private:
+    const solvers::Trainee& trainee() {
+        calls_.finish();
+        return trainee_;
+    }
+
     Simulator simulator_;  // outlives the trainee
     solvers::Trainee trainee_;
+    Stop stop_;
+    LongCalls calls_{true};  // the last one: an update that goes on works with the others
 };
 
 Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::dict& given) {
     const auto known = solvers::preset(preset);
     if (!known) throw Refused(fmt::format("there is no preset '{}': fast, sb3, rllib", preset));
     solvers::PpoOptions ppo = *known;
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    ppo.stops = asks(stop);
     Options options(given);
     options.take("steps", ppo.steps);
     options.take("environments", ppo.environments);
@@ -127,11 +161,14 @@ Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::d
     options.take("seed", ppo.seed);
     options.take("threads", ppo.threads);
     options.finish();
-    return {problem.simulator, solvers::ppo_trainee(*problem.simulator, ppo)};
+    const nb::gil_scoped_release released;
+    return {problem.simulator, solvers::ppo_trainee(*problem.simulator, ppo), stop};
 }
 
 Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     solvers::CgpOptions cgp;
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    cgp.stops = asks(stop);
     std::vector<std::string> functions;
     Options options(given);
     options.take("generations", cgp.generations);
@@ -153,7 +190,8 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     options.take("seed", cgp.seed);
     options.finish();
     if (!functions.empty()) cgp.functions = solvers::functions_named(functions);
-    return {problem.simulator, solvers::cgp_trainee(*problem.simulator, cgp)};
+    const nb::gil_scoped_release released;
+    return {problem.simulator, solvers::cgp_trainee(*problem.simulator, cgp), stop};
 }
 
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,

@@ -1,9 +1,11 @@
 #include "native/row_writer.hpp"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -29,6 +31,33 @@ bool are_within(const T* entries, std::int64_t count, std::span<const RowLimits>
     return within;
 }
 
+// The entries of an array that lie one behind the other in memory.
+class Entries {
+  public:
+    explicit Entries(nb::handle array) {
+        if (!PyObject_CheckBuffer(array.ptr())) return;
+        is_open_ = PyObject_GetBuffer(array.ptr(), &view_, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) == 0;
+        if (!is_open_) PyErr_Clear();
+    }
+    Entries(const Entries&) = delete;
+    ~Entries() {
+        if (is_open_) PyBuffer_Release(&view_);
+    }
+
+    // Null if they are of another type, or not so many.
+    template <class T>
+    const T* as(std::size_t count) const {
+        if (!is_open_ || view_.len != static_cast<Py_ssize_t>(count * sizeof(T))) return nullptr;
+        const std::string_view format = view_.format ? view_.format : "B";
+        const bool is_right = std::is_same_v<T, float> ? format == "f" : format == "l" || format == "q";
+        return is_right && view_.itemsize == sizeof(T) ? static_cast<const T*>(view_.buf) : nullptr;
+    }
+
+  private:
+    Py_buffer view_{};
+    bool is_open_ = false;
+};
+
 }  // namespace
 
 RowWriter::RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits,
@@ -40,14 +69,9 @@ RowWriter::RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> li
 }
 
 template <class T>
-bool RowWriter::write(const Rows<T>& rows) {
+void RowWriter::copy(const T* entries) {
     const std::int64_t count = batch_.settings().environments;
     const std::size_t width = limits_.size();
-    if (categories_ != std::is_integral_v<T> ||
-        rows.size() != static_cast<std::size_t>(count) * width)
-        return false;
-    const T* const entries = rows.data();
-    if (!are_within(entries, count, limits_)) return false;
     float* const values = reinterpret_cast<float*>(batch_.arrays().action_values.data()) + first_;
     const std::int64_t stride = batch_.action_columns();
     for (std::size_t k = 0; k < width; ++k)
@@ -55,7 +79,37 @@ bool RowWriter::write(const Rows<T>& rows) {
             values[row * stride + static_cast<std::int64_t>(k)] =
                 static_cast<float>(entries[static_cast<std::size_t>(row) * width + k]) +
                 limits_[k].offset;
+}
+
+bool RowWriter::write(nb::handle rows) {
+    batch_.finish();
+    const Entries given(rows);
+    const auto size = static_cast<std::size_t>(batch_.settings().environments) * limits_.size();
+    if (categories_) {
+        const auto* const entries = given.as<std::int64_t>(size);
+        if (!entries || !are_within(entries, batch_.settings().environments, limits_)) return false;
+        copy(entries);
+    } else {
+        const auto* const entries = given.as<float>(size);
+        if (!entries || !are_within(entries, batch_.settings().environments, limits_)) return false;
+        copy(entries);
+    }
     return true;
+}
+
+// Numbers that are all action values are read where they are.
+std::optional<bool> RowWriter::step(nb::handle rows, nb::handle into) {
+    const Outputs outputs = batch_.outputs_in(into);
+    const std::int64_t count = batch_.settings().environments;
+    const bool is_all = static_cast<std::int64_t>(limits_.size()) == batch_.action_columns();
+    if (!categories_ && is_all) {
+        const Entries given(rows);
+        const auto* const numbers = given.as<float>(static_cast<std::size_t>(count) * limits_.size());
+        if (!numbers || !are_within(numbers, count, limits_)) return std::nullopt;
+        return batch_.step_values(outputs, numbers, nb::make_tuple(nb::borrow(rows), nb::borrow(into)));
+    }
+    if (!write(rows)) return std::nullopt;
+    return batch_.step_values(outputs);
 }
 
 void add_row_writer(nb::module_& module) {
@@ -73,9 +127,8 @@ void add_row_writer(nb::module_& module) {
             },
             nb::arg("batch"), nb::arg("first"), nb::arg("limits"), nb::arg("categories"),
             nb::keep_alive<1, 2>())
-        .def("write", &RowWriter::write<float>, nb::arg("rows").noconvert())
-        .def("write", &RowWriter::write<std::int64_t>, nb::arg("rows").noconvert())
-        .def("write", [](RowWriter&, const nb::object&) { return false; });
+        .def("write", &RowWriter::write, nb::arg("rows").none())
+        .def("step", &RowWriter::step, nb::arg("rows").none(), nb::arg("into").none());
 }
 
 }  // namespace rddlc::python

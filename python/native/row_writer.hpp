@@ -4,10 +4,10 @@
 #include "native/batch.hpp"
 
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rddlc::python {
@@ -23,15 +23,16 @@ class RowWriter {
   public:
     RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories);
 
-    template <class T>
-    using Rows = nanobind::ndarray<const T, nanobind::c_contig, nanobind::device::cpu>;
-
     // False, and nothing is changed, for rows of another kind or size, and those with an entry
     // outside its limits or that is nan.
-    template <class T>
-    bool write(const Rows<T>& rows);
+    bool write(nanobind::handle rows);
+    // The same, and a step by them, whether an episode has ended; nothing for what write() refuses.
+    std::optional<bool> step(nanobind::handle rows, nanobind::handle into);
 
   private:
+    template <class T>
+    void copy(const T* entries);
+
     Batch& batch_;
     std::int64_t first_;
     std::vector<RowLimits> limits_;

@@ -91,7 +91,7 @@ class RDDLSimulator(Interpreted):
 
     def check_action_preconditions(self, actions: dict[str, Any], silent: bool = False) -> bool:
         self._write(actions)
-        holds = self._batch.violated_preconditions()[0] < 0
+        holds = self._batch.violated_preconditions(self._batch.actions)[0] < 0
         return holds if holds or silent else super().check_action_preconditions(actions, silent)
 
     def _write(self, actions: dict[str, Any]) -> None:

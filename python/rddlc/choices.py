@@ -99,6 +99,18 @@ class Squash:
         unbounded = np.where(one, above, np.where(self._has_upper, below, free))
         return np.where(both, np.minimum(between, self._upper), unbounded)
 
+    def numbers(self, values: Array) -> Array:
+        """(n, numbers) for values: the inverse of `values`."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            between = (values - self._lower) / (self._upper - self._lower)
+            above = np.arcsinh((values - self._lower) / self._unit * np.sinh(2.5)) / 5
+            below = 1 - np.arcsinh((self._upper - values) / self._unit * np.sinh(2.5)) / 5
+            free = np.arcsinh((values - self._default) / self._unit) / 5
+        both, one = self._has_lower & self._has_upper, self._has_lower
+        share = np.where(both, between, np.where(one, above, below))
+        is_bounded = both | one | self._has_upper
+        return np.clip(np.where(is_bounded, np.nan_to_num(share, posinf=1, neginf=0) * 2 - 1, free), -1, 1)
+
 
 def plan_of(problem: Problem) -> ActionPlan:
     """Raises ActionError where there is nothing to choose."""

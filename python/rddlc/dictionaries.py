@@ -58,21 +58,35 @@ class DictionaryActions:
         model = problem.model
         columns = columns_of(model.actions)
         self._entries = [_Entry(column) for column in columns]
+        self._batch = batch
         self._record = grounded_view(batch.actions, model.actions)
+        self._asked = batch.actions.copy()
+        self._asked_view = grounded_view(self._asked, model.actions)
         self._defaults = _defaults(problem)
         self._place = {column.name: index for index, column in enumerate(columns)}
         self._lifted = _ranges(model.actions)
         self._limit = model.limited_actions
         self._counted = [limits_all or column.fluent.scalar == "bool" for column in columns]
-        self.space = action_space(
-            model,
-            _lifted_defaults(problem) if lifted else dict(zip(self._place, self._defaults)),
-            lifted=lifted,
-        )
+        by_name = dict(zip(self._place, self._defaults))
+        self._default = lifted_defaults(problem) if lifted else by_name
+        self.space = action_space(model, self._default, lifted=lifted)
         self.step = batch.step
 
     def write(self, action: Mapping[str, Any]) -> None:
         """Raises ActionError, and has changed nothing then."""
+        values = self._values(action)
+        if values:
+            self._record[0] = tuple(values)
+
+    def violated(self, action: Mapping[str, Any]) -> NDArray[np.bool_]:
+        """(1,):the first precondition that is violated, or -1."""
+        self._asked_view[0] = tuple(self._values(action))
+        return np.array(self._batch.violated_preconditions(self._asked)) >= 0
+
+    def default(self) -> dict[str, Any]:
+        return self._default
+
+    def _values(self, action: Mapping[str, Any]) -> list[Any]:
         values = list(self._defaults)
         try:
             items = action.items()
@@ -86,8 +100,7 @@ class DictionaryActions:
                 self._write_lifted(name, value, values)
         if self._limit is not None:
             self._check_limit(values)
-        if values:
-            self._record[0] = tuple(values)
+        return values
 
     def write_record(self) -> None:
         """The record is what `write` has written."""
@@ -170,7 +183,8 @@ def _defaults(problem: Problem) -> list[Any]:
     return values
 
 
-def _lifted_defaults(problem: Problem) -> dict[str, Any]:
+def lifted_defaults(problem: Problem) -> dict[str, Any]:
+    """(*shape), or (1,), of each action-fluent."""
     return {
         fluent.name: np.reshape(problem.constants(fluent.name), fluent.shape or (1,))
         for fluent in problem.model.actions

@@ -15,6 +15,7 @@ from . import _native, causes
 from .dictionaries import DictionaryActions, GroundedReader, LiftedReader
 from .errors import ActionError, EpisodeOver, Error
 from .learning import ChoiceActions, FlatReader
+from .legal import go_on_from, legal_space
 from .masks import ActionMasks
 from .model import Model
 from .problems import Problem, batch_horizon
@@ -91,6 +92,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._writer = self._new_writer()
         self.observation_space = self._reader.space
         self.action_space = self._writer.space
+        if self.model.preconditions:
+            self.action_space = legal_space(self._writer.space, self._writer, 1)
         self._masks = ActionMasks(self.problem, batch, self._writer)
         self._rewards, self._causes = batch.rewards, batch.causes
         self._enforces = forms["enforce_action_constraints"]
@@ -197,6 +200,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """
         if self._ended or self._seed is None:
             raise self._no_step()
+        self._batch.finish()
         self._writer.write(action)
         if self._enforces:
             self._check_preconditions()
@@ -227,7 +231,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
 
     def _check_preconditions(self) -> None:
         self._writer.write_record()
-        if self._batch.violated_preconditions()[0] >= 0:
+        if self._batch.violated_preconditions(self._batch.actions)[0] >= 0:
             raise ActionError(self._why_violated())
 
     def _why_violated(self) -> str:
@@ -337,28 +341,45 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def __reduce__(self) -> tuple[Any, ...]:
         episode = self._batch.progress(0)[1]
         state = None if self._seed is None else self.get_state()
-        position = (self._seed, episode, state, self._np_random, self._np_random_seed, self.spec)
-        return _unpickled, (type(self), self.problem, self._forms, position)
+        random = (self._np_random, self._np_random_seed, self.action_space)
+        return _unpickled, (
+            type(self),
+            self.problem,
+            self._forms,
+            (self._seed, episode, state),
+            random,
+            self.spec,
+        )
 
     def _take(self, other: RDDLEnv, batch: _native.Batch) -> None:
         self._batch = batch
         self._connect()
         self._seed, self._ended = other._seed, other._ended
         self._np_random, self._np_random_seed = other._np_random, other._np_random_seed
+        go_on_from(self.action_space, other.action_space)
         self.spec = other.spec
         if self._renderer is not None and self._seed is not None:
             self._renderer.begin(batch, self.horizon)
 
 
-def _unpickled(kind: type[RDDLEnv], problem: Problem, forms: dict[str, Any], position: Any) -> RDDLEnv:
+def _unpickled(
+    kind: type[RDDLEnv],
+    problem: Problem,
+    forms: dict[str, Any],
+    position: tuple[int | None, int, State | None],
+    random: Any,
+    spec: Any,
+) -> RDDLEnv:
     env = kind(problem, **forms)
-    seed, episode, state, np_random, np_random_seed, spec = position
+    seed, episode, state = position
     if seed is not None and state is not None:
         env.reset(seed=seed)
         for _ in range(episode):
             env._batch.reset()
         env._restore(state)
-    env._np_random, env._np_random_seed, env.spec = np_random, np_random_seed, spec
+    env._np_random, env._np_random_seed, action_space = random
+    go_on_from(env.action_space, action_space)
+    env.spec = spec
     return env
 
 

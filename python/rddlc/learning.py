@@ -89,7 +89,7 @@ class ChoiceActions:
         self, problem: Problem, batch: _native.Batch, *, box: bool, normalize: bool
     ) -> None:
         self.plan: ActionPlan = plan_of(problem)
-        self._values = batch.action_values
+        self._batch, self._values = batch, batch.action_values
         self._record = grounded_view(batch.actions, problem.model.actions)
         self._is_real = [each.fluent.scalar == "real" for each in columns_of(problem.model.actions)]
         self._box = box
@@ -145,16 +145,56 @@ class ChoiceActions:
             action = action["action"]  # as pyRDDLGym's agents of learners send it
         self.write_rows(_first_row(action))
 
+    def step_rows(self, actions: Any, into: Any) -> bool:
+        """A step by a row for each environment; `into`: see `_native.Batch.step`. Whether an episode
+        has ended. Raises ActionError, and has changed nothing then."""
+        if self._quick_rows is not None:
+            ended = self._quick_rows.step(actions, into)
+            if ended is not None:
+                return ended
+        self._batch.finish()
+        self.write_rows(actions)
+        return self.step(into)
+
     def write_rows(self, actions: Any) -> None:
         """A row for each environment. Raises ActionError, and has changed nothing then."""
         if self._quick_rows is not None and self._quick_rows.write(actions):
             return
+        self._write_into(self._values, actions)
+
+    def violated(self, actions: Any) -> NDArray[np.bool_]:
+        """(n,): whether a row for each environment, or the action of the only one, violates a
+        precondition."""
+        values = np.empty_like(self._values)
+        self._write_into(values, _first_row(actions) if len(values) == 1 else actions)
+        return np.array(self._batch.violated_preconditions(values)) >= 0
+
+    def default(self) -> Any:
+        """The action of one environment that changes nothing."""
+        plan = self.plan
+        categories = (
+            np.array(plan.category_counts) - 1
+            if plan.picks
+            else plan.defaults[plan.columns].astype(np.int64) - plan.values
+        )
+        numbers = plan.defaults[plan.number_columns]
+        if self._squash is not None:
+            numbers = self._squash.numbers(numbers)
+        if self._box:
+            middles = (categories + 0.5) / np.array(plan.category_counts, float) * 2 - 1
+            return np.concatenate([middles, np.ravel(numbers)])
+        if isinstance(self.space, spaces.Dict):
+            return {"discrete": categories, "continuous": numbers}
+        return categories if plan.category_counts else numbers
+
+    def _write_into(self, values: Array, actions: Any) -> None:
+        """(n, columns)"""
         categories, numbers = self._split(actions)
         self.plan.check_categories(categories)
         self._check_numbers(numbers)
         if self._squash is not None:
             numbers = self._squash.values(numbers)
-        self.plan.write(categories, numbers, self._values)
+        self.plan.write(categories, numbers, values)
 
     def _check_numbers(self, numbers: Array) -> None:
         lower, upper = self._row_limits

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from .dictionaries import lifted_defaults
 from .errors import ActionError
 from .model import Fluent
 from .problems import Problem
@@ -38,20 +39,40 @@ class LiftedActions:
 
     def __init__(self, problem: Problem, batch: _native.Batch) -> None:
         model = problem.model
+        self._batch = batch
         self._views = lifted_views(batch.actions, model.actions)
-        self._defaults = {
-            fluent.name: np.reshape(problem.constants(fluent.name), fluent.shape or (1,))
-            for fluent in model.actions
-        }
+        self._asked = batch.actions.copy()
+        self._asked_views = lifted_views(self._asked, model.actions)
+        self._defaults = lifted_defaults(problem)
         self.space = action_space(model, self._defaults, lifted=True)
         self.step = batch.step
 
+    def step_rows(self, actions: Mapping[str, Any], into: Any) -> bool:
+        """See `ChoiceActions.step_rows`."""
+        self._batch.finish()
+        self.write_rows(actions)
+        return self.step(into)
+
     def write_rows(self, actions: Mapping[str, Any]) -> None:
         """Raises ActionError, and has changed nothing then."""
+        self._write(self._checked_arrays(actions), self._views)
+
+    def violated(self, actions: Mapping[str, Any]) -> NDArray[np.bool_]:
+        """(n,):the first precondition that is violated, or -1."""
+        self._write(self._checked_arrays(actions), self._asked_views)
+        return np.array(self._batch.violated_preconditions(self._asked)) >= 0
+
+    def default(self) -> dict[str, Any]:
+        return self._defaults
+
+    def _checked_arrays(self, actions: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
         arrays = {name: self._checked(name, value) for name, value in actions.items()}
         if isinstance(self.space, ActionDict):
             self._check_limit(arrays, self.space.limit)
-        for name, view in self._views.items():
+        return arrays
+
+    def _write(self, arrays: Mapping[str, NDArray[Any]], views: Mapping[str, NDArray[Any]]) -> None:
+        for name, view in views.items():
             view[:] = arrays.get(name, self._defaults[name])
 
     def _checked(self, name: str, value: Any) -> NDArray[Any]:

@@ -1,8 +1,8 @@
-"""The batch engine as Stable-Baselines3 takes it.
+"""Environments as Stable-Baselines3 takes them, one or a batch.
 
+    from rddlc import sb3
     from stable_baselines3 import PPO
-    PPO("MlpPolicy", rddlc.sb3.VecEnv(rddlc.make_vec("CartPole_Continuous_gym", "0", num_envs=8,
-        actions="box", autoreset_mode="SameStep"))).learn(100_000)
+    PPO("MlpPolicy", sb3.make_vec("CartPole_Continuous_gym", "0", num_envs=8)).learn(100_000)
 """
 
 from __future__ import annotations
@@ -10,16 +10,46 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import gymnasium
 import numpy as np
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv as Base
 
+from . import _problem_of
+from .environment import RDDLEnv
 from .errors import Error
 from .vector import RDDLVectorEnv
 
 Indices = None | int | Iterable[int]
+
+
+def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
+    """`rddlc.make` with flat observations, and actions that Stable-Baselines3 takes: simplified where
+    these are Discrete, MultiDiscrete or a Box with bounds, else "box" (it takes no dictionaries of
+    actions, and no numbers without bounds). Options go before that."""
+    problem = _problem_of(domain, instance, options)
+    options = {"observations": "flat", "actions": "simplified", **options}
+    env = RDDLEnv(problem, **options)
+    return env if takes_actions(env.action_space) else RDDLEnv(problem, **options | {"actions": "box"})
+
+
+def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecEnv:
+    """The same of many environments in one batch (`rddlc.make_vec`)."""
+    problem = _problem_of(domain, instance, options)
+    options = {"actions": "simplified", "autoreset_mode": "SameStep", **options}
+    envs = RDDLVectorEnv(problem, num_envs, **options)
+    if not takes_actions(envs.single_action_space):
+        envs = RDDLVectorEnv(problem, num_envs, **options | {"actions": "box"})
+    return VecEnv(envs)
+
+
+def takes_actions(space: gymnasium.Space[Any]) -> bool:
+    """Whether Stable-Baselines3 has learners for such actions."""
+    if isinstance(space, spaces.Box):
+        return space.is_bounded()
+    return isinstance(space, (spaces.Discrete, spaces.MultiDiscrete))
 
 
 class VecEnv(Base):
@@ -31,7 +61,7 @@ class VecEnv(Base):
         if env.metadata["autoreset_mode"] != AutoresetMode.SAME_STEP:
             raise Error("Stable-Baselines3 wants autoreset_mode='SameStep'")
         if isinstance(env.single_action_space, spaces.Dict):
-            raise Error("Stable-Baselines3 takes no dictionaries of actions: say actions='box'")
+            raise Error("Stable-Baselines3 takes no dictionaries of actions: say actions='box', or use make_vec")
         self.env = env
         self._actions: Any = None
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)

@@ -165,8 +165,7 @@ class Transitions:
             return tuple(range(self.action_count))
         batch = self._all_actions
         self._enter(batch, state)
-        batch.actions[:] = self._records
-        violated = batch.violated_preconditions()
+        violated = batch.violated_preconditions(self._records)
         return tuple(action for action, which in enumerate(violated) if which < 0)
 
     @property

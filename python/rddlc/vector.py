@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _native, causes
 from .errors import EpisodeOver
 from .learning import ChoiceActions, FlatReader
+from .legal import legal_space
 from .lifted import LiftedActions, LiftedRows
 from .masks import ActionMasks
 from .model import Model
@@ -66,7 +67,11 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.single_action_space = self._writer.space
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
+        if problem.model.preconditions:
+            self.action_space = legal_space(self.action_space, self._writer, num_envs)
         batch = self._batch
+        is_view = getattr(self._reader, "is_view", False)
+        self._engine_shape = batch.observation_values.shape if is_view else None
         self._rewards, self._causes = batch.rewards, batch.causes
         self._terminated, self._truncated = batch.terminated, batch.truncated
 
@@ -132,13 +137,26 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """
         if not self._has_begun:
             raise EpisodeOver("no episode has begun: call reset() before step()")
-        self._writer.write_rows(actions)
-        any_ended = self._writer.step()
-        results = [self._rewards, self._terminated, self._truncated]
-        if self._copies:
-            results = [each.copy() for each in results]
-        infos = self._infos() if any_ended else {}
-        return self._reader.rows(copy=self._copies), *results, infos
+        if not self._copies:
+            any_ended = self._writer.step_rows(actions, None)
+            results = (self._rewards, self._terminated, self._truncated)
+            return self._reader.rows(copy=False), *results, self._infos() if any_ended else {}
+        into = self._room()
+        any_ended = self._writer.step_rows(actions, into)
+        rows = self._reader.rows(copy=True) if into[0] is None else into[0]
+        return rows, *into[1:], self._infos() if any_ended else {}
+
+    def _room(self) -> tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """New arrays for a step: observations (None if they are not the engine's values), rewards,
+        terminated, truncated."""
+        count = self.num_envs
+        shape = self._engine_shape
+        return (
+            None if shape is None else np.empty(shape, np.float32),
+            np.empty(count),
+            np.empty(count, bool),
+            np.empty(count, bool),
+        )
 
     def _infos(self) -> dict[str, Any]:
         ended = self._causes != 0

@@ -3,7 +3,8 @@
     python python/tests/check_all.py [--engine interpreter] [--forms dict,vectorized,...] [PROBLEM ...]
 
 Prints a line for each that fails, and how many pass. Warnings count as failures, but for advice
-about bounds (unbounded fluents are unbounded). `--sb3` asks Stable-Baselines3's checker, too.
+about bounds (unbounded fluents are unbounded). `--sb3` asks Stable-Baselines3's checker instead, about
+`rddlc.sb3.make`, and tells how many problems have which actions there.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ import argparse
 import sys
 import traceback
 import warnings
+from collections import Counter
 from collections.abc import Iterator
 
-import gymnasium
 from gymnasium.utils.env_checker import check_env
 
 import rddlc
@@ -26,33 +27,47 @@ FORMS = {
     "box": {"observations": "flat", "actions": "box", "normalize": True},
 }
 
+SB3 = "sb3"  # in place of a form
+sb3_actions: Counter[str] = Counter()
+
 ADVICE = (
     "minimum value is -infinity",
     "maximum value is infinity",
     "maximum and minimum values are equal",
     "recommend using a symmetric and normalized space",
+    "recommend you to use a symmetric and normalized Box action space",
     "Not able to test alternative render modes",  # without a spec; they are tested here
 )
 
 
-def check(problem: rddlc.Problem, form: str, with_sb3: bool) -> Iterator[str]:
+def check(problem: rddlc.Problem, form: str) -> Iterator[str]:
     """What is wrong with it."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        for render_mode in ("rgb_array", "ansi"):
-            env = rddlc.make(problem, render_mode=render_mode, **FORMS[form])
-            check_env(env, skip_close_check=False)
-            env.close()
-        if with_sb3 and form in ("simplified", "box"):
-            from stable_baselines3.common.env_checker import check_env as check_sb3
-
-            env = rddlc.make(problem, **FORMS[form])
-            if not isinstance(env.action_space, gymnasium.spaces.Dict):
-                check_sb3(env, warn=False)
+        if form == SB3:
+            check_with_sb3(problem)
+        else:
+            for render_mode in ("rgb_array", "ansi"):
+                env = rddlc.make(problem, render_mode=render_mode, **FORMS[form])
+                check_env(env, skip_close_check=False)
+                env.close()
     for warning in caught:
         text = str(warning.message)
         if not any(advice in text for advice in ADVICE):
             yield text
+
+
+def check_with_sb3(problem: rddlc.Problem) -> None:
+    from stable_baselines3.common.env_checker import check_env as check_sb3
+
+    from rddlc import sb3
+
+    env = sb3.make(problem)
+    simplified = rddlc.make(problem, actions="simplified").action_space
+    is_simplified = env.action_space == simplified
+    kind = type(simplified).__name__
+    sb3_actions[kind if is_simplified else f"one Box, since simplified actions are {kind}"] += 1
+    check_sb3(env)
 
 
 def main() -> int:
@@ -60,16 +75,17 @@ def main() -> int:
     parser.add_argument("problems", nargs="*", help="names; default: all")
     parser.add_argument("--engine", default="compiled", choices=("compiled", "interpreter"))
     parser.add_argument("--forms", default=",".join(FORMS), help="comma-separated")
-    parser.add_argument("--sb3", action="store_true")
+    parser.add_argument("--sb3", action="store_true", help="Stable-Baselines3's checker")
     options = parser.parse_args()
+    forms = [SB3] if options.sb3 else options.forms.split(",")
     passed = failed = 0
     for listed in rddlc.problems():
         if options.problems and listed.name not in options.problems:
             continue
         problem = rddlc.Problem(listed.name, listed.instances[0], engine=options.engine)
-        for form in options.forms.split(","):
+        for form in forms:
             try:
-                complaints = sorted(set(check(problem, form, options.sb3)))
+                complaints = sorted(set(check(problem, form)))
             except Exception as error:  # whatever a checker raises
                 place = traceback.extract_tb(error.__traceback__)[-1]
                 complaints = [f"{type(error).__name__}: {error} ({place.filename}:{place.lineno})"]
@@ -77,6 +93,8 @@ def main() -> int:
             for complaint in complaints:
                 print(f"{listed.name} {form}: {complaint}", flush=True)
     print(f"{passed} checks pass, {failed} fail")
+    for actions, count in sb3_actions.items():
+        print(f"{count} with {actions}")
     return failed > 0
 
 

@@ -9,6 +9,7 @@ import unittest
 from importlib.util import find_spec
 
 import numpy as np
+from gymnasium import spaces
 from support import example, problem_of
 
 import rddlc
@@ -20,6 +21,7 @@ from stable_baselines3 import A2C, PPO
 from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.evaluation import evaluate_policy
 
+from rddlc import sb3
 from rddlc.sb3 import VecEnv
 
 
@@ -36,6 +38,17 @@ class StableBaselines(unittest.TestCase):
             for actions in ("simplified", "box"):
                 env = example(name, observations="flat", actions=actions, normalize=True)
                 check_env(env, warn=False)
+
+    def test_what_it_cannot_take_is_a_box(self) -> None:
+        for name, is_box in (("counters", True), ("refuses", True), ("refuses_some", False)):
+            problem = problem_of(name)
+            env = sb3.make(problem)
+            self.assertEqual(isinstance(env.action_space, spaces.Box), is_box, name)
+            if name != "refuses":  # whose end may lie outside its bounds
+                check_env(env, warn=False)
+            envs = sb3.make_vec(problem, num_envs=2)
+            self.assertEqual(envs.action_space, env.action_space)
+            PPO("MlpPolicy", envs, n_steps=8, batch_size=8, device="cpu").learn(16)
 
     def test_ends_are_told_as_it_wants_them(self) -> None:
         envs = vector("network", horizon=3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import unittest
 from typing import Any
@@ -124,6 +125,30 @@ class TransitionsTest(unittest.TestCase):
             state = outcomes[0].state
         self.assertEqual(rddlc.causes.text_of(state.causes), "horizon")
 
+    def test_counts_of_trials_are_exact(self) -> None:
+        """Binomial, Multinomial, and draws whose parameters leave one result."""
+        transitions = Transitions(problem_of_text(URN))
+        view = rddlc.make(transitions.problem)
+        outcomes = transitions.outcomes(transitions.start(), 0)
+        found: dict[tuple[int, ...], float] = {}
+        for each in outcomes:
+            view.reset(seed=0, options={"state": each.state})
+            state = {name: int(value) for name, value in view.state.items()}
+            self.assertEqual(state.pop("never"), 0)
+            self.assertEqual(state.pop("certain"), 5)
+            self.assertNotIn(tuple(state.values()), found)
+            found[tuple(state.values())] = each.probability
+        expected = {}
+        for hits in range(4):
+            p_hits = math.comb(3, hits) * 0.25**hits * 0.75 ** (3 - hits)
+            for red in range(3):
+                blue = 2 - red
+                p_urn = math.comb(2, red) * 0.4**red * 0.6**blue
+                expected[hits, red, 0, blue] = p_hits * p_urn
+        self.assertEqual(set(found), set(expected))
+        for key, probability in expected.items():
+            self.assertAlmostEqual(found[key], probability, places=12)
+
     def test_no_distribution_is_made_up(self) -> None:
         normal = COINS.replace("Bernoulli(0.25)", "(Normal(0.0, 1.0) > 0.5)")
         transitions = Transitions(problem_of_text(normal))
@@ -181,6 +206,33 @@ non-fluents none { domain = weather; }
 instance weather_1 {
     domain = weather; non-fluents = none; max-nondef-actions = 1; horizon = 3; discount = 1.0;
 }
+"""
+
+URN = """
+domain urn {
+    types { color : { @red, @green, @blue }; };
+    pvariables {
+        P(color) : { non-fluent, real, default = 0.0 };
+        BALLS : { non-fluent, int, default = 2 };
+        hits : { state-fluent, int, default = 0 };
+        count(color) : { state-fluent, int, default = 0 };
+        never : { state-fluent, int, default = 0 };
+        certain : { state-fluent, real, default = 0.0 };
+        wait : { action-fluent, bool, default = false };
+    };
+    cpfs {
+        hits' = Binomial(3, 0.25);
+        count'(?c) = Multinomial[?c](BALLS, P(_));
+        never' = Poisson(0.0);
+        certain' = Normal(5.0, 0.0);
+    };
+    reward = hits;
+}
+non-fluents balls {
+    domain = urn;
+    non-fluents { P(@red) = 0.4; P(@blue) = 0.6; };
+}
+instance urn_1 { domain = urn; non-fluents = balls; max-nondef-actions = 1; horizon = 3; discount = 1.0; }
 """
 
 GATE = """

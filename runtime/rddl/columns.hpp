@@ -409,6 +409,37 @@ inline void write_records(ScalarOf<float> lanes, const Columns& columns, const s
 
 // ------------------------------------------------------------------------ matrices of reals
 
+namespace detail {
+
+// One number of each row of a whole block, which is quicker than lane by lane.
+template <class T, class Number>
+RDDL_INLINE T read_whole(const Number* number, std::int64_t row_size) {
+    typename T::Element elements[T::width];
+    if (row_size == 1)
+        for (int lane = 0; lane < T::width; ++lane)
+            elements[lane] = static_cast<typename T::Element>(number[lane]);
+    else
+        for (int lane = 0; lane < T::width; ++lane, number += row_size)
+            elements[lane] = static_cast<typename T::Element>(*number);
+    return T::load(elements);
+}
+template <class T, class Number>
+RDDL_INLINE void write_whole(const T& values, Number* number, std::int64_t row_size) {
+    typename T::Element elements[T::width];
+    values.store(elements);
+    Number numbers[T::width];
+    for (int lane = 0; lane < T::width; ++lane)
+        numbers[lane] = static_cast<Number>(elements[lane]);
+    for (int lane = 0; lane < T::width; ++lane, number += row_size) *number = numbers[lane];
+}
+
+template <class T>
+inline constexpr bool is_real_lanes = false;
+template <class R, int n>
+inline constexpr bool is_real_lanes<Lanes<R, n>> = std::is_floating_point_v<R>;
+
+}  // namespace detail
+
 // Row-major, `value_count` numbers a row: bools are 0 and 1, objects their index.
 template <class L, class Number>
 void read_values(L, const Columns& columns, const Number* rows, int present, std::byte* block) {
@@ -417,6 +448,11 @@ void read_values(L, const Columns& columns, const Number* rows, int present, std
             T* const values = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k) {
                 const Number* number = rows + column.first + k;
+                if constexpr (detail::is_real_lanes<T>)
+                    if (present == T::width) {
+                        values[k] = detail::read_whole<T>(number, columns.value_count);
+                        continue;
+                    }
                 for (int lane = 0; lane < present; ++lane, number += columns.value_count) {
                     using Value = decltype(get_lane(values[k], lane));
                     if constexpr (std::is_same_v<Value, bool>)
@@ -438,6 +474,11 @@ void write_values(L, const Columns& columns, const std::byte* block, Number* row
             const T* const values = detail::values_in<T>(block, column);
             for (std::int64_t k = 0; k < column.count; ++k) {
                 Number* number = rows + column.first + k;
+                if constexpr (detail::is_real_lanes<T>)
+                    if (begin == 0 && end == T::width) {
+                        detail::write_whole(values[k], number, columns.value_count);
+                        continue;
+                    }
                 for (int lane = begin; lane < end; ++lane, number += columns.value_count)
                     *number = static_cast<Number>(get_lane(values[k], lane));
             }

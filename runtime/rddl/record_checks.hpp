@@ -2,8 +2,10 @@
 #pragma once
 
 #include <rddl/columns.hpp>
+#include <rddl/simd.hpp>
 #include <rddl/simulator.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -20,6 +22,30 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
         all &= value < static_cast<std::uint64_t>(object_count);
     }
     return all;
+}
+
+// Whether none is nan.
+template <class Number>
+bool are_numbers(const Number* values, std::int64_t count) {
+    using Vector = simd::Vector<Number>;
+    decltype(Vector{} != Vector{}) nans{};
+    std::int64_t k = 0;
+    for (; k + simd::lanes_of<Number> <= count; k += simd::lanes_of<Number>) {
+        Vector some;
+        std::memcpy(&some, values + k, sizeof some);
+        nans |= some != some;
+    }
+    bool all = true;
+    for (int i = 0; i < simd::lanes_of<Number>; ++i) all &= nans[i] == 0;
+    for (; k < count; ++k) all &= values[k] == values[k];
+    return all;
+}
+
+// Of bools and reals alone.
+inline bool are_plain(const Columns& columns) {
+    return std::ranges::all_of(columns.list, [](const Column& column) {
+        return column.limit == 0 && column.scalar != RDDL_INT;
+    });
 }
 
 }  // namespace detail
@@ -48,6 +74,8 @@ bool is_valid_number(rddl_scalar scalar, std::int64_t objects, Number value) {
 // bits.
 template <class Number>
 bool values_are_valid(const Columns& columns, const Number* rows, std::int64_t row_count) {
+    if (detail::are_plain(columns))
+        return detail::are_numbers(rows, row_count * columns.value_count);
     bool valid = true;
     for (std::int64_t i = 0; i < row_count; ++i, rows += columns.value_count)
         for (const Column& column : columns.list)

@@ -52,25 +52,38 @@ struct CgpSearch::State {
     // Islands do not know of each other between migrations, so who runs them does not matter.
     void run(std::int64_t generations) {
         const auto begin = std::chrono::steady_clock::now();
-        while (generations > 0) {
+        while (generations > 0 && !is_stopped()) {
             const std::int64_t until_migration =
                 options.migrate_every > 0
                     ? options.migrate_every - progress.generations % options.migrate_every
                     : generations;
             const std::int64_t some = std::min(generations, until_migration);
-            std::atomic<std::size_t> next = 0;
-            team.run([&](int) {
-                for (std::size_t i = next++; i < islands.size(); i = next++)
-                    for (std::int64_t g = 0; g < some; ++g) islands[i]->generation();
-            });
-            generations -= some;
-            progress.generations += some;
-            if (some == until_migration && options.islands > 1) migrate();
+            const std::int64_t made = run_islands(some);
+            generations -= made;
+            progress.generations += made;
+            if (made == until_migration && options.islands > 1) migrate();
         }
         progress.seconds +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         report();
     }
+
+    // So many generations of each; the fewest that one has made where they stop early.
+    std::int64_t run_islands(std::int64_t generations) {
+        std::atomic<std::size_t> next = 0;
+        std::atomic<std::int64_t> fewest = generations;
+        team.run([&](int) {
+            for (std::size_t i = next++; i < islands.size(); i = next++) {
+                std::int64_t made = 0;
+                for (; made < generations && !is_stopped(); ++made) islands[i]->generation();
+                for (std::int64_t known = fewest; made < known;)
+                    if (fewest.compare_exchange_weak(known, made)) break;
+            }
+        });
+        return fewest;
+    }
+
+    bool is_stopped() const { return options.stops && options.stops(); }
 
     // In a ring; all leave before any arrives.
     void migrate() {

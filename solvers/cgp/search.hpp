@@ -16,6 +16,7 @@
 #include <rddl/simulator.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -44,6 +45,8 @@ struct CgpOptions {
     bool parsimony = true;  // of programs that are as good, a smaller one is better
     bool time = false;      // programs read how much of the episode is over
     std::uint64_t seed = 0;
+    // Asked by all threads, between generations: whether run() shall end early. May be empty.
+    std::function<bool()> stops;
 };
 
 // Of a program. More is better, then fewer steps, then fewer nodes. As long as nothing earns more

@@ -94,6 +94,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
 void Collector::collect(Experience& experience, std::uint64_t seed, std::int64_t update) {
     if (state_noise_.is_used()) state_noise_.look_at_policy();
     for (int t = 0; t < experience.rollout; ++t) {
+        if (options_.stops && options_.stops()) return;
         act(experience, t, seed, update);
         step(experience, t);
     }

@@ -6,6 +6,7 @@
 #include "solvers/spaces/observations.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,8 @@ struct PpoOptions {
     std::optional<bool> bootstraps;
     std::uint64_t seed = 0;
     int threads = 1;
+    // Asked by all threads, often: whether an update shall end early. May be empty.
+    std::function<bool()> stops;
 };
 
 // "fast" (the defaults), "sb3" (Stable-Baselines3's defaults), "rllib" (RLlib's). Nothing if there

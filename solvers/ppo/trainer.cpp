@@ -103,6 +103,8 @@ struct PpoTrainer::State {
         });
     }
 
+    bool is_stopped() const { return options.stops && options.stops(); }
+
     void collect(std::int64_t number) {
         for_each_collector([&](Collector& collector) {
             collector.return_origin = return_statistics.mean;
@@ -209,7 +211,8 @@ struct PpoTrainer::State {
                 samples += count;
                 kl_sum += some.kl;
                 kl_samples += count;
-                stops = options.kl_stop > 0 && some.kl / count > 1.5 * options.kl_stop;
+                stops = (options.kl_stop > 0 && some.kl / count > 1.5 * options.kl_stop) ||
+                        is_stopped();
             }
             progress.epochs += 1;
         }
@@ -308,9 +311,11 @@ struct PpoTrainer::State {
     void warm_up() {
         if (!options.normalises_observations && !options.normalises_rewards) return;
         collect(0);
+        if (is_stopped()) return;
         learn_scales();
         // Once more, about a mean that is near.
         collect(0);
+        if (is_stopped()) return;
         std::fill(feature_statistics.begin(), feature_statistics.end(), RunningStatistics{});
         return_statistics = {0, return_statistics.mean, 1};
         learn_scales();
@@ -321,6 +326,7 @@ struct PpoTrainer::State {
         auto begin = Clock::now();
         const double rate = scheduled_rate();
         collect(progress.updates);
+        if (is_stopped()) return;  // half a rollout teaches nothing
         learn_scales();
         estimate();
         progress.collect_seconds = seconds_since(begin);

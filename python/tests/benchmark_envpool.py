@@ -1,0 +1,73 @@
+"""Steps a second of EnvPool's classic-control environments and of the same systems in RDDL, in one run,
+in one thread, with 1,024 environments each:
+
+    PYTHONPATH=build/python python python/tests/benchmark_envpool.py
+
+Needs envpool and rddlrepository. Actions are drawn once; both begin episodes anew where they end (EnvPool
+in the next step, so ours do, too). By the clock, the best of parts that take turns, so compare within a
+line.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import envpool
+import numpy as np
+
+import rddlc
+
+ENVIRONMENTS = 1024
+PARTS, SECONDS = 7, 0.4  # of each
+SYSTEMS = [
+    ("CartPole-v1", "CartPole_Discrete_gym"),
+    ("MountainCar-v0", "MountainCar_Discrete_gym"),
+    ("MountainCarContinuous-v0", "MountainCar_Continuous_gym"),
+    ("Pendulum-v1", "Pendulum_gym"),
+    ("Acrobot-v1", "Acrobot_gym"),
+]
+
+
+def of_envpool(name: str) -> Any:
+    return envpool.make_gymnasium(
+        name, num_envs=ENVIRONMENTS, batch_size=ENVIRONMENTS, num_threads=1, seed=1
+    )
+
+
+def of_rddlc(name: str) -> Any:
+    return rddlc.make_vec(name, 0, num_envs=ENVIRONMENTS, threads=1)
+
+
+def actions_of(envs: Any) -> Any:
+    """A row for each environment."""
+    envs.action_space.seed(1)
+    if isinstance(envs, rddlc.RDDLVectorEnv):
+        return envs.action_space.sample()
+    return np.stack([envs.action_space.sample() for _ in range(ENVIRONMENTS)])
+
+
+def rate(envs: Any, actions: Any) -> float:
+    begin, steps = time.perf_counter(), 0
+    while (elapsed := time.perf_counter() - begin) < SECONDS:
+        for _ in range(10):
+            envs.step(actions)
+        steps += 10 * ENVIRONMENTS
+    return steps / elapsed
+
+
+def main() -> None:
+    print(f"{'EnvPool':26}{'steps/s':>12}   {'rddlc':28}{'steps/s':>12}  times as fast")
+    for theirs, ours in SYSTEMS:
+        pair = [of_envpool(theirs), of_rddlc(ours)]
+        actions = [actions_of(envs) for envs in pair]
+        for envs in pair:
+            envs.reset()
+        best = [0.0, 0.0]
+        for _ in range(PARTS):
+            best = [max(best[i], rate(envs, actions[i])) for i, envs in enumerate(pair)]
+        print(f"{theirs:26}{best[0]:12,.0f}   {ours:28}{best[1]:12,.0f}  {best[1] / best[0]:6.1f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
