@@ -96,10 +96,10 @@ TEST(Ppo, UpdatesAsStableBaselines3Does) {
         set_parameters(each["before"], model);
 
         const int count = static_cast<int>(each["observations"].size());
-        Experience experience(model, count, 1);
+        Experience experience(model, count, 1, 1);
         for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s) {
             for (std::size_t i = 0; i < inputs; ++i)
-                experience.features[s * inputs + i] = each["observations"][s][i];
+                experience.inputs[s * inputs + i] = each["observations"][s][i];
             for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
                 experience.numbers[s * model.actions.reals.size() + r] = each["actions"][s][r];
             for (std::size_t h = 0; h < model.actions.categories.size(); ++h)
@@ -321,7 +321,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     EXPECT_EQ(read("{}"), "it is no policy of PPO");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
-    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 1");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 2");
     EXPECT_NE(complaint([&] {
                   read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
               }).find("it is of the problem mountain_car_1"),
