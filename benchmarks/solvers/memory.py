@@ -22,8 +22,7 @@ PROBLEMS = {
     "t_maze 2": (MAZE / "domain.rddl", MAZE / "instance2.rddl"),
     **{f"{name} 1": (name, "1") for name in (
         "SkillTeaching_POMDP_ippc2011", "Navigation_POMDP_ippc2011", "CrossingTraffic_POMDP_ippc2011",
-        "Elevators_POMDP_ippc2011", "Tamarisk_POMDP_ippc2014", "Wildfire_POMDP_ippc2014",
-        "GameOfLife_POMDP_ippc2011", "AcademicAdvising_POMDP_ippc2014")},
+        "Elevators_POMDP_ippc2011", "Tamarisk_POMDP_ippc2014")},
 }
 KINDS = {"one observation": [], "`--stack 4`": ["--stack", 4], "`--recurrent 32`": ["--recurrent", 32]}
 EPISODES = 200  # of each evaluation
