@@ -110,7 +110,7 @@ int main() {
     const auto own_both = [&] {
         own_forward();
         own.backward(network, rows.data(), tile, features.data(), inputs, activations.data(),
-                     d.data(), scratch.data(), gradient.data());
+                     d.data(), scratch.data(), gradient.data(), nullptr);
     };
     const auto eigen_forward = [&] {
         eigen.forward(network, parameters.data());

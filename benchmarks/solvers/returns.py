@@ -42,14 +42,14 @@ RUNS = [
 ]
 
 
-def solve(rddl, problem, instance, solver, options, seed):
+def solve(rddl, problem, instance, solver, options, seed, episodes=50):
     with tempfile.TemporaryDirectory() as folder:
         begin = time.time()
         subprocess.run([str(w) for w in (rddl, "train", solver, problem, instance, "--out", f"{folder}/run", "--seed",
                                          seed, "--quiet", *options)], check=True, capture_output=True)
         seconds = time.time() - begin
-        out = subprocess.run([rddl, "evaluate", problem, instance, "--policy", f"{folder}/run", "--episodes", "50",
-                              "--seed", str(1000 + seed), "--json"], check=True, capture_output=True, text=True).stdout
+        out = subprocess.run([rddl, "evaluate", problem, instance, "--policy", f"{folder}/run", "--episodes",
+                              str(episodes), "--seed", str(1000 + seed), "--json"], check=True, capture_output=True, text=True).stdout
     policy = json.loads(out)["policies"][0]
     return {"return": policy["return"]["mean"], "length": policy["length"]["mean"], "seconds": seconds}
 

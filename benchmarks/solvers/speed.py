@@ -1,6 +1,6 @@
 """How fast the solvers are, in steps a second of one core: processor time counts, so that a busy machine says much the same.
 
-    benchmarks/solvers/speed.py [--rddl PROGRAM] [--repetitions 3]
+    benchmarks/solvers/speed.py [--rddl PROGRAM] [--repetitions 3] [--only "64 x 128"]
 
 The best of some repetitions, less what a run of nearly no steps takes (start, loading the simulator).
 """
@@ -19,6 +19,10 @@ RLTOOLS = ["--envs", 4, "--rollout", 1024, "--epochs", 2, "--minibatch", 256, "-
 CASES = [
     ("PPO, Pendulum, 4 x 1,024 steps, 2 epochs of 256", PENDULUM, "ppo", [*RLTOOLS, "--steps"], 8192, 614400, 1),
     ("PPO, Pendulum, 64 x 128 steps, 4 epochs of 1,024", PENDULUM, "ppo", ["--steps"], 8192, 614400, 1),
+    ("PPO, Pendulum, 64 x 128 steps, 4 epochs of 1,024, a memory of 32 units", PENDULUM, "ppo",
+     ["--recurrent", 32, "--steps"], 8192, 614400, 1),
+    ("PPO, Pendulum, 64 x 128 steps, 4 epochs of 1,024, a memory of 64 units", PENDULUM, "ppo",
+     ["--recurrent", 64, "--steps"], 8192, 614400, 1),
     ("PPO, MountainCar, as SB3: 10 epochs of 64", CAR, "ppo", ["--preset", "sb3", "--steps"], 2048, 104448, 1),
     ("CGP, MountainCar, evaluations", CAR, "cgp", ["--tune", 0, "--restart", 0, "--gens"], 10, 2010, 32),
 ]
@@ -35,8 +39,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--rddl", default=ROOT / "build/bin/rddl")
     parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--only", default="")
     arguments = parser.parse_args()
     for name, problem, solver, options, few, many, factor in CASES:
+        if arguments.only not in name:
+            continue
         def run(count):
             with tempfile.TemporaryDirectory() as folder:
                 return processor_seconds([arguments.rddl, "train", solver, *problem, "--out", f"{folder}/run", "--quiet",

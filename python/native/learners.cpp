@@ -158,6 +158,8 @@ Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::d
     options.take("gradient_norm", ppo.gradient_norm);
     options.take("hidden", ppo.hidden);
     options.take("stack", ppo.observations.stack);
+    options.take("recurrent", ppo.recurrent);
+    options.take("segment", ppo.segment);
     options.take("seed", ppo.seed);
     options.take("threads", ppo.threads);
     options.finish();

@@ -167,7 +167,7 @@ class PPO(Learner):
     preset: "fast", "sb3" (Stable-Baselines3's defaults) or "rllib". options, as `rddl help train ppo`
     tells them: environments, rollout, epochs, minibatch, learning_rate, schedule ("linear",
     "constant", "kl"), gamma, gae_lambda, clip, value_weight, gradient_norm, hidden (a list), stack,
-    seed, threads.
+    recurrent, segment, seed, threads.
     """
 
     extension, total = ".json", "steps"

@@ -11,7 +11,7 @@ import rddlc
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples"
 WRITTEN = tempfile.TemporaryDirectory()  # the files of problems, which are read again
-EXAMPLES = ("cart_pole", "delivery", "mountain_car", "network", "reservoir", "robot")
+EXAMPLES = ("cart_pole", "delivery", "mountain_car", "network", "reservoir", "robot", "t_maze")
 
 DOOR = """
 domain doors {

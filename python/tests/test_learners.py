@@ -28,8 +28,13 @@ class Learners(unittest.TestCase):
         ppo = rddlc.PPO(problem, environments=4, rollout=16, minibatch=64, seed=1)
         return [ppo.learn(200), rddlc.CGP(problem, children=4, nodes=20, seed=1).learn(5)]
 
+    def recurrent(self) -> rddlc.Learner:
+        maze = example("t_maze").problem
+        options = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
+        return rddlc.PPO(maze, recurrent=6, segment=8, **options).learn(2000)
+
     def test_what_is_saved_acts_alike(self) -> None:
-        for model in self.models():
+        for model in (*self.models(), self.recurrent()):
             with tempfile.TemporaryDirectory() as folder:
                 file = model.save(Path(folder) / "policy")
                 self.assertEqual(file.suffix, model.extension)
@@ -37,12 +42,25 @@ class Learners(unittest.TestCase):
             self.assertEqual(again.evaluate(3, seed=5), model.evaluate(3, seed=5))
 
     def test_predictions_earn_what_evaluations_tell(self) -> None:
-        for model in self.models():
+        for model in (*self.models(), self.recurrent()):
             for vectorized in (False, True):
                 env = rddlc.make(model.problem, vectorized=vectorized)
                 expected = model.evaluate(1, seed=3).returns.mean
                 self.assertAlmostEqual(played(model, env, 3), expected)
                 self.assertAlmostEqual(played(model, env, 3), expected)
+
+    def test_each_environment_has_a_memory_of_its_own(self) -> None:
+        maze = example("t_maze").problem
+        # It solves the maze, so what it does at the junction depends on what each has seen before.
+        model = rddlc.PPO(maze, environments=16, minibatch=256, epochs=10, learning_rate=1e-3,
+                          hidden=[32, 32], recurrent=16, seed=1)  # fmt: skip
+        model.learn(80_000)
+        envs = rddlc.make_vec(maze, num_envs=8, observations="dict", actions="dict")
+        envs.reset(seed=3)
+        rewards = [envs.step(model.predict(envs)[0])[1] for _ in range(40)]
+        paid = [reward for step in rewards for reward in step if reward > 0]
+        self.assertGreater(len(paid), 16)
+        self.assertTrue(all(reward >= 0 for step in rewards for reward in step))
 
     def test_predictions_of_many_environments(self) -> None:
         for model in self.models():

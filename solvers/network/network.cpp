@@ -1,8 +1,11 @@
 #include "solvers/network/network.hpp"
 
+#include "solvers/network/gru.hpp"
+
 #include <rddl/processor.hpp>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace rddlc::solvers {
 
@@ -32,16 +35,32 @@ namespace avx2 {
 #endif
 #endif
 
+#ifdef __x86_64__
+namespace {
+bool has_avx2() {
+    static const bool has = rddl::allowed_instruction_set() != rddl::InstructionSet::Sse2;
+    return has;
+}
+}  // namespace
+#endif
+
 const NetworkFunctions<float>& network_functions() {
 #ifdef __x86_64__
-    static const bool has_avx2 = rddl::allowed_instruction_set() != rddl::InstructionSet::Sse2;
-    if (has_avx2) return avx2::functions<float>;
+    if (has_avx2()) return avx2::functions<float>;
 #endif
     return portable::functions<float>;
 }
 
-Network make_network(int inputs, const std::vector<int>& hidden, int outputs) {
+const GruFunctions<float>& gru_functions() {
+#ifdef __x86_64__
+    if (has_avx2()) return avx2::gru_functions_of<float>;
+#endif
+    return portable::gru_functions_of<float>;
+}
+
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner) {
     Network network;
+    network.inner = inner;
     std::vector<int> widths = hidden;
     widths.push_back(outputs);
     for (const int width : widths) {
@@ -55,15 +74,27 @@ Network make_network(int inputs, const std::vector<int>& hidden, int outputs) {
                                          static_cast<std::size_t>(layer.padded_outputs);
         network.parameters = layer.bias + static_cast<std::size_t>(layer.padded_outputs);
         layer.rows = network.rows;
-        if (!network.layers.empty())
-            network.rows +=
-                static_cast<std::size_t>(width) * static_cast<std::size_t>(layer.padded_inputs);
+        const int row = network.layers.empty() ? padded(inner) : layer.padded_inputs;
+        network.rows += static_cast<std::size_t>(width) * static_cast<std::size_t>(row);
         layer.values = network.activations;
         network.activations += static_cast<std::size_t>(layer.padded_outputs);
         network.layers.push_back(layer);
         inputs = width;
     }
     return network;
+}
+
+Gru make_gru(int inputs, int units) {
+    Gru gru;
+    gru.inputs = inputs;
+    gru.units = units;
+    gru.padded_units = padded(units);
+    const auto columns = static_cast<std::size_t>(3 * gru.padded_units);
+    gru.state_weights = static_cast<std::size_t>(inputs) * columns;
+    gru.bias = gru.state_weights + static_cast<std::size_t>(units) * columns;
+    gru.parameters = gru.bias + static_cast<std::size_t>(gru.values());
+    gru.rows = columns * static_cast<std::size_t>(gru.padded_units);
+    return gru;
 }
 
 }  // namespace rddlc::solvers

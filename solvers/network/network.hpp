@@ -27,15 +27,17 @@ struct Layer {
 // All hidden layers end with tanh, the last one with nothing.
 struct Network {
     std::vector<Layer> layers;
-    std::size_t parameters = 0;   // numbers
-    std::size_t rows = 0;         // numbers: weights as [output][padded input], for backward()
+    int inner = 0;  // of the inputs, the last ones, come from another network: backward() tells it
+    std::size_t parameters = 0;  // numbers
+    std::size_t rows = 0;  // numbers: weights as [output][padded input], for backward(); of the
+                           // first layer those of the inner inputs
     std::size_t activations = 0;  // numbers of a sample: results of all layers
     int inputs() const { return layers.front().inputs; }
     int outputs() const { return layers.back().outputs; }
     int padded_outputs() const { return layers.back().padded_outputs; }
 };
 
-Network make_network(int inputs, const std::vector<int>& hidden, int outputs);
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner = 0);
 
 // Samples that go through all layers together, so that what they need stays in a processor's cache.
 inline constexpr int tile = 64;
@@ -48,11 +50,13 @@ struct NetworkFunctions {
     void (*forward)(const Network&, const Real* parameters, int count, const Real* x, int x_row,
                     Real* activations);
     // Adds the gradient by the parameters to `gradient`, given that by the last layer's results in
-    // `d_outputs`, whose padding is 0. `rows` is what transpose() has made; `scratch` has as many
-    // numbers as the activations.
+    // `d_outputs`, whose padding is 0, and that by the inner inputs to `d_inner` (NULL where there
+    // are none), rows of padded(inner) numbers. `rows` is what transpose() has made; `scratch` has
+    // as many numbers as the activations.
     void (*backward)(const Network&, const Real* rows, int count, const Real* x, int x_row,
-                     const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient);
-    // The weights of all layers but the first, as rows.
+                     const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient,
+                     Real* d_inner);
+    // The weights as rows.
     void (*transpose)(const Network&, const Real* parameters, Real* rows);
     // to += from; sizes are multiples of the padding.
     void (*add)(std::size_t count, const Real* from, Real* to);

@@ -1,5 +1,5 @@
-// NetworkFunctions for one instruction set. Included once for each, within a namespace of its own;
-// includes nothing that would be compiled for it.
+// NetworkFunctions and GruFunctions for one instruction set. Included once for each, within a
+// namespace of its own; includes nothing that would be compiled for it.
 
 #include "solvers/network/kernels.hpp"
 
@@ -24,7 +24,8 @@ void forward(const Network& network, const Real* parameters, int count, const Re
 
 template <class Real>
 void backward(const Network& network, const Real* rows, int count, const Real* x, int x_row,
-              const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient) {
+              const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient,
+              Real* d_inner) {
     const auto values_of = [&](std::size_t l) {
         return activations + network.layers[l].values * static_cast<std::size_t>(count);
     };
@@ -36,7 +37,12 @@ void backward(const Network& network, const Real* rows, int count, const Real* x
         product<true>(layer.inputs, layer.padded_outputs, count, Strided<Real>{input, 1, input_row},
                       d, layer.padded_outputs, gradient + layer.weights, layer.padded_outputs);
         add_rows(count, layer.padded_outputs, d, gradient + layer.bias);
-        if (l == 0) return;
+        if (l == 0) {
+            const int inner = padded(network.inner);
+            product<true>(count, inner, layer.outputs, Strided<Real>{d, layer.padded_outputs, 1},
+                          rows + layer.rows, inner, d_inner, inner);
+            return;
+        }
         Real* const d_input =
             scratch + network.layers[l - 1].values * static_cast<std::size_t>(count);
         product<false>(count, layer.padded_inputs, layer.outputs,
@@ -49,13 +55,15 @@ void backward(const Network& network, const Real* rows, int count, const Real* x
 
 template <class Real>
 void transpose(const Network& network, const Real* parameters, Real* rows) {
-    for (std::size_t l = 1; l < network.layers.size(); ++l) {
+    for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const Layer& layer = network.layers[l];
+        const int first = l == 0 ? layer.inputs - network.inner : 0;
+        const int row = padded(layer.inputs - first);
         const Real* const from = parameters + layer.weights;
         Real* const to = rows + layer.rows;
         for (int o = 0; o < layer.outputs; ++o)
-            for (int i = 0; i < layer.inputs; ++i)
-                to[o * layer.padded_inputs + i] = from[i * layer.padded_outputs + o];
+            for (int i = first; i < layer.inputs; ++i)
+                to[o * row + i - first] = from[i * layer.padded_outputs + o];
     }
 }
 
@@ -91,3 +99,5 @@ void adam(std::size_t count, const Real* gradient, Real factor, Real rate, Real 
 template <class Real>
 constexpr NetworkFunctions<Real> functions{forward<Real>, backward<Real>, transpose<Real>,
                                            add<Real>, adam<Real>};
+
+#include "solvers/network/gru_variant.hpp"

@@ -40,6 +40,7 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
       batch_(create_batch(simulator, batch_options(share.count))),
       chooser_(simulator, model.actions, options.noise, options.correlation, share.count),
       state_noise_(model, share.count),
+      memories_(model, share.count),
       seen_(model, static_cast<std::size_t>(share.count)) {
     const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
@@ -48,7 +49,7 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
     observations_.resize(environments * columns);
     final_observations_.resize(environments * columns);
     final_features_.resize(features);
-    normalised_.resize(features);
+    inputs_.resize(static_cast<std::size_t>(model.input_row()));
     actions_.resize(environments * static_cast<std::size_t>(model.actions.column_count));
     activations_.resize(tile * std::max(model.policy.activations, model.value.activations));
     outputs_.resize(environments * static_cast<std::size_t>(model.policy.padded_outputs()));
@@ -83,6 +84,7 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
                        features_.data() + e * model_.features());
         chooser_.begin_episode(e);
         state_noise_.begin_episode(e);
+        memories_.begin_episode(e);
         const auto at = static_cast<std::size_t>(e);
         seen_.begin_episode(at, features_.data() + e * model_.features());
         steps_[at] = 0;
@@ -93,22 +95,30 @@ void Collector::begin_update(std::uint64_t seed, std::int64_t update) {
 
 void Collector::collect(Experience& experience, std::uint64_t seed, std::int64_t update) {
     if (state_noise_.is_used()) state_noise_.look_at_policy();
-    for (int t = 0; t < experience.rollout; ++t) {
+    for (int t = 0, part = 0; t < experience.rollout; ++t) {
         if (options_.stops && options_.stops()) return;
+        if (experience.segments.begins(part, t)) note_memories(experience, part++);
         act(experience, t, seed, update);
         step(experience, t);
     }
     estimate_values(experience);
 }
 
+void Collector::note_memories(Experience& experience, int part) {
+    const auto row = static_cast<std::size_t>(model_.memory.padded_units);
+    const std::int64_t first = std::int64_t{part} * experience.environments + first_;
+    std::copy_n(memories_.of(0), static_cast<std::size_t>(count_) * row,
+                experience.memories.data() + static_cast<std::size_t>(first) * row);
+}
+
 void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
                     std::int64_t update) {
     const std::size_t begin = static_cast<std::size_t>(t * experience.environments + first_);
-    const int width = model_.features();
+    const int width = model_.features(), row = model_.input_row();
     const int output_row = model_.policy.padded_outputs();
-    float* const rows = experience.features.data() + begin * static_cast<std::size_t>(width);
+    float* const rows = experience.inputs.data() + begin * static_cast<std::size_t>(row);
     for (std::int64_t e = 0; e < count_; ++e)
-        model_.normaliser.write(features_.data() + e * width, rows + e * width);
+        model_.normaliser.write(features_.data() + e * width, rows + e * row);
     const auto key_of = [&](std::int64_t e) {
         return ChoiceKey{seed, static_cast<std::uint64_t>(origin_ + first_ + e),
                          static_cast<std::uint64_t>(update * experience.rollout + t)};
@@ -116,7 +126,8 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
     const NetworkFunctions<float>& functions = network_functions();
     for (std::int64_t e = 0; e < count_; e += tile) {
         const int some = static_cast<int>(std::min<std::int64_t>(tile, count_ - e));
-        functions.forward(model_.policy, model_.parameters.data(), some, rows + e * width, width,
+        memories_.remember(e, some, rows + e * row);
+        functions.forward(model_.policy, model_.parameters.data(), some, rows + e * row, row,
                           activations_.data());
         std::copy_n(activations_.data() +
                         model_.policy.layers.back().values * static_cast<std::size_t>(some),
@@ -127,8 +138,8 @@ void Collector::act(Experience& experience, std::int64_t t, std::uint64_t seed,
                                   i * hidden_row(model_.policy),
                               key_of(e + i));
     }
-    const auto at = [&](auto& values, int row) {
-        return values.data() + begin * static_cast<std::size_t>(row);
+    const auto at = [&](auto& values, int size) {
+        return values.data() + begin * static_cast<std::size_t>(size);
     };
     const ActionSpace& actions = model_.actions;
     const Chosen chosen{at(experience.numbers, actions.real_count()),
@@ -196,7 +207,8 @@ void Collector::step(Experience& experience, std::int64_t t) {
             write_features(model_.observations,
                            final_observations_.data() + e * static_cast<std::size_t>(columns),
                            steps_[e], false, final_features_.data());
-            experience.next_values[sample] = value_of(final_features_.data());
+            experience.next_values[sample] =
+                value_of(static_cast<std::int64_t>(e), final_features_.data());
         } else {
             experience.next_values[sample] = 0;
         }
@@ -206,27 +218,30 @@ void Collector::step(Experience& experience, std::int64_t t) {
         steps_[e] = 0;
         chooser_.begin_episode(static_cast<std::int64_t>(e));
         state_noise_.begin_episode(static_cast<std::int64_t>(e));
+        memories_.begin_episode(static_cast<std::int64_t>(e));
         write_features(model_.observations, values, 0, true, features);
         seen_.begin_episode(e, features);
         experience.novelties[sample] = 0;
     }
 }
 
-float Collector::value_of(const float* features) {
-    model_.normaliser.write(features, normalised_.data());
-    network_functions().forward(model_.value, model_.value_parameters(), 1, normalised_.data(),
-                                model_.features(), activations_.data());
+// Of the state that comes next in its episode.
+float Collector::value_of(std::int64_t e, const float* features) {
+    model_.normaliser.write(features, inputs_.data());
+    memories_.look(e, 1, inputs_.data());
+    network_functions().forward(model_.value, model_.value_parameters(), 1, inputs_.data(),
+                                model_.input_row(), activations_.data());
     return activations_[model_.value.layers.back().values];
 }
 
 // Of all samples of its environments, and of the states that they are in now.
 void Collector::estimate_values(Experience& experience) {
-    const int width = model_.features();
+    const int width = model_.features(), row = model_.input_row();
     const std::size_t result = model_.value.layers.back().values;
     const NetworkFunctions<float>& functions = network_functions();
     const auto write = [&](std::int64_t sample, int count) {
         functions.forward(model_.value, model_.value_parameters(), count,
-                          experience.features.data() + sample * width, width, activations_.data());
+                          experience.inputs.data() + sample * row, row, activations_.data());
         for (int i = 0; i < count; ++i)
             experience.values[static_cast<std::size_t>(sample + i)] =
                 activations_[result * static_cast<std::size_t>(count) +
@@ -247,7 +262,7 @@ void Collector::estimate_values(Experience& experience) {
     for (std::int64_t e = 0; e < count_; ++e) {
         const auto sample = static_cast<std::size_t>(last + e);
         if (!experience.ends[sample])
-            experience.next_values[sample] = value_of(features_.data() + e * width);
+            experience.next_values[sample] = value_of(e, features_.data() + e * width);
     }
 }
 
@@ -265,6 +280,7 @@ void Collector::archive(Archive& archive) {
     archive(chooser_.noise());
     archive(chooser_.has_noise());
     state_noise_.archive(archive);
+    memories_.archive(archive);
     seen_.archive(archive);
     archive(steps_);
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);

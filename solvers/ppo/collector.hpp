@@ -5,6 +5,7 @@
 #include "solvers/files/archive.hpp"
 #include "solvers/ppo/curiosity.hpp"
 #include "solvers/ppo/experience.hpp"
+#include "solvers/ppo/memories.hpp"
 #include "solvers/ppo/state_noise.hpp"
 
 #include <rddl/simulator.h>
@@ -54,7 +55,8 @@ class Collector {
     void act(Experience& experience, std::int64_t step, std::uint64_t seed, std::int64_t update);
     void step(Experience& experience, std::int64_t step);
     void estimate_values(Experience& experience);
-    float value_of(const float* features);
+    void note_memories(Experience& experience, int part);
+    float value_of(std::int64_t e, const float* features);
     void count_features(std::size_t e);
 
     const rddl_simulator& simulator_;
@@ -66,10 +68,11 @@ class Collector {
     Batch batch_;
     Chooser chooser_;
     StateNoise state_noise_;
+    Memories memories_;
     Seen seen_;
     std::vector<float> features_;      // rows as they are, of each environment
     std::vector<float> observations_;  // rows of the simulator's values
-    std::vector<float> final_observations_, final_features_, normalised_;
+    std::vector<float> final_observations_, final_features_, inputs_;
     std::vector<float> actions_, activations_, outputs_;
     std::vector<double> rewards_;
     std::vector<std::uint8_t> terminated_, truncated_, causes_;

@@ -4,6 +4,7 @@
 #include "solvers/choosing/choosing.hpp"
 #include "solvers/ppo/loss.hpp"
 #include "solvers/ppo/model.hpp"
+#include "solvers/ppo/segments.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +14,9 @@ namespace rddlc::solvers {
 // Sample t * environments + e is step t of environment e; rows as in Samples.
 struct Experience {
     int environments = 0, rollout = 0;
-    std::vector<float> features;  // normalised, rows of feature_count
+    Segments segments;
+    std::vector<float> inputs;    // of the networks: normalised features, and what is remembered
+    std::vector<float> memories;  // what was remembered when each segment began, padded
     std::vector<float> numbers, shifts, spreads, log_probabilities;
     std::vector<std::int32_t> indices;
     std::vector<std::uint8_t> masks;
@@ -23,13 +26,16 @@ struct Experience {
     std::vector<std::uint8_t> ends;
 
     Experience() = default;
-    Experience(const PpoModel& model, int its_environments, int its_rollout)
-        : environments(its_environments), rollout(its_rollout) {
+    Experience(const PpoModel& model, int its_environments, int its_rollout, int longest_segment)
+        : environments(its_environments),
+          rollout(its_rollout),
+          segments(its_environments, its_rollout, longest_segment) {
         const std::size_t samples = count();
         const auto rows = [&](int size) {
             return samples * static_cast<std::size_t>(size);
         };
-        features.resize(rows(model.features()));
+        inputs.resize(rows(model.input_row()));
+        memories.resize(segments.count() * static_cast<std::size_t>(model.memory.padded_units));
         numbers.resize(rows(model.actions.real_count()));
         shifts.resize(numbers.size());
         indices.resize(rows(model.actions.index_count()));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -20,14 +21,16 @@ std::string array_text(const std::string& name, const std::vector<float>& values
     return text + "};\n";
 }
 
-// Outputs times inputs, row by row.
-std::vector<float> weights_of(const Layer& layer, const float* parameters) {
+// Outputs times inputs, row by row; in the array those of an input are a row of `row` numbers.
+std::vector<float> transposed(int outputs, int inputs, int row, const float* parameters) {
     std::vector<float> weights;
-    for (int o = 0; o < layer.outputs; ++o)
-        for (int i = 0; i < layer.inputs; ++i)
-            weights.push_back(
-                parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)]);
+    for (int o = 0; o < outputs; ++o)
+        for (int i = 0; i < inputs; ++i) weights.push_back(parameters[i * row + o]);
     return weights;
+}
+std::vector<float> weights_of(const Layer& layer, const float* parameters) {
+    return transposed(layer.outputs, layer.inputs, layer.padded_outputs,
+                      parameters + layer.weights);
 }
 std::vector<float> bias_of(const Layer& layer, const float* parameters) {
     const float* const bias = parameters + layer.bias;
@@ -54,6 +57,35 @@ std::string with_points(std::string text) {
     return result;
 }
 
+// Weights and bias of what remembers, in the order of `order` (indices of gru_parts), as ONNX has
+// them: W and R [part][unit][input], and the biases of both.
+struct GruArrays {
+    std::vector<float> input, state, bias;
+};
+GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
+    const Gru& gru = model.memory;
+    const float* const parameters = model.memory_parameters();
+    const auto parts = gru_parts(gru);
+    GruArrays arrays;
+    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    for (const int p : order) {
+        const GruPart& part = parts[static_cast<std::size_t>(p)];
+        append(arrays.input, transposed(gru.units, gru.inputs, gru.weight_row(),
+                                        parameters + part.input_weights));
+        append(arrays.state,
+               transposed(gru.units, gru.units, gru.weight_row(), parameters + part.state_weights));
+        append(arrays.bias, {parameters + part.bias, parameters + part.bias + gru.units});
+    }
+    // Only the candidate has one for what it reads of the state.
+    const float* const read = parameters + gru.state_bias();
+    for (const int p : order)
+        append(arrays.bias, p == 0 ? std::vector<float>(read, read + gru.units)
+                                   : std::vector<float>(static_cast<std::size_t>(gru.units)));
+    return arrays;
+}
+
 // For each output 1 where it ends with tanh, else 0.
 std::vector<float> squashed_outputs(const PpoModel& model) {
     std::vector<float> squashed(static_cast<std::size_t>(model.policy.outputs()));
@@ -61,6 +93,43 @@ std::vector<float> squashed_outputs(const PpoModel& model) {
         squashed[r] = model.actions.reals[r].range == RealHead::Range::Squashed;
     return squashed;
 }
+
+// ------------------------------------------------------------------------------------- C++
+
+std::string memory_arrays_cpp(const PpoModel& model) {
+    const GruArrays arrays = arrays_of(model, {0, 1, 2});
+    return fmt::format(
+               "// What is remembered of the episode: zeros before its first step.\n"
+               "constexpr int memory_count = {};\n\n"
+               "// Of the candidate, of reset and of update: a row for each unit.\n",
+               model.recurrent) +
+           with_points(array_text("memory_input", arrays.input)) +
+           with_points(array_text("memory_state", arrays.state)) +
+           "// And then of what the candidate reads of the state.\n" +
+           with_points(array_text(
+               "memory_bias", {arrays.bias.begin(), arrays.bias.begin() + 4 * model.recurrent}));
+}
+
+constexpr const char* remember_cpp = R"(// K. Cho et al., 2014: gated recurrent units.
+inline void remember(const float* x, float* memory) {
+    float next[memory_count];
+    for (int u = 0; u < memory_count; ++u) {
+        float part[4];
+        for (int p = 0; p < 4; ++p) part[p] = memory_bias[p * memory_count + u];
+        for (int p = 0; p < 3; ++p) {
+            const int row = p * memory_count + u;
+            for (int i = 0; i < feature_count; ++i) part[p] += memory_input[row * feature_count + i] * x[i];
+            float& sum = part[p == 0 ? 3 : p];
+            for (int i = 0; i < memory_count; ++i) sum += memory_state[row * memory_count + i] * memory[i];
+        }
+        const float reset = 1 / (1 + std::exp(-part[1])), update = 1 / (1 + std::exp(-part[2]));
+        const float candidate = std::tanh(part[0] + reset * part[3]);
+        next[u] = candidate + update * (memory[u] - candidate);
+    }
+    for (int u = 0; u < memory_count; ++u) memory[u] = next[u];
+}
+
+)";
 
 // ------------------------------------------------------------------------------------ ONNX
 
@@ -78,19 +147,35 @@ std::string tensor(const std::string& name, const std::vector<std::int64_t>& sha
     return out;
 }
 
+struct Attribute {
+    const char* name;
+    int value;
+};
 std::string node(const std::string& operation, const std::vector<std::string>& inputs,
-                 const std::string& output, bool transposes = false) {
+                 const std::vector<std::string>& outputs,
+                 const std::vector<Attribute>& attributes = {}) {
     std::string out;
     for (const std::string& input : inputs) append_bytes(out, 1, input);
-    append_bytes(out, 2, output);
+    for (const std::string& output : outputs) append_bytes(out, 2, output);
     append_bytes(out, 4, operation);
-    if (transposes) {
+    for (const Attribute& each : attributes) {
         std::string attribute;
-        append_bytes(attribute, 1, "transB");
-        append_number(attribute, 3, 1);
+        append_bytes(attribute, 1, each.name);
+        append_number(attribute, 3, static_cast<std::uint64_t>(each.value));
         append_number(attribute, 20, 2);  // INT
         append_bytes(out, 5, attribute);
     }
+    return out;
+}
+
+// Of 64-bit ints: where dimensions of 1 are.
+std::string axes_tensor(const std::string& name, std::int64_t axis) {
+    std::string out, raw;
+    append_number(out, 1, 1);
+    append_number(out, 2, 7);  // INT64
+    append_bytes(out, 8, name);
+    append_little_endian(raw, static_cast<std::uint64_t>(axis), 8);
+    append_bytes(out, 9, raw);
     return out;
 }
 
@@ -137,9 +222,11 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         "\n#pragma once\n\n#include <cmath>\n\nnamespace policy {{\n\n"
         "constexpr int feature_count = {}, output_count = {};\n\n",
         model.features(), network.outputs());
+    const bool remembers = model.recurrent > 0;
+    if (remembers) text += memory_arrays_cpp(model);
     text += with_points(array_text("means", model.normaliser.means));
     text += with_points(array_text("factors", model.normaliser.factors));
-    std::size_t widest = static_cast<std::size_t>(model.features());
+    std::size_t widest = static_cast<std::size_t>(network.inputs());
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const Layer& layer = network.layers[l];
         text += with_points(
@@ -156,12 +243,15 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         "        float sum = bias[o];\n"
         "        for (int i = 0; i < inputs; ++i) sum += weights[o * inputs + i] * from[i];\n"
         "        to[o] = last ? sum : std::tanh(sum);\n    }}\n}}\n\n"
-        "inline void act(const float* features, float* outputs) {{\n"
+        "{1}inline void act(const float* features, {2}float* outputs) {{\n"
         "    float a[{0}], b[{0}];\n"
         "    for (int f = 0; f < feature_count; ++f) {{\n"
         "        const float x = (features[f] - means[f]) * factors[f];\n"
-        "        a[f] = x > 10 ? 10 : x < -10 ? -10 : x;\n    }}\n",
-        widest);
+        "        a[f] = x > 10 ? 10 : x < -10 ? -10 : x;\n    }}\n{3}",
+        widest, remembers ? remember_cpp : "", remembers ? "float* memory, " : "",
+        remembers ? "    remember(a, memory);\n"
+                    "    for (int u = 0; u < memory_count; ++u) a[feature_count + u] = memory[u];\n"
+                  : "");
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const Layer& layer = network.layers[l];
         const bool last = l + 1 == network.layers.size();
@@ -186,22 +276,33 @@ std::string ppo_policy_onnx(const PpoModel& model) {
     const auto add_node = [&](const std::string& bytes) {
         append_bytes(graph, 1, bytes);
     };
-    add_node(node("Sub", {"features", "means"}, "centred"));
-    add_node(node("Mul", {"centred", "factors"}, "scaled"));
-    add_node(node("Clip", {"scaled", "least", "most"}, "x0"));
+    const bool remembers = model.recurrent > 0;
+    add_node(node("Sub", {"features", "means"}, {"centred"}));
+    add_node(node("Mul", {"centred", "factors"}, {"scaled"}));
+    add_node(node("Clip", {"scaled", "least", "most"}, {remembers ? "seen" : "x0"}));
+    if (remembers) {
+        // A sequence of one step.
+        add_node(node("Unsqueeze", {"seen", "first"}, {"sequence"}));
+        add_node(node("Unsqueeze", {"memory", "first"}, {"states"}));
+        add_node(node(
+            "GRU", {"sequence", "memory_input", "memory_state", "memory_bias", "", "states"},
+            {"", "next_states"}, {{"hidden_size", model.recurrent}, {"linear_before_reset", 1}}));
+        add_node(node("Squeeze", {"next_states", "first"}, {"next_memory"}));
+        add_node(node("Concat", {"seen", "next_memory"}, {"x0"}, {{"axis", 1}}));
+    }
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const bool last = l + 1 == network.layers.size();
         add_node(node(
             "Gemm", {fmt::format("x{}", l), fmt::format("weights{}", l), fmt::format("bias{}", l)},
-            last ? (squashes ? "all" : "outputs") : fmt::format("sum{}", l), true));
-        if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, fmt::format("x{}", l + 1)));
+            {last ? (squashes ? "all" : "outputs") : fmt::format("sum{}", l)}, {{"transB", 1}}));
+        if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, {fmt::format("x{}", l + 1)}));
     }
     if (squashes) {
         // all + squashed * (tanh(all) - all)
-        add_node(node("Tanh", {"all"}, "tanh"));
-        add_node(node("Sub", {"tanh", "all"}, "change"));
-        add_node(node("Mul", {"change", "squashed"}, "some"));
-        add_node(node("Add", {"all", "some"}, "outputs"));
+        add_node(node("Tanh", {"all"}, {"tanh"}));
+        add_node(node("Sub", {"tanh", "all"}, {"change"}));
+        add_node(node("Mul", {"change", "squashed"}, {"some"}));
+        add_node(node("Add", {"all", "some"}, {"outputs"}));
     }
     append_bytes(graph, 2, "policy");
     const auto add_tensor = [&](const std::string& name, const std::vector<std::int64_t>& shape,
@@ -211,6 +312,14 @@ std::string ppo_policy_onnx(const PpoModel& model) {
     add_tensor("means", {model.features()}, model.normaliser.means);
     add_tensor("factors", {model.features()}, model.normaliser.factors);
     if (squashes) add_tensor("squashed", {network.outputs()}, squashed);
+    if (remembers) {
+        const GruArrays arrays = arrays_of(model, {2, 1, 0});
+        const std::int64_t units = model.recurrent;
+        add_tensor("memory_input", {1, 3 * units, model.features()}, arrays.input);
+        add_tensor("memory_state", {1, 3 * units, units}, arrays.state);
+        add_tensor("memory_bias", {1, 6 * units}, arrays.bias);
+        append_bytes(graph, 5, axes_tensor("first", 0));
+    }
     add_tensor("least", {}, {-10});
     add_tensor("most", {}, {10});
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
@@ -221,7 +330,9 @@ std::string ppo_policy_onnx(const PpoModel& model) {
                    bias_of(layer, model.parameters.data()));
     }
     append_bytes(graph, 11, value_info("features", model.features()));
+    if (remembers) append_bytes(graph, 11, value_info("memory", model.recurrent));
     append_bytes(graph, 12, value_info("outputs", network.outputs()));
+    if (remembers) append_bytes(graph, 12, value_info("next_memory", model.recurrent));
     std::string opset, out;
     append_bytes(opset, 1, "");
     append_number(opset, 2, 13);

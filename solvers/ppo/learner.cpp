@@ -13,12 +13,18 @@ namespace rddlc::solvers {
 
 namespace {
 
-// So many samples sum up their gradients in one place; then these sums are added in their order. So
-// results do not depend on which thread has done which of them.
+// About so many samples sum up their gradients in one place; then these sums are added in their
+// order. So results do not depend on which thread has done which of them.
 constexpr std::size_t chunk = 4 * tile;
 
 std::size_t parts(std::size_t count, std::size_t size) {
     return (count + size - 1) / size;
+}
+
+void gather_rows(std::span<const std::uint32_t> samples, const auto* from, int row, auto* to) {
+    const auto size = static_cast<std::size_t>(row);
+    for (std::size_t s = 0; s < samples.size(); ++s)
+        std::copy_n(from + samples[s] * size, size, to + s * size);
 }
 
 }  // namespace
@@ -32,17 +38,25 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
       ranks_(ranks),
       workplaces_(static_cast<std::size_t>(team.size())),
       policy_rows_(model.policy.rows),
-      value_rows_(model.value.rows) {
-    const std::size_t chunks = parts(static_cast<std::size_t>(options.minibatch), chunk);
+      value_rows_(model.value.rows),
+      memory_rows_(model.memory.rows) {
+    const auto longest = static_cast<std::size_t>(longest_segment(options));
+    segments_per_chunk_ = std::max<std::size_t>(chunk / longest, 1);
+    const std::size_t chunks = parts(segments_per_minibatch(options), segments_per_chunk_);
     gradients_.assign(chunks, std::vector<float>(model.parameters.size()));
     sums_.resize(chunks);
     if (model.noise == Noise::Sde)
         weight_variances_.resize(static_cast<std::size_t>(model.deviation_count()));
-    for (Workplace& place : workplaces_) {
+    for (Workplace& workplace : workplaces_) {
+        const std::size_t samples = segments_per_chunk_ * longest;
+        workplace.samples.reserve(samples);
+        workplace.inputs.resize((model.recurrent > 0 ? samples : tile) *
+                                static_cast<std::size_t>(model.input_row()));
+        if (model.recurrent > 0) workplace.unrolled = Unrolled(model, segments_per_chunk_, longest);
+        Tile& place = workplace.tile;
         const auto rows = [](auto& values, int row) {
             values.resize(static_cast<std::size_t>(tile * row));
         };
-        rows(place.features, model.features());
         rows(place.numbers, model.actions.real_count());
         rows(place.shifts, model.actions.real_count());
         rows(place.log_deviations, model.actions.real_count());
@@ -62,13 +76,10 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
 }
 
 void Learner::gather(const Experience& experience, std::span<const std::uint32_t> samples,
-                     Workplace& place) const {
+                     Tile& place) const {
     const auto copy_rows = [&](const auto& from, auto& to, int row) {
-        const auto size = static_cast<std::size_t>(row);
-        for (std::size_t s = 0; s < samples.size(); ++s)
-            std::copy_n(from.data() + samples[s] * size, size, to.data() + s * size);
+        gather_rows(samples, from.data(), row, to.data());
     };
-    copy_rows(experience.features, place.features, model_.features());
     copy_rows(experience.numbers, place.numbers, model_.actions.real_count());
     copy_rows(experience.shifts, place.shifts, model_.actions.real_count());
     copy_rows(experience.indices, place.indices, model_.actions.index_count());
@@ -84,18 +95,17 @@ void Learner::gather(const Experience& experience, std::span<const std::uint32_t
 }
 
 void Learner::learn_tile(const Experience& experience, std::span<const std::uint32_t> samples,
-                         const LossWeights& weights, Workplace& place, float* gradient,
-                         LossSums& sums) const {
+                         const LossWeights& weights, Tile& place, const float* inputs,
+                         float* d_memory, float* gradient, LossSums& sums) const {
     gather(experience, samples, place);
     const NetworkFunctions<float>& functions = network_functions();
-    const int count = static_cast<int>(samples.size()), width = model_.features();
-    const float* const features = place.features.data();
+    const int count = static_cast<int>(samples.size()), row = model_.input_row();
     const auto results = [&](const Network& network, const std::vector<float>& activations) {
         return activations.data() + network.layers.back().values * samples.size();
     };
-    functions.forward(model_.policy, model_.parameters.data(), count, features, width,
+    functions.forward(model_.policy, model_.parameters.data(), count, inputs, row,
                       place.policy_activations.data());
-    functions.forward(model_.value, model_.value_parameters(), count, features, width,
+    functions.forward(model_.value, model_.value_parameters(), count, inputs, row,
                       place.value_activations.data());
     const Samples<float> rows{
         place.numbers.data(),    place.shifts.data(), place.spreads.data(),
@@ -122,12 +132,39 @@ void Learner::learn_tile(const Experience& experience, std::span<const std::uint
         add_state_noise_gradient(units, reals, weight_variances_.data(), hidden_of(s),
                                  place.log_deviations.data() + s * reals,
                                  place.d_log_deviations.data() + s * reals, d_deviations);
-    functions.backward(model_.policy, policy_rows_.data(), count, features, width,
+    functions.backward(model_.policy, policy_rows_.data(), count, inputs, row,
                        place.policy_activations.data(), place.d_outputs.data(),
-                       place.scratch.data(), gradient);
-    functions.backward(model_.value, value_rows_.data(), count, features, width,
+                       place.scratch.data(), gradient, d_memory);
+    functions.backward(model_.value, value_rows_.data(), count, inputs, row,
                        place.value_activations.data(), place.d_values.data(), place.scratch.data(),
-                       gradient + model_.value_begin());
+                       gradient + model_.value_begin(), d_memory);
+}
+
+void Learner::learn_chunk(const Experience& experience, std::span<const std::uint32_t> segments,
+                          const LossWeights& weights, Workplace& place, float* gradient,
+                          LossSums& sums) const {
+    if (model_.recurrent == 0) {
+        // Each segment is one sample.
+        for (std::size_t s = 0; s < segments.size(); s += tile) {
+            const auto some = segments.subspan(s, std::min<std::size_t>(tile, segments.size() - s));
+            gather_rows(some, experience.inputs.data(), model_.input_row(), place.inputs.data());
+            learn_tile(experience, some, weights, place.tile, place.inputs.data(), nullptr,
+                       gradient, sums);
+        }
+        return;
+    }
+    Unrolled& unrolled = place.unrolled;
+    unrolled.lay_out(experience, segments, place.samples);
+    const std::span<const std::uint32_t> samples = place.samples;
+    float* const inputs = place.inputs.data();
+    gather_rows(samples, experience.inputs.data(), model_.input_row(), inputs);
+    unrolled.remember(inputs);
+    for (std::size_t s = 0; s < samples.size(); s += tile)
+        learn_tile(experience, samples.subspan(s, std::min<std::size_t>(tile, samples.size() - s)),
+                   weights, place.tile, inputs + s * static_cast<std::size_t>(model_.input_row()),
+                   unrolled.d_memory() + s * static_cast<std::size_t>(model_.memory.padded_units),
+                   gradient, sums);
+    unrolled.add_gradient(inputs, memory_rows_.data(), gradient + model_.memory_begin());
 }
 
 void Learner::add_up(std::vector<float>& gradient, LossSums& sums) {
@@ -141,7 +178,7 @@ void Learner::add_up(std::vector<float>& gradient, LossSums& sums) {
         *numbers[i] = static_cast<double>(message_[gradient.size() + i]);
 }
 
-LossSums Learner::learn(const Experience& experience, std::span<const std::uint32_t> samples,
+LossSums Learner::learn(const Experience& experience, std::span<const std::uint32_t> segments,
                         const Moments& advantages, const Step& step) {
     LossWeights weights{options_.clip,
                         options_.value_clip,
@@ -164,20 +201,19 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
                          weight_variances_.data());
     functions.transpose(model_.policy, model_.parameters.data(), policy_rows_.data());
     functions.transpose(model_.value, model_.value_parameters(), value_rows_.data());
-    const std::size_t chunks = parts(samples.size(), chunk);
+    if (model_.recurrent > 0)
+        gru_functions().transpose(model_.memory, model_.memory_parameters(), memory_rows_.data());
+    const std::size_t chunks = parts(segments.size(), segments_per_chunk_);
     std::atomic<std::size_t> next = 0;
     const auto work = [&](int worker) {
         for (std::size_t c = next++; c < chunks; c = next++) {
             std::vector<float>& gradient = gradients_[c];
             std::fill(gradient.begin(), gradient.end(), 0.0f);
             sums_[c] = {};
-            const auto mine =
-                samples.subspan(c * chunk, std::min(chunk, samples.size() - c * chunk));
-            for (std::size_t s = 0; s < mine.size(); s += tile)
-                learn_tile(experience,
-                           mine.subspan(s, std::min<std::size_t>(tile, mine.size() - s)), weights,
-                           workplaces_[static_cast<std::size_t>(worker)], gradient.data(),
-                           sums_[c]);
+            const std::size_t first = c * segments_per_chunk_;
+            const std::size_t count = std::min(segments_per_chunk_, segments.size() - first);
+            learn_chunk(experience, segments.subspan(first, count), weights,
+                        workplaces_[static_cast<std::size_t>(worker)], gradient.data(), sums_[c]);
         }
     };
     chunks > 1 ? team_.run(work) : work(0);

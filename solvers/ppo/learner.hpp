@@ -3,6 +3,7 @@
 
 #include "solvers/ppo/experience.hpp"
 #include "solvers/ppo/running_statistics.hpp"
+#include "solvers/ppo/unrolled.hpp"
 #include "solvers/ranks/ranks.hpp"
 
 #include <rddl/threads.hpp>
@@ -24,7 +25,7 @@ class Learner {
     // One step down the gradient of the mean loss of all ranks' samples, whose advantages have
     // these moments about 0. Returns sums over all samples; throws a Failure if the gradient is not
     // finite.
-    LossSums learn(const Experience& experience, std::span<const std::uint32_t> samples,
+    LossSums learn(const Experience& experience, std::span<const std::uint32_t> segments,
                    const Moments& advantages, const Step& step);
 
     // Moments of Adam, and how many steps it has made.
@@ -33,18 +34,29 @@ class Learner {
 
   private:
     // What one thread needs for a tile of samples.
-    struct Workplace {
-        std::vector<float> features, numbers, shifts, spreads, log_probabilities, advantages,
-            values, returns, log_deviations, d_log_deviations;
+    struct Tile {
+        std::vector<float> numbers, shifts, spreads, log_probabilities, advantages, values, returns,
+            log_deviations, d_log_deviations;
         std::vector<std::int32_t> indices;
         std::vector<std::uint8_t> masks;
         std::vector<float> policy_activations, value_activations, scratch, d_outputs, d_values;
     };
+    // And for a chunk of them.
+    struct Workplace {
+        Tile tile;
+        std::vector<std::uint32_t> samples;
+        std::vector<float> inputs;  // of the networks
+        Unrolled unrolled;
+    };
     void gather(const Experience& experience, std::span<const std::uint32_t> samples,
-                Workplace& place) const;
+                Tile& place) const;
+    void learn_chunk(const Experience& experience, std::span<const std::uint32_t> segments,
+                     const LossWeights& weights, Workplace& place, float* gradient,
+                     LossSums& sums) const;
+    // Of samples whose inputs are there. Adds the gradient by what is remembered to d_memory.
     void learn_tile(const Experience& experience, std::span<const std::uint32_t> samples,
-                    const LossWeights& weights, Workplace& place, float* gradient,
-                    LossSums& sums) const;
+                    const LossWeights& weights, Tile& place, const float* inputs, float* d_memory,
+                    float* gradient, LossSums& sums) const;
 
     // Gradient and sums of all ranks, in one message.
     void add_up(std::vector<float>& gradient, LossSums& sums);
@@ -54,8 +66,9 @@ class Learner {
     rddl::Team& team_;
     const Ranks& ranks_;
     std::vector<Workplace> workplaces_;
-    std::vector<float> policy_rows_, value_rows_;  // transposed weights
-    std::vector<std::vector<float>> gradients_;    // of each chunk of a minibatch
+    std::vector<float> policy_rows_, value_rows_, memory_rows_;  // transposed weights
+    std::size_t segments_per_chunk_;
+    std::vector<std::vector<float>> gradients_;  // of each chunk of a minibatch
     std::vector<LossSums> sums_;
     std::vector<float> weight_variances_;  // of noise that depends on the state
     std::vector<float> message_;           // to the other ranks

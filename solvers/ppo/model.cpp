@@ -51,32 +51,45 @@ std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals&
     return all;
 }
 
-void initialise(const Layer& layer, double gain, Normals& normals, float* parameters) {
-    const bool wide = layer.inputs >= layer.outputs;
-    const int rows = std::min(layer.inputs, layer.outputs);
-    const int columns = std::max(layer.inputs, layer.outputs);
-    const std::vector<double> weights = orthogonal_rows(rows, columns, gain, normals);
-    for (int o = 0; o < layer.outputs; ++o)
-        for (int i = 0; i < layer.inputs; ++i)
-            parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)] =
-                static_cast<float>(
-                    weights[static_cast<std::size_t>(wide ? o * columns + i : i * columns + o)]);
+// Weights from inputs to outputs; those of an input to all outputs are a row of `row` numbers.
+void initialise(int inputs, int outputs, int row, double gain, Normals& normals, float* weights) {
+    const bool wide = inputs >= outputs;
+    const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
+    const std::vector<double> orthogonal = orthogonal_rows(rows, columns, gain, normals);
+    for (int o = 0; o < outputs; ++o)
+        for (int i = 0; i < inputs; ++i)
+            weights[i * row + o] = static_cast<float>(
+                orthogonal[static_cast<std::size_t>(wide ? o * columns + i : i * columns + o)]);
 }
 
 void initialise(const Network& network, double last_gain, Normals& normals, float* parameters) {
     for (const Layer& layer : network.layers)
-        initialise(layer, &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2,
-                   normals, parameters);
+        initialise(layer.inputs, layer.outputs, layer.padded_outputs,
+                   &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2, normals,
+                   parameters + layer.weights);
+}
+
+// Each of the three parts by itself.
+void initialise(const Gru& gru, Normals& normals, float* parameters) {
+    const auto parts = gru_parts(gru);
+    for (const GruPart& part : parts) {
+        initialise(gru.inputs, gru.units, gru.weight_row(), 1, normals,
+                   parameters + part.input_weights);
+        initialise(gru.units, gru.units, gru.weight_row(), 1, normals,
+                   parameters + part.state_weights);
+    }
+    std::fill_n(parameters + parts.back().bias, gru.units, 1.0f);
 }
 
 }  // namespace
 
 void make_networks(PpoModel& model) {
-    model.policy = make_network(model.features(), model.hidden, model.actions.output_count());
-    model.value = make_network(model.features(), model.hidden, 1);
-    const int deviations = std::max(model.deviation_count(), 1);
-    model.parameters.assign(model.deviations_begin() + static_cast<std::size_t>(padded(deviations)),
-                            0.0f);
+    const int inputs = model.features() + model.recurrent;
+    model.policy =
+        make_network(inputs, model.hidden, model.actions.output_count(), model.recurrent);
+    model.value = make_network(inputs, model.hidden, 1, model.recurrent);
+    if (model.recurrent > 0) model.memory = make_gru(model.features(), model.recurrent);
+    model.parameters.assign(model.memory_begin() + model.memory.parameters, 0.0f);
     model.normaliser = Normaliser(model.features());
 }
 
@@ -90,10 +103,13 @@ PpoModel make_model(const ObservationSpace& observations, const ActionSpace& act
     model.correlation = options.correlation;
     model.noise_steps = options.noise_steps;
     model.hidden = options.hidden;
+    model.recurrent = options.recurrent;
     make_networks(model);
     Normals normals(options.seed);
     initialise(model.policy, 0.01, normals, model.parameters.data());
     initialise(model.value, 1, normals, model.parameters.data() + model.value_begin());
+    if (model.recurrent > 0)
+        initialise(model.memory, normals, model.parameters.data() + model.memory_begin());
     // Where it is a sum over units, so that the sum has about this deviation.
     const double parts = std::max(model.noisy_units(), 1);
     std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),

@@ -1,6 +1,7 @@
 // What PPO learns: the networks of policy and values, and what the policy needs beside them.
 #pragma once
 
+#include "solvers/network/gru.hpp"
 #include "solvers/network/network.hpp"
 #include "solvers/ppo/options.hpp"
 #include "solvers/ppo/running_statistics.hpp"
@@ -20,10 +21,14 @@ struct PpoModel {
     double correlation = 0;  // of Ar1
     int noise_steps = 8;     // with the same weights, of Sde
     std::vector<int> hidden;
+    int recurrent = 0;  // units that remember; 0: none
+    // Both networks see a row of features and then what is remembered, this row's features
+    // included.
     Network policy, value;
+    Gru memory;  // sees the features
     Normaliser normaliser{0};
-    // The policy's, the value's, and the logarithms of the reals' deviations: those of noise that
-    // depends on the state for each of noisy_units().
+    // The policy's, the value's, the logarithms of the reals' deviations (those of noise that
+    // depends on the state for each of noisy_units()), and the memory's.
     std::vector<float> parameters;
 
     std::size_t value_begin() const { return policy.parameters; }
@@ -35,12 +40,20 @@ struct PpoModel {
         return noise == Noise::Sde && actions.real_count() > 0 ? hidden.back() : 0;
     }
     int deviation_count() const { return actions.real_count() * std::max(noisy_units(), 1); }
+    std::size_t memory_begin() const {
+        return deviations_begin() +
+               static_cast<std::size_t>(padded(std::max(deviation_count(), 1)));
+    }
+    const float* memory_parameters() const { return parameters.data() + memory_begin(); }
     // The best that one step of the environment can be told: rows of features.
     int features() const { return observations.feature_count(); }
+    // Numbers from a row of the networks' inputs to the next.
+    int input_row() const { return features() + memory.padded_units; }
 };
 
 // With orthogonal weights (A. Saxe et al., 2014): of gain sqrt(2) in hidden layers, 0.01 in the
-// policy's last and 1 in the value's last one.
+// policy's last, 1 in the value's last one and in the memory, whose bias of z is 1: at first it
+// forgets slowly (R. Jozefowicz et al., 2015).
 PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
                     const PpoOptions& options);
 

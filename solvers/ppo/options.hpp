@@ -5,6 +5,8 @@
 #include "solvers/choosing/choosing.hpp"
 #include "solvers/spaces/observations.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -45,6 +47,10 @@ struct PpoOptions {
     // (curiosity.hpp).
     bool curious = true;
     std::vector<int> hidden = {64, 64};  // of the policy's network, and of the values'
+    // Units that remember, which both networks see beside the observation; 0: none. The gradient
+    // goes back through as many steps as a segment has at most.
+    int recurrent = 0;
+    int segment = 32;
     ObservationOptions observations;
     // Whether what follows the horizon is estimated; absent: unless the policy sees the time, when
     // the horizon is a fact of the problem and no accident.
@@ -54,6 +60,16 @@ struct PpoOptions {
     // Asked by all threads, often: whether an update shall end early. May be empty.
     std::function<bool()> stops;
 };
+
+// Steps of a segment at most: 1 where nothing is remembered.
+inline int longest_segment(const PpoOptions& options) {
+    if (options.recurrent == 0) return 1;
+    return std::min({options.segment, options.rollout, options.minibatch});
+}
+
+inline std::size_t segments_per_minibatch(const PpoOptions& options) {
+    return static_cast<std::size_t>(options.minibatch / longest_segment(options));
+}
 
 // "fast" (the defaults), "sb3" (Stable-Baselines3's defaults), "rllib" (RLlib's). Nothing if there
 // is no such preset.

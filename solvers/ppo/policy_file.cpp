@@ -1,6 +1,7 @@
 #include "solvers/ppo/policy_file.hpp"
 
 #include "solvers/batches/batch.hpp"
+#include "solvers/ppo/memories.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
@@ -96,18 +97,39 @@ std::string text_of(const ObservationSpace& space) {
                        space.stack, space.time, space.horizon);
 }
 
+// In files [output][input]; in the array those of an input to all outputs are a row of `row`.
+std::string weights_text(int outputs, int inputs, int row, const float* weights) {
+    std::string text;
+    std::vector<float> of_output(static_cast<std::size_t>(inputs));
+    for (int o = 0; o < outputs; ++o) {
+        for (int i = 0; i < inputs; ++i)
+            of_output[static_cast<std::size_t>(i)] = weights[i * row + o];
+        text += (o > 0 ? "," : "") + array(of_output.data(), of_output.size());
+    }
+    return "[" + text + "]";
+}
+void read_weights(const Json& json, int outputs, int inputs, int row, float* weights) {
+    const auto all = json.get<std::vector<std::vector<float>>>();
+    if (all.size() != static_cast<std::size_t>(outputs)) throw Failure("its layers do not fit");
+    for (int o = 0; o < outputs; ++o) {
+        const std::vector<float>& of_output = all[static_cast<std::size_t>(o)];
+        if (of_output.size() != static_cast<std::size_t>(inputs))
+            throw Failure("its layers do not fit");
+        for (int i = 0; i < inputs; ++i)
+            weights[i * row + o] = of_output[static_cast<std::size_t>(i)];
+    }
+}
+void read_bias(const Json& json, int outputs, float* bias) {
+    const auto all = json.get<std::vector<float>>();
+    if (all.size() != static_cast<std::size_t>(outputs)) throw Failure("its layers do not fit");
+    std::ranges::copy(all, bias);
+}
+
 std::string text_of(const Network& network, const float* parameters) {
     return array_of(network.layers, [parameters](const Layer& layer) {
-        std::string weights;
-        std::vector<float> row(static_cast<std::size_t>(layer.inputs));
-        for (int o = 0; o < layer.outputs; ++o) {
-            for (int i = 0; i < layer.inputs; ++i)
-                row[static_cast<std::size_t>(i)] =
-                    parameters[layer.weights +
-                               static_cast<std::size_t>(i * layer.padded_outputs + o)];
-            weights += (o > 0 ? "," : "") + array(row.data(), row.size());
-        }
-        return fmt::format(R"({{"weights":[{}],"bias":{}}})", weights,
+        return fmt::format(R"({{"weights":{},"bias":{}}})",
+                           weights_text(layer.outputs, layer.inputs, layer.padded_outputs,
+                                        parameters + layer.weights),
                            array(parameters + layer.bias, static_cast<std::size_t>(layer.outputs)));
     });
 }
@@ -116,21 +138,42 @@ void read_layers(const Json& layers, const Network& network, float* parameters) 
     if (layers.size() != network.layers.size()) throw Failure("its layers do not fit");
     for (std::size_t l = 0; l < layers.size(); ++l) {
         const Layer& layer = network.layers[l];
-        const auto weights = layers[l].at("weights").get<std::vector<std::vector<float>>>();
-        const auto bias = layers[l].at("bias").get<std::vector<float>>();
-        bool fits = weights.size() == static_cast<std::size_t>(layer.outputs) &&
-                    bias.size() == weights.size();
-        for (const auto& row : weights)
-            fits &= row.size() == static_cast<std::size_t>(layer.inputs);
-        if (!fits) throw Failure("its layers do not fit");
-        for (int o = 0; o < layer.outputs; ++o) {
-            const auto at = static_cast<std::size_t>(o);
-            for (int i = 0; i < layer.inputs; ++i)
-                parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)] =
-                    weights[at][static_cast<std::size_t>(i)];
-            parameters[layer.bias + at] = bias[at];
-        }
+        read_weights(layers[l].at("weights"), layer.outputs, layer.inputs, layer.padded_outputs,
+                     parameters + layer.weights);
+        read_bias(layers[l].at("bias"), layer.outputs, parameters + layer.bias);
     }
+}
+
+std::string text_of(const Gru& gru, const float* parameters) {
+    const auto units = static_cast<std::size_t>(gru.units);
+    std::string text = fmt::format(R"({{"units":{})", gru.units);
+    for (const GruPart& part : gru_parts(gru))
+        text += fmt::format(
+            R"(,"{}":{{"input":{},"state":{},"bias":{}}})", part.name,
+            weights_text(gru.units, gru.inputs, gru.weight_row(), parameters + part.input_weights),
+            weights_text(gru.units, gru.units, gru.weight_row(), parameters + part.state_weights),
+            array(parameters + part.bias, units));
+    return text + fmt::format(R"(,"state_bias":{}}})", array(parameters + gru.state_bias(), units));
+}
+
+void read_gru(const Json& json, const Gru& gru, float* parameters) {
+    for (const GruPart& part : gru_parts(gru)) {
+        const Json& its = json.at(part.name);
+        read_weights(its.at("input"), gru.units, gru.inputs, gru.weight_row(),
+                     parameters + part.input_weights);
+        read_weights(its.at("state"), gru.units, gru.units, gru.weight_row(),
+                     parameters + part.state_weights);
+        read_bias(its.at("bias"), gru.units, parameters + part.bias);
+    }
+    read_bias(json.at("state_bias"), gru.units, parameters + gru.state_bias());
+}
+
+// Of a file's member "recurrent", before anything gets that size.
+int units_of(const Json& json) {
+    const int units = json.at("units").get<int>();
+    if (units < 1 || json.at("state_bias").size() != static_cast<std::size_t>(units))
+        throw Failure("its layers do not fit");
+    return units;
 }
 
 std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
@@ -164,6 +207,7 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         throw Failure("it is of another version of the problem: what is seen or done has changed");
     model->hidden = json.at("hidden").get<std::vector<int>>();
     if (model->hidden.empty()) throw Failure("its layers do not fit");
+    if (json.contains("recurrent")) model->recurrent = units_of(json.at("recurrent"));
     model->correlation = json.at("correlation").get<double>();
     model->noise = noise_of(json, model->correlation);
     model->noise_steps = std::max(json.value("noise_steps", 1), 1);
@@ -175,6 +219,9 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         throw Failure("its observations do not fit");
     read_layers(json.at("policy"), model->policy, model->parameters.data());
     read_layers(json.at("value"), model->value, model->parameters.data() + model->value_begin());
+    if (model->recurrent > 0)
+        read_gru(json.at("recurrent"), model->memory,
+                 model->parameters.data() + model->memory_begin());
     const auto deviations = json.at("log_deviations").get<std::vector<float>>();
     if (deviations.size() != static_cast<std::size_t>(model->deviation_count()))
         throw Failure("its actions do not fit");
@@ -192,7 +239,8 @@ struct PpoActor {
           seed(its_seed),
           records(simulator),
           chooser(simulator, model->actions, model->noise, model->correlation, environments),
-          state_noise(*model, environments) {
+          state_noise(*model, environments),
+          memories(*model, environments) {
         if (state_noise.is_used()) state_noise.look_at_policy();
         const auto count = static_cast<std::size_t>(environments);
         const auto rows = [&](int row) {
@@ -200,7 +248,7 @@ struct PpoActor {
         };
         observations.resize(rows(model->observations.column_count()));
         features.resize(rows(model->features()));
-        normalised.resize(features.size());
+        inputs.resize(rows(model->input_row()));
         outputs.resize(rows(model->policy.padded_outputs()));
         activations.resize(tile * model->policy.activations);
         numbers.resize(rows(model->actions.real_count()));
@@ -214,7 +262,8 @@ struct PpoActor {
 
     void act(Decision& decision) {
         const std::int64_t count = static_cast<std::int64_t>(decision.running.size());
-        const int width = model->features(), output_row = model->policy.padded_outputs();
+        const int width = model->features(), row = model->input_row();
+        const int output_row = model->policy.padded_outputs();
         require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
                                                                  observations.data()));
         for (std::int64_t e = 0; e < count; ++e) {
@@ -222,10 +271,11 @@ struct PpoActor {
             write_features(model->observations,
                            observations.data() + e * model->observations.column_count(), steps,
                            steps == 0, features.data() + e * width);
-            model->normaliser.write(features.data() + e * width, normalised.data() + e * width);
+            model->normaliser.write(features.data() + e * width, inputs.data() + e * row);
             if (steps > 0) continue;
             chooser.begin_episode(e);
             state_noise.begin_episode(e);
+            memories.begin_episode(e);
         }
         const auto key_of = [&](std::int64_t e) {
             const auto at = static_cast<std::size_t>(e);
@@ -234,8 +284,9 @@ struct PpoActor {
         };
         for (std::int64_t e = 0; e < count; e += tile) {
             const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
+            memories.remember(e, some, inputs.data() + e * row);
             network_functions().forward(model->policy, model->parameters.data(), some,
-                                        normalised.data() + e * width, width, activations.data());
+                                        inputs.data() + e * row, row, activations.data());
             std::copy_n(activations.data() +
                             model->policy.layers.back().values * static_cast<std::size_t>(some),
                         some * output_row, outputs.data() + e * output_row);
@@ -264,7 +315,8 @@ struct PpoActor {
     ActionRecords records;
     Chooser chooser;
     StateNoise state_noise;
-    std::vector<float> observations, features, normalised, outputs, activations, numbers, shifts,
+    Memories memories;
+    std::vector<float> observations, features, inputs, outputs, activations, numbers, shifts,
         spreads, log_probabilities, actions;
     std::vector<std::int32_t> indices;
     std::vector<std::uint8_t> masks;
@@ -276,7 +328,7 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
     const rddl_problem& problem = *simulator.problem;
     std::string text = fmt::format(
         R"({{"format":"rddl-policy","version":{},"solver":"ppo","domain":"{}","instance":"{}",)",
-        policy_file_version, problem.domain, problem.instance);
+        model.recurrent > 0 ? 2 : 1, problem.domain, problem.instance);
     text +=
         fmt::format(R"("observation":{{"space":{},"stack":{},"time":{},"means":{},"factors":{}}},)",
                     text_of(model.observations), model.observations.stack, model.observations.time,
@@ -284,6 +336,8 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
                     array(model.normaliser.factors.data(), model.normaliser.factors.size()));
     text += fmt::format(R"("action":{},"hidden":{},)", text_of(model.actions),
                         array_of(model.hidden, [](int units) { return std::to_string(units); }));
+    if (model.recurrent > 0)
+        text += fmt::format(R"("recurrent":{},)", text_of(model.memory, model.memory_parameters()));
     text +=
         fmt::format(R"("policy":{},"value":{},)", text_of(model.policy, model.parameters.data()),
                     text_of(model.value, model.value_parameters()));

@@ -12,7 +12,8 @@
 
 namespace rddlc::solvers {
 
-inline constexpr int policy_file_version = 1;
+// The highest that is read. Files of networks that remember are of version 2, others of 1.
+inline constexpr int policy_file_version = 2;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 

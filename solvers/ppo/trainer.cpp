@@ -42,6 +42,10 @@ void check(const PpoOptions& options) {
     require(options.observations.stack >= 1, "PPO sees at least one observation");
     require(!options.hidden.empty(), "PPO needs a hidden layer");
     require(options.noise_steps > 0, "noise stays for at least one step");
+    require(options.recurrent >= 0, "units that remember are 0 or more");
+    require(options.recurrent == 0 || longest_segment(options) > 1,
+            "a recurrent network learns from several steps in a row: it needs --segment, --rollout "
+            "and --minibatch of at least 2");
     for (const int width : options.hidden) require(width > 0, "a layer needs units");
 }
 
@@ -73,9 +77,9 @@ struct PpoTrainer::State {
                            action_space(simulator), options)),
           team(options.threads),
           learner(model, options, team, ranks),
-          experience(model, options.environments, options.rollout),
+          experience(model, options.environments, options.rollout, longest_segment(options)),
           feature_statistics(static_cast<std::size_t>(model.features())),
-          order(experience.count()),
+          order(experience.segments.count()),
           gamma(std::min(options.gamma, simulator.problem->discount)),
           learning_rate(options.learning_rate),
           kl_penalty(options.kl_penalty) {
@@ -89,8 +93,7 @@ struct PpoTrainer::State {
         }
         // Nothing is allocated later.
         episodes.reserve(remembered_episodes);
-        const std::size_t minibatches =
-            experience.count() / static_cast<std::size_t>(options.minibatch) + 1;
+        const std::size_t minibatches = order.size() / segments_per_minibatch(options) + 1;
         moments.reserve(std::max({feature_statistics.size() + 1, minibatches, std::size_t{3}}));
         entropy_weight =
             options.entropy_weight.value_or(model.actions.logit_count > 0 ? 0.01 : 0.0);
@@ -179,10 +182,13 @@ struct PpoTrainer::State {
     // Of all ranks, as they are in `order`: what normalises the advantages of each minibatch is
     // known before the first of them is learned from.
     void sum_up_advantages() {
-        const auto size = static_cast<std::size_t>(options.minibatch);
+        const std::size_t size = segments_per_minibatch(options);
+        const Segments& segments = experience.segments;
         moments.assign((order.size() + size - 1) / size, {});
         for (std::size_t s = 0; s < order.size(); ++s)
-            moments[s / size].add(static_cast<double>(experience.advantages[order[s]]));
+            for (int t = 0; t < segments.length(order[s]); ++t)
+                moments[s / size].add(
+                    static_cast<double>(experience.advantages[segments.sample(order[s], t)]));
         add_up(moments);
     }
 
@@ -196,7 +202,7 @@ struct PpoTrainer::State {
                     static_cast<std::uint64_t>(epoch), static_cast<std::uint64_t>(ranks.number));
             sum_up_advantages();
             kl_sum = kl_samples = 0;
-            const auto size = static_cast<std::size_t>(options.minibatch);
+            const std::size_t size = segments_per_minibatch(options);
             for (std::size_t s = 0; s < order.size() && !stops; s += size) {
                 const std::span<const std::uint32_t> batch(order.data() + s,
                                                            std::min(size, order.size() - s));
@@ -346,7 +352,12 @@ struct PpoTrainer::State {
     template <class Archive>
     void archive(Archive& archive) {
         archive(progress);
+        const std::size_t size = model.parameters.size();
         archive(model.parameters);
+        if (model.parameters.size() != size)
+            throw Failure(
+                "it is of a run with other networks: --hidden, --stack and --recurrent have to be "
+                "as they were");
         archive(model.normaliser.means);
         archive(model.normaliser.factors);
         archive(learner.first_moments);

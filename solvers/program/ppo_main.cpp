@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     program.solver = "ppo";
     program.help =
         "  --steps N  --envs N  --rollout T  --epochs E  --minibatch M  --lr RATE  --gamma G\n"
-        "  --threads T\n";
+        "  --stack K  --recurrent UNITS  --threads T\n";
     add_number(program.options, "--steps", options.steps);
     add_number(program.options, "--envs", options.environments);
     add_number(program.options, "--rollout", options.rollout);
@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
     add_number(program.options, "--minibatch", options.minibatch);
     add_number(program.options, "--lr", options.learning_rate);
     add_number(program.options, "--gamma", options.gamma);
+    add_number(program.options, "--stack", options.observations.stack);
+    add_number(program.options, "--recurrent", options.recurrent);
     add_number(program.options, "--threads", options.threads);
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;

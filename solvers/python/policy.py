@@ -3,7 +3,7 @@
     policy = Policy("runs/a/policy.json")
     action = policy.act({"pos": -0.5, "vel": 0.0}, step=0)      # {"action": 0.87}
 
-Names are those of the policy file: "rlevel(t1)". Masks are not known here, so that policies which need them
+Step 0 begins an episode. Names are those of the policy file: "rlevel(t1)". Masks are not known here, so that policies which need them
 (`action["masked"]`) may choose what a precondition forbids; `allowed` says which logits may be chosen.
 """
 
@@ -17,9 +17,10 @@ class Policy:
             self.file = json.load(file)
         if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
             raise ValueError(f"{path} is no policy of PPO")
-        if self.file["version"] > 1:
-            raise ValueError(f"{path} is of version {self.file['version']}, and this reads version 1")
+        if self.file["version"] > 2:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 2")
         self.frames = []
+        self.memory = []
 
     def features(self, observation, step):
         """The row that the network sees, before it is normalised. Values are numbers; objects their index."""
@@ -32,16 +33,31 @@ class Policy:
             else:
                 frame.append(value)
         if step == 0:
+            self.memory = [0.0] * self.file.get("recurrent", {"units": 0})["units"]
             self.frames = [[0.0] * len(frame) for _ in range(space["stack"])]
         self.frames = [frame] + self.frames[:space["stack"] - 1]
         row = [value for each in self.frames for value in each]
         return row + ([step / space["horizon"]] if space["time"] else [])
 
+    def _remember(self, row):
+        """A step of the gated recurrent units."""
+        its = self.file["recurrent"]
+        times = lambda weights, x: [sum(w * each for w, each in zip(of_unit, x)) for of_unit in weights]
+        sums = {name: ([a + b for a, b in zip(its[name]["bias"], times(its[name]["input"], row))],
+                       times(its[name]["state"], self.memory)) for name in ("candidate", "reset", "update")}
+        gate = lambda name: [(math.tanh((a + b) / 2) + 1) / 2 for a, b in zip(*sums[name])]
+        candidate = [math.tanh(a + r * (b + bias))
+                     for a, b, bias, r in zip(*sums["candidate"], its["state_bias"], gate("reset"))]
+        self.memory = [n + z * (old - n) for n, z, old in zip(candidate, gate("update"), self.memory)]
+
     def outputs(self, features):
-        """Means of reals, then logits."""
+        """Means of reals, then logits. A recurrent policy remembers these features: ask once in each step."""
         seen = self.file["observation"]
         row = [max(-10.0, min(10.0, (x - mean) * factor))
                for x, mean, factor in zip(features, seen["means"], seen["factors"])]
+        if self.memory:
+            self._remember(row)
+            row += self.memory
         layers = self.file["policy"]
         for number, layer in enumerate(layers):
             row = [bias + sum(w * x for w, x in zip(weights, row))

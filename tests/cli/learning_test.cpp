@@ -58,15 +58,44 @@ TEST_F(LearningProgram, TrainsEvaluatesAndCompares) {
 
 // Killed at any moment, a run goes on as if nothing had happened.
 TEST_F(LearningProgram, GoesOnAfterItWasKilled) {
-    const std::string options = "--steps 40000 --seed 3 " + std::string(small_ppo);
-    ASSERT_EQ(run(on_tanks("train ppo", options + "--out whole")).status, 0);
-    // The first part is ended by its time, the second is killed: it leaves a whole checkpoint.
-    ASSERT_EQ(run(on_tanks("train ppo", options + "--out parts --time 0.02")).status, 0);
-    run(on_tanks("train ppo", options + "--out parts --resume --quiet"), "timeout -s KILL 0.15");
-    const Outcome rest = run(on_tanks("train ppo", options + "--out parts --resume"));
-    ASSERT_EQ(rest.status, 0) << rest.err;
-    EXPECT_EQ(read_file(folder_ / "parts/policy.json"), read_file(folder_ / "whole/policy.json"));
-    EXPECT_EQ(read_file(folder_ / "parts/last.json"), read_file(folder_ / "whole/last.json"));
+    for (const char* const network : {"", "--recurrent 8 --segment 10 "}) {
+        std::filesystem::remove_all(folder_ / "parts");
+        std::filesystem::remove_all(folder_ / "whole");
+        const std::string options = fmt::format("--steps 40000 --seed 3 {}{}", network, small_ppo);
+        ASSERT_EQ(run(on_tanks("train ppo", options + "--out whole")).status, 0);
+        // The first part is ended by its time, the second is killed: it leaves a whole checkpoint.
+        ASSERT_EQ(run(on_tanks("train ppo", options + "--out parts --time 0.02")).status, 0);
+        run(on_tanks("train ppo", options + "--out parts --resume --quiet"),
+            "timeout -s KILL 0.15");
+        const Outcome rest = run(on_tanks("train ppo", options + "--out parts --resume"));
+        ASSERT_EQ(rest.status, 0) << rest.err;
+        for (const char* const name : {"policy.json", "last.json"})
+            EXPECT_EQ(read_file(folder_ / "parts" / name), read_file(folder_ / "whole" / name));
+    }
+}
+
+// With a memory, too: a trace by a policy file earns what its evaluation tells.
+TEST_F(LearningProgram, RemembersInEveryCommand) {
+    const std::string maze = " " RDDL_EXAMPLES "/t_maze/domain.rddl " RDDL_EXAMPLES
+                             "/t_maze/instance.rddl --engine interpreter ";
+    const Outcome trained =
+        run("train ppo" + maze +
+            "--recurrent 16 --steps 80000 --envs 16 --minibatch 256 --epochs 10 --lr 1e-3 "
+            "--hidden 32,32 --quiet --out r");
+    ASSERT_EQ(trained.status, 0) << trained.err;
+    for (const char* const command : {"run", "evaluate"})
+        for (const char* const batch : {"--threads 1", "--threads 2"}) {
+            const json told = run_json(command + maze + "--policy r --episodes 60 --json " + batch);
+            const json& policy = told.contains("policies") ? told["policies"][0] : told;
+            EXPECT_EQ(policy["return"]["mean"], 4.0) << command;
+        }
+    const json random =
+        run_json("evaluate" + maze + "--policy r/last.json --stochastic --episodes 60 --json");
+    EXPECT_GT(random["policies"][0]["return"]["mean"], 3.5);
+    // Whoever has another network cannot go on with it.
+    const Outcome other = run("train ppo" + maze + "--recurrent 8 --resume --out r");
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.err.find("it is of a run with other networks"), std::string::npos) << other.err;
 }
 
 TEST_F(LearningProgram, CtrlCSavesAndEnds) {
@@ -148,10 +177,19 @@ TEST_F(LearningProgram, ExportsWhatItLearned) {
     ASSERT_EQ(
         run(on_tanks("train ppo", "--steps 400 --quiet --out p " + std::string(small_ppo))).status,
         0);
-    for (const char* const form : {"json", "cpp", "onnx"})
-        EXPECT_EQ(
-            run(on_tanks("export", fmt::format("--policy p --as {0} -o out.{0}", form))).status, 0);
-    EXPECT_EQ(read_file(folder_ / "out.json"), read_file(folder_ / "p/policy.json"));
+    ASSERT_EQ(run(on_tanks("train ppo",
+                           "--steps 400 --recurrent 5 --quiet --out r " + std::string(small_ppo)))
+                  .status,
+              0);
+    for (const char* const policy : {"r", "p"}) {
+        for (const char* const form : {"json", "cpp", "onnx"})
+            EXPECT_EQ(run(on_tanks("export",
+                                   fmt::format("--policy {0} --as {1} -o out.{1}", policy, form)))
+                          .status,
+                      0);
+        EXPECT_EQ(read_file(folder_ / "out.json"),
+                  read_file(folder_ / fmt::format("{}/policy.json", policy)));
+    }
     EXPECT_GT(read_file(folder_ / "out.onnx").size(), 500u);
     const Outcome wrong = run(on_tanks("export", "--policy p --as dot"));
     EXPECT_EQ(wrong.status, 2);
@@ -168,6 +206,10 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses("train", "name a command");
     refuses("train pso", "no command is called 'pso'");
     refuses(on_tanks("train ppo", "--envs 2 --rollout 4"), "a minibatch is larger");
+    refuses(on_tanks("train ppo", "--recurrent 8 --rollout 1 --minibatch 9"),
+            "a recurrent network learns from several steps in a row");
+    refuses(on_tanks("train ppo", "--recurrent -1"), "--recurrent");
+    refuses(on_tanks("train ppo", "--recurrent 8 --segment 1"), "--segment");
     refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
     refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");

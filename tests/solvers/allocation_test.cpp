@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -14,13 +15,14 @@ namespace {
 
 TEST(Allocations, NoneInUpdatesOfPpo) {
     for (const rddl_simulator* simulator : simulators())
-        for (const int threads : {1, 2}) {
+        for (const auto& [threads, recurrent] : {std::pair{1, 0}, {2, 0}, {1, 12}, {2, 12}}) {
             SCOPED_TRACE(simulator->problem->domain);
             PpoOptions options;
             options.environments = 16;
             options.rollout = 40;
             options.minibatch = 300;
             options.threads = threads;
+            options.recurrent = recurrent;
             PpoTrainer trainer(*simulator, options);
             trainer.update();  // warms up, too
             const std::int64_t before = allocations;

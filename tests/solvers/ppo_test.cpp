@@ -7,16 +7,24 @@
 #include "solvers/ppo/learner.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/state_noise.hpp"
+#include "solvers/ppo/trainee.hpp"
 #include "solvers/ppo/trainer.hpp"
+#include "solvers/training/training.hpp"
 #include "support/failure.hpp"
+#include "support/files.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
+#include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <random>
+#include <thread>
 
 namespace rddlc::solvers {
 namespace {
@@ -96,10 +104,10 @@ TEST(Ppo, UpdatesAsStableBaselines3Does) {
         set_parameters(each["before"], model);
 
         const int count = static_cast<int>(each["observations"].size());
-        Experience experience(model, count, 1);
+        Experience experience(model, count, 1, 1);
         for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s) {
             for (std::size_t i = 0; i < inputs; ++i)
-                experience.features[s * inputs + i] = each["observations"][s][i];
+                experience.inputs[s * inputs + i] = each["observations"][s][i];
             for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
                 experience.numbers[s * model.actions.reals.size() + r] = each["actions"][s][r];
             for (std::size_t h = 0; h < model.actions.categories.size(); ++h)
@@ -321,7 +329,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     EXPECT_EQ(read("{}"), "it is no policy of PPO");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
-    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 1");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 2");
     EXPECT_NE(complaint([&] {
                   read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
               }).find("it is of the problem mountain_car_1"),
@@ -341,6 +349,48 @@ TEST(Ppo, TellsWhenAGradientIsNotFinite) {
     });
     EXPECT_NE(text.find("the gradient is not finite"), std::string::npos) << text;
     EXPECT_NE(text.find("after "), std::string::npos) << text;
+}
+
+// A call that the simulator refuses in another thread than the caller's ends the run with its
+// sentence, and the last checkpoint is as it was.
+TEST(Ppo, ARefusedCallLeavesTheCheckpoint) {
+    static std::thread::id caller;
+    static std::atomic<int> calls_left;
+    caller = std::this_thread::get_id();
+    rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
+    simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,
+                               void* observations, const rddl_transition* out) {
+        if (std::this_thread::get_id() != caller && --calls_left < 0)
+            return rddl_error{RDDL_BAD_ARGUMENT};
+        return rddl_simulator_mountain_car_mountain_car_1()->step_values(batch, number, actions,
+                                                                         observations, out);
+    };
+    simulator.last_error = [](const rddl_simulator*) {
+        return "the simulator's sentence";
+    };
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / fmt::format("refused_{}", ::getpid());
+    std::filesystem::remove_all(folder);
+    PpoOptions options = small_training();
+    options.threads = 2;
+    TrainingOptions training;
+    training.folder = folder;
+    training.quiet = true;
+    const auto go = [&] {
+        train(simulator, ppo_trainee(simulator, options, {}), training);
+    };
+    calls_left = 1'000'000;
+    go();
+    const std::string before = read_file(folder / "checkpoint");
+    training.resumes = true;
+    options.steps *= 4;
+    calls_left = 2 * options.rollout + 3;  // in the third update from there
+    EXPECT_EQ(complaint(go), "the simulator's sentence");
+    EXPECT_EQ(read_file(folder / "checkpoint"), before);
+    calls_left = 1'000'000;
+    EXPECT_EQ(complaint(go), "");
+    EXPECT_NE(read_file(folder / "checkpoint"), before);
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Curiosity, FadesAsReturnsDiffer) {

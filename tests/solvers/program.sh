@@ -8,6 +8,9 @@ ppo=$1 cgp=$2
 
 "$ppo" train --out "$folder/ppo" --steps 40000 --envs 16 --rollout 64 --minibatch 256 --seed 1
 "$ppo" evaluate "$folder/ppo/policy.json" --episodes 5 | grep "of 5 terminated, 0 faults"
+"$ppo" train --out "$folder/recurrent" --steps 8192 --envs 8 --rollout 64 --minibatch 256 --recurrent 8
+grep -q '"recurrent":{"units":8,' "$folder/recurrent/policy.json"
+"$ppo" evaluate "$folder/recurrent/policy.json" --episodes 5 | grep "0 faults"
 "$cgp" train --out "$folder/cgp" --gens 60
 "$cgp" evaluate "$folder/cgp/policy.cgp" --episodes 1 | tee "$folder/evaluation"
 grep "^return [89][0-9].* 1 of 1 terminated" "$folder/evaluation"  # it reaches the flag

@@ -1,4 +1,4 @@
-"""Policies that rddl exports act as they do in rddl: by the Python reader, as Python and as C++.
+"""Policies that rddl exports act as they do in rddl: by the Python reader, as Python, as C++ and as ONNX.
 
     test_exports.py --rddl PROGRAM --examples FOLDER --cxx COMPILER --cache FOLDER
 """
@@ -13,6 +13,8 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 from pathlib import Path
+
+import onnx_reader
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -73,16 +75,31 @@ def check_network(rddl, folder, cxx, *options):
         assert abs(found - action) < 1e-5, (number, found)
 
     rddl("export", "--policy", str(folder / "run"), "--as", "cpp", "-o", str(folder / "network.hpp"))
+    remembers = "--recurrent" in options
     (folder / "main.cpp").write_text(
         '#include "network.hpp"\n#include <cstdio>\nint main() {\n    float x[policy::feature_count], y[1];\n'
-        '    while (std::scanf("%f %f %f", x, x + 1, x + 2) == 3) {\n        policy::act(x, y);\n'
+        f'{"    float memory[policy::memory_count] = {};" if remembers else ""}\n'
+        '    while (std::scanf("%f %f %f", x, x + 1, x + 2) == 3) {\n'
+        f'        policy::act(x, {"memory, " if remembers else ""}y);\n'
         '        std::printf("%.9g\\n", double(y[0]));\n    }\n}\n')
-    subprocess.run([cxx, "-std=c++17", "-o", folder / "main", folder / "main.cpp"], check=True)
-    text = "\n".join(" ".join(f"{x:.9g}" for x in network.features(state, number)) for number, state, _ in steps)
+    subprocess.run([cxx, "-std=c++17", "-Wall", "-Wextra", "-Werror", "-o", folder / "main", folder / "main.cpp"],
+                   check=True)
+    rows = [network.features(state, number) for number, state, _ in steps]
+    text = "\n".join(" ".join(f"{x:.9g}" for x in row) for row in rows)
     out = subprocess.run([folder / "main"], input=text, check=True, capture_output=True, text=True).stdout.split()
     assert len(out) == len(steps)
     for found, (number, _, action) in zip(out, steps):
         assert abs(max(-1.0, min(1.0, float(found))) - action) < 1e-5, (number, found, action)
+
+    rddl("export", "--policy", str(folder / "run"), "--as", "onnx", "-o", str(folder / "network.onnx"))
+    graph = onnx_reader.Graph((folder / "network.onnx").read_bytes())
+    assert graph.inputs == ["features"] + ["memory"] * remembers, graph.inputs
+    assert graph.outputs == ["outputs"] + ["next_memory"] * remembers, graph.outputs
+    memory = [0.0] * int(options[options.index("--recurrent") + 1]) if remembers else []
+    for row, (number, _, action) in zip(rows, steps):
+        results = graph.run({"features": [row], "memory": [memory]})
+        memory = results["next_memory"][0] if remembers else []
+        assert abs(max(-1.0, min(1.0, results["outputs"][0][0])) - action) < 1e-5, (number, results, action)
     return len(steps)
 
 
@@ -106,8 +123,9 @@ def main():
             return check(rddl, Path(name), *more)
 
     formula = in_folder(check_formula)
-    networks = [in_folder(check_network, arguments.cxx, *options) for options in ((), ("--squash", "on"))]
-    assert formula + networks[0] > 100 and formula + networks[1] > 100, (formula, networks)
+    networks = [in_folder(check_network, arguments.cxx, *options)
+                for options in ((), ("--squash", "on"), ("--recurrent", "11"))]
+    assert all(formula + steps > 100 for steps in networks), (formula, networks)
     steps = formula + sum(networks)
     print(f"{steps} steps agree")
     return 0

@@ -36,6 +36,14 @@ class Ranks(unittest.TestCase):
     def file(self, out, name):
         return (self.folder / out / name).read_bytes()
 
+    def test_a_recurrent_policy_gives_the_same_bytes_and_goes_on(self):
+        options = [*PPO, "--recurrent", "6", "--segment", "9"]
+        for out, more in ("whole", []), ("parts", ["--time", "0.01"]), ("parts", ["--resume"]):
+            done = self.train("ppo", out, [*options, *more], 2)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.file("parts", "last.json"), self.file("whole", "last.json"))
+        self.assertIn(b'"recurrent":{"units":6,', self.file("whole", "last.json"))
+
     def test_the_same_ranks_give_the_same_bytes(self):
         for out in "a", "b":
             done = self.train("ppo", out, PPO, 2)

@@ -194,6 +194,13 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                     });
     add_number_option(command, "--stack", "K", "Observations seen at once (1)",
                       ppo.observations.stack, 1, 1000);
+    add_number_option(command, "--recurrent", "UNITS",
+                      "Gated recurrent units, which remember what was observed, for problems that "
+                      "are observed in part; 0 (default): none",
+                      ppo.recurrent, 0, 1 << 14);
+    add_number_option(command, "--segment", "T",
+                      "Steps through which what is remembered is learned, at most (32)",
+                      ppo.segment, 2, 1 << 20);
     add_choice_option<ObservationOptions::Time>(
         command, "--time-input", "WHEN",
         "Whether the policy sees the time: auto (default: horizons up to 200), on, off",
@@ -218,6 +225,7 @@ Command ppo_command() {
         "Examples:\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a\n"
         "  rddl train ppo CartPole_Continuous_gym 0 --preset sb3 --steps 100000 --seed 3\n"
+        "  rddl train ppo SkillTeaching_POMDP_ippc2011 1 --recurrent 32\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a --resume";
     add_common_options(command, *options);
     add_ppo_options(command, options->ppo);
