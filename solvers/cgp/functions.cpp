@@ -6,25 +6,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rddlc::solvers {
 
 namespace {
 
 constexpr FunctionInfo all_functions[] = {
-    {Function::Add, "add", "arith", 2},       {Function::Subtract, "sub", "arith", 2},
-    {Function::Multiply, "mul", "arith", 2},  {Function::Divide, "div", "arith", 2},
-    {Function::Negate, "neg", "arith", 1},    {Function::Absolute, "abs", "arith", 1},
-    {Function::Minimum, "min", "arith", 2},   {Function::Maximum, "max", "arith", 2},
-    {Function::Square, "square", "arith", 1}, {Function::Root, "sqrt", "arith", 1},
-    {Function::Sine, "sin", "trig", 1},       {Function::Cosine, "cos", "trig", 1},
-    {Function::Tanh, "tanh", "trig", 1},      {Function::Exponential, "exp", "trig", 1},
-    {Function::Greater, "gt", "logic", 2},    {Function::If, "if", "logic", 3},
-    {Function::And, "and", "logic", 2},       {Function::Or, "or", "logic", 2},
-    {Function::Not, "not", "logic", 1},       {Function::Sign, "sign", "logic", 1},
-    {Function::One, "one", "logic", 0},       {Function::Zero, "zero", "logic", 0},
-    {Function::Half, "half", "arith", 1},     {Function::Floor, "floor", "round", 1},
-    {Function::Ceiling, "ceil", "round", 1},  {Function::Round, "round", "round", 1},
+    {Function::Add, "add", "arith", 2},
+    {Function::Subtract, "sub", "arith", 2},
+    {Function::Multiply, "mul", "arith", 2},
+    {Function::Divide, "div", "arith", 2},
+    {Function::Negate, "neg", "arith", 1},
+    {Function::Absolute, "abs", "arith", 1},
+    {Function::Minimum, "min", "arith", 2},
+    {Function::Maximum, "max", "arith", 2},
+    {Function::Square, "square", "arith", 1},
+    {Function::Root, "sqrt", "arith", 1},
+    {Function::Sine, "sin", "trig", 1},
+    {Function::Cosine, "cos", "trig", 1},
+    {Function::Tanh, "tanh", "trig", 1},
+    {Function::Exponential, "exp", "trig", 1},
+    {Function::Greater, "gt", "logic", 2},
+    {Function::If, "if", "logic", 3},
+    {Function::And, "and", "logic", 2},
+    {Function::Or, "or", "logic", 2},
+    {Function::Not, "not", "logic", 1},
+    {Function::Sign, "sign", "logic", 1},
+    {Function::One, "one", "logic", 0},
+    {Function::Zero, "zero", "logic", 0},
+    {Function::Half, "half", "arith", 1},
+    {Function::Floor, "floor", "round", 1},
+    {Function::Ceiling, "ceil", "round", 1},
+    {Function::Round, "round", "round", 1},
+    {Function::HalfSum, "halfsum", "unit", 2},
+    {Function::HalfDistance, "halfdist", "unit", 2},
+    {Function::ScaledExponential, "uexp", "unit", 1},
+    {Function::ScaledLength, "ulength", "unit", 2},
+    {Function::AbsolutePower, "upow", "unit", 2},
+    {Function::ArcSine, "uasin", "unit", 1},
+    {Function::ArcCosine, "uacos", "unit", 1},
+    {Function::ArcTangent, "uatan", "unit", 1},
 };
 
 double bounded(double x) {
@@ -95,6 +117,33 @@ void with(Function function, Use use) {
             return use([](double a, double, double) { return std::ceil(a); });
         case Function::Round:
             return use([](double a, double, double) { return std::nearbyint(a); });
+        case Function::HalfSum:
+            return use([](double a, double b, double) { return bounded(0.5 * (a + b)); });
+        case Function::HalfDistance:
+            return use([](double a, double b, double) { return bounded(0.5 * std::abs(a - b)); });
+        case Function::ScaledExponential:
+            return use([](double a, double, double) {
+                return bounded((std::exp(a) - 1) / (std::exp(1.0) - 1));
+            });
+        case Function::ScaledLength:
+            return use([](double a, double b, double) {
+                return bounded(std::sqrt(a * a + b * b) / std::sqrt(2.0));
+            });
+        case Function::AbsolutePower:
+            return use([](double a, double b, double) {
+                return bounded(std::pow(std::abs(a), std::abs(b)));
+            });
+        case Function::ArcSine:
+            return use([](double a, double, double) {
+                return 2 * std::asin(std::clamp(a, -1.0, 1.0)) / std::numbers::pi;
+            });
+        case Function::ArcCosine:
+            return use([](double a, double, double) {
+                return std::acos(std::clamp(a, -1.0, 1.0)) / std::numbers::pi;
+            });
+        case Function::ArcTangent:
+            return use(
+                [](double a, double, double) { return 4 * std::atan(a) / std::numbers::pi; });
     }
 }
 
@@ -122,7 +171,7 @@ std::vector<Function> functions_named(const std::vector<std::string>& words) {
             if (word == info.name || word == info.group) add(info.function);
         if (functions.size() == before && !function_named(word))
             throw Failure(fmt::format("'{}' is no function of CGP, nor a group of them", word),
-                          "groups are arith, trig, logic and round", usage_error);
+                          "groups are arith, trig, logic, round and unit", usage_error);
     }
     return functions;
 }

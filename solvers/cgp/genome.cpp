@@ -93,6 +93,7 @@ bool mutate_gene(Genome& genome, const GenomeShape& shape, int gene, const Activ
 Genome random_genome(const GenomeShape& shape, Random& random) {
     Genome genome;
     genome.inputs = shape.inputs;
+    genome.delayed = shape.delayed;
     for (int c = 0; c < shape.constants; ++c) genome.constants.push_back(random.normal());
     for (int n = 0; n < shape.nodes; ++n) {
         Node node;
@@ -132,9 +133,14 @@ Activity activity_of(const Genome& genome) {
         if (!activity.used[static_cast<std::size_t>(genome.first_node()) + n]) continue;
         activity.nodes += 1;
         const Node& node = genome.nodes[n];
-        for (int a = 0; a < info_of(node.function).arity; ++a)
-            activity.used[static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(a)])] =
-                1;
+        const int read = genome.delayed ? arguments_of_delayed : info_of(node.function).arity;
+        for (int a = 0; a < read; ++a) {
+            const auto argument =
+                static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(a)]);
+            // A node behind this one that nobody behind it reads has no part in a delayed program.
+            if (argument < static_cast<std::size_t>(genome.first_node()) + n)
+                activity.used[argument] = 1;
+        }
     }
     return activity;
 }
@@ -171,27 +177,31 @@ std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity) {
     return hash;
 }
 
-Program::Program(const Genome& genome) : constants_(genome.constants) {
+Program::Program(const Genome& genome) : constants_(genome.constants), delayed_(genome.delayed) {
     const Activity activity = activity_of(genome);
-    std::vector<int> places(activity.used.size());
     const auto first_node = static_cast<std::size_t>(genome.first_node());
+    // What a delayed program reads of nodes that have no part in it is 0, as at first.
+    if (delayed_) constants_ = {0.0};
     slots_ = static_cast<int>(constants_.size());
+    std::vector<int> places(activity.used.size());
     for (std::size_t a = 0; a < places.size(); ++a) {
-        if (a < static_cast<std::size_t>(genome.inputs)) {
-            places[a] = -1 - static_cast<int>(a);
-            if (activity.used[a]) used_inputs_.push_back(static_cast<int>(a));
+        const int address = static_cast<int>(a);
+        if (address < genome.inputs) {
+            places[a] = -1 - address;
+            if (activity.used[a]) used_inputs_.push_back(address);
         } else if (a < first_node) {
-            places[a] = static_cast<int>(a) - genome.inputs;
+            places[a] = address - genome.inputs;
         } else if (activity.used[a]) {
-            const Node& node = genome.nodes[a - first_node];
-            Instruction instruction{node.function, {}};
-            for (int k = 0; k < info_of(node.function).arity; ++k) {
-                const auto at = static_cast<std::size_t>(k);
-                instruction.arguments[at] = places[static_cast<std::size_t>(node.arguments[at])];
-            }
-            instructions_.push_back(instruction);
             places[a] = slots_++;
         }
+    }
+    for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
+        if (!activity.used[first_node + n]) continue;
+        const Node& node = genome.nodes[n];
+        Instruction instruction{node.function, {}};
+        for (std::size_t k = 0; static_cast<int>(k) < info_of(node.function).arity; ++k)
+            instruction.arguments[k] = places[static_cast<std::size_t>(node.arguments[k])];
+        instructions_.push_back(instruction);
     }
     for (const int output : genome.outputs)
         outputs_.push_back(places[static_cast<std::size_t>(output)]);
@@ -200,34 +210,44 @@ Program::Program(const Genome& genome) : constants_(genome.constants) {
 void Program::run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
                   double* outputs) const {
     if (lanes == 1) return run_one(inputs, input_row, values, outputs);
-    const auto at = [&](int place) -> const double* {
-        return place < 0 ? inputs + (-1 - place) * input_row : values + place * lanes;
+    const double* const read = remembered(lanes, values);
+    const auto at = [&](int place, const double* nodes) {
+        return place < 0 ? inputs + (-1 - place) * input_row : nodes + place * lanes;
     };
     for (std::size_t c = 0; c < constants_.size(); ++c)
         std::fill_n(values + static_cast<std::ptrdiff_t>(c) * lanes, lanes, constants_[c]);
     double* result = values + static_cast<std::ptrdiff_t>(constants_.size()) * lanes;
     for (const Instruction& instruction : instructions_) {
-        apply(instruction.function, lanes, at(instruction.arguments[0]),
-              at(instruction.arguments[1]), at(instruction.arguments[2]), result);
+        apply(instruction.function, lanes, at(instruction.arguments[0], read),
+              at(instruction.arguments[1], read), at(instruction.arguments[2], read), result);
         result += lanes;
     }
     for (std::size_t o = 0; o < outputs_.size(); ++o)
-        std::copy_n(at(outputs_[o]), lanes, outputs + static_cast<std::ptrdiff_t>(o) * lanes);
+        std::copy_n(at(outputs_[o], values), lanes,
+                    outputs + static_cast<std::ptrdiff_t>(o) * lanes);
 }
 
 // The same without loops over one lane, which would cost more than what they do.
 void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
                       double* outputs) const {
-    const auto at = [&](int place) {
-        return place < 0 ? inputs[(-1 - place) * input_row] : values[place];
+    const double* const read = remembered(1, values);
+    const auto at = [&](int place, const double* nodes) {
+        return place < 0 ? inputs[(-1 - place) * input_row] : nodes[place];
     };
-    for (const double constant : constants_) *values++ = constant;
-    double* result = values;
-    values -= constants_.size();
+    std::copy(constants_.begin(), constants_.end(), values);
+    double* result = values + constants_.size();
     for (const Instruction& instruction : instructions_)
-        *result++ = apply(instruction.function, at(instruction.arguments[0]),
-                          at(instruction.arguments[1]), at(instruction.arguments[2]));
-    for (const int output : outputs_) *outputs++ = at(output);
+        *result++ = apply(instruction.function, at(instruction.arguments[0], read),
+                          at(instruction.arguments[1], read), at(instruction.arguments[2], read));
+    for (const int output : outputs_) *outputs++ = at(output, values);
+}
+
+// What nodes read: of a delayed program a copy of what the step before has left.
+const double* Program::remembered(int lanes, double* values) const {
+    if (!delayed_) return values;
+    const std::ptrdiff_t count = std::ptrdiff_t{slots_} * lanes;
+    std::copy_n(values, count, values + count);
+    return values + count;
 }
 
 }  // namespace rddlc::solvers

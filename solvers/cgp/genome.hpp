@@ -18,11 +18,17 @@ struct Node {
     bool operator==(const Node&) const = default;
 };
 
+// Of a node of a delayed program, whatever its function's arity is: both count as read.
+inline constexpr int arguments_of_delayed = 2;
+
 struct Genome {
     int inputs = 0;
     std::vector<double> constants;
     std::vector<Node> nodes;
     std::vector<int> outputs;  // addresses
+    // Nodes read what other nodes computed in the step before, at first 0; inputs are of this step.
+    // Then a node may read any other, and itself. So do programs of scikit-decide (skdecide.hpp).
+    bool delayed = false;
 
     int first_node() const { return inputs + static_cast<int>(constants.size()); }
 };
@@ -49,6 +55,7 @@ struct GenomeShape {
     int inputs = 0, constants = 0, nodes = 0, outputs = 0;
     int levels_back = 0;  // how many nodes before it a node reads at most; 0: all
     std::vector<Function> functions;
+    bool delayed = false;
 };
 
 Genome random_genome(const GenomeShape& shape, Random& random);
@@ -71,15 +78,21 @@ class Program {
     explicit Program(const Genome& genome);
 
     const std::vector<int>& used_inputs() const { return used_inputs_; }
-    int slots() const { return slots_; }
+    bool delayed() const { return delayed_; }
+    // Numbers of a lane.
+    int slots() const { return slots_ + (delayed_ ? slots_ : 0); }
     // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
     // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
+    // A delayed program finds there what the step before has left, or zeros where an episode
+    // begins.
     void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
              double* outputs) const;
 
   private:
     void run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
                  double* outputs) const;
+
+    const double* remembered(int lanes, double* values) const;
 
     struct Instruction {
         Function function;
@@ -89,7 +102,8 @@ class Program {
     std::vector<double> constants_;
     std::vector<int> outputs_;  // as arguments
     std::vector<int> used_inputs_;
-    int slots_ = 0;
+    int slots_ = 0;  // with a value each; of delayed programs, those of the step before follow
+    bool delayed_ = false;
 };
 
 }  // namespace rddlc::solvers

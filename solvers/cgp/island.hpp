@@ -63,6 +63,7 @@ void archive_genome(Archive& archive, Genome& genome) {
     archive(genome.constants);
     archive(genome.nodes);
     archive(genome.outputs);
+    archive(genome.delayed);
 }
 
 // A program, and how good it is.
@@ -78,8 +79,8 @@ class Island {
            int number)
         : scope_(scope),
           options_(options),
-          shape_{scope.input_count(),  options.constants,   options.nodes,
-                 scope.output_count(), options.levels_back, options.functions},
+          shape_{scope.input_count(), options.constants, options.nodes,   scope.output_count(),
+                 options.levels_back, options.functions, options.skdecide},
           random_(options.seed, static_cast<std::uint64_t>(number)),
           first_round_(simulator, scope, options.children + 1, std::max(1, options.episodes / 4)),
           others_(options.episodes > 1

@@ -23,7 +23,7 @@ namespace rddlc::solvers {
 namespace {
 
 GenomeShape shape_of(int inputs, int outputs, int nodes = 30) {
-    return {inputs, 3, nodes, outputs, 0, functions_named({"arith", "trig", "logic", "round"})};
+    return {inputs, 3, nodes, outputs, 0, functions_named({"arith", "trig", "logic", "round", "unit"})};
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,
