@@ -26,11 +26,11 @@ class Forest:
         text = re.sub(r"//[^\n]*", "", text)
         objects = {kind: re.search(rf"{kind}\s*:\s*{{([^}}]*)}}", text).group(1).replace(" ", "").split(",")
                    for kind in ("x_pos", "y_pos")}
-        self.names = [f"({x},{y})" for x in objects["x_pos"] for y in objects["y_pos"]]
+        self.names = [f"{x}__{y}" for x in objects["x_pos"] for y in objects["y_pos"]]
         self.cells = len(self.names)
         if self.cells > MOST_CELLS:
             sys.exit(f"the instance has {self.cells} cells, and at most {MOST_CELLS} fit into the tables")
-        number = {tuple(name.strip("()").split(",")): cell for cell, name in enumerate(self.names)}
+        number = {tuple(name.split("__")): cell for cell, name in enumerate(self.names)}
         self.neighbours = np.zeros((self.cells, self.cells), bool)
         for a, b, c, d in re.findall(r"NEIGHBOR\((\w+),\s*(\w+),\s*(\w+),\s*(\w+)\)\s*;", text):
             self.neighbours[number[a, b], number[c, d]] = True
@@ -97,7 +97,7 @@ def check(forest, instance, pairs):
 
     problem = rddlc.make("Wildfire_MDP_ippc2014", instance).unwrapped.problem
     transitions = Transitions(problem, most_outcomes=1 << MOST_CELLS)
-    names = [f"{fluent}{cell.replace(',', ', ')}" for fluent in ("out-of-fuel", "burning") for cell in forest.names]
+    names = [f"{fluent}___{cell}" for fluent in ("out-of-fuel", "burning") for cell in forest.names]
     groundings = [name for fluent in problem.model.states for name in fluent.groundings]
     places = [groundings.index(name) for name in names]
 
@@ -110,8 +110,8 @@ def check(forest, instance, pairs):
         changed = [name for name, value in transitions.action(number).items() if value]
         if not changed:
             return "noop", -1
-        kind, cell = re.fullmatch(r"([\w-]+)(\(.*\))", changed[0]).groups()
-        return kind, forest.names.index(cell.replace(" ", ""))
+        kind, cell = changed[0].split("___")
+        return kind, forest.names.index(cell)
 
     branches = {action: forest.branches(action) for action in forest.actions}
     random = np.random.default_rng(0)
