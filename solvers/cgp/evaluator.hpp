@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/batches/batch.hpp"
-#include "solvers/cgp/genome.hpp"
+#include "solvers/cgp/program.hpp"
 #include "solvers/cgp/scope.hpp"
 #include "solvers/choosing/choosing.hpp"
 

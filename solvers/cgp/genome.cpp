@@ -3,7 +3,6 @@
 #include <rddl/philox.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -143,111 +142,6 @@ Activity activity_of(const Genome& genome) {
         }
     }
     return activity;
-}
-
-std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity) {
-    std::uint64_t hash = 0xCBF29CE484222325;
-    const auto add = [&](std::uint64_t number) {
-        hash = (hash ^ number) * 0x9E3779B97F4A7C15;
-        hash ^= hash >> 29;
-    };
-    // Nodes count among those that are used, so that where they stand does not matter.
-    std::vector<int> numbers(activity.used.size());
-    int next = genome.first_node();
-    for (std::size_t a = 0; a < numbers.size(); ++a) {
-        if (a < static_cast<std::size_t>(genome.first_node())) {
-            numbers[a] = static_cast<int>(a);
-            if (a >= static_cast<std::size_t>(genome.inputs) && activity.used[a]) {
-                add(a);
-                add(std::bit_cast<std::uint64_t>(
-                    genome.constants[a - static_cast<std::size_t>(genome.inputs)]));
-            }
-            continue;
-        }
-        if (!activity.used[a]) continue;
-        numbers[a] = next++;
-        const Node& node = genome.nodes[a - static_cast<std::size_t>(genome.first_node())];
-        add(static_cast<std::uint64_t>(node.function));
-        for (int k = 0; k < info_of(node.function).arity; ++k)
-            add(static_cast<std::uint64_t>(
-                numbers[static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(k)])]));
-    }
-    for (const int output : genome.outputs)
-        add(static_cast<std::uint64_t>(numbers[static_cast<std::size_t>(output)]));
-    return hash;
-}
-
-Program::Program(const Genome& genome) : constants_(genome.constants), delayed_(genome.delayed) {
-    const Activity activity = activity_of(genome);
-    const auto first_node = static_cast<std::size_t>(genome.first_node());
-    // What a delayed program reads of nodes that have no part in it is 0, as at first.
-    if (delayed_) constants_ = {0.0};
-    slots_ = static_cast<int>(constants_.size());
-    std::vector<int> places(activity.used.size());
-    for (std::size_t a = 0; a < places.size(); ++a) {
-        const int address = static_cast<int>(a);
-        if (address < genome.inputs) {
-            places[a] = -1 - address;
-            if (activity.used[a]) used_inputs_.push_back(address);
-        } else if (a < first_node) {
-            places[a] = address - genome.inputs;
-        } else if (activity.used[a]) {
-            places[a] = slots_++;
-        }
-    }
-    for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
-        if (!activity.used[first_node + n]) continue;
-        const Node& node = genome.nodes[n];
-        Instruction instruction{node.function, {}};
-        for (std::size_t k = 0; static_cast<int>(k) < info_of(node.function).arity; ++k)
-            instruction.arguments[k] = places[static_cast<std::size_t>(node.arguments[k])];
-        instructions_.push_back(instruction);
-    }
-    for (const int output : genome.outputs)
-        outputs_.push_back(places[static_cast<std::size_t>(output)]);
-}
-
-void Program::run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
-                  double* outputs) const {
-    if (lanes == 1) return run_one(inputs, input_row, values, outputs);
-    const double* const read = remembered(lanes, values);
-    const auto at = [&](int place, const double* nodes) {
-        return place < 0 ? inputs + (-1 - place) * input_row : nodes + place * lanes;
-    };
-    for (std::size_t c = 0; c < constants_.size(); ++c)
-        std::fill_n(values + static_cast<std::ptrdiff_t>(c) * lanes, lanes, constants_[c]);
-    double* result = values + static_cast<std::ptrdiff_t>(constants_.size()) * lanes;
-    for (const Instruction& instruction : instructions_) {
-        apply(instruction.function, lanes, at(instruction.arguments[0], read),
-              at(instruction.arguments[1], read), at(instruction.arguments[2], read), result);
-        result += lanes;
-    }
-    for (std::size_t o = 0; o < outputs_.size(); ++o)
-        std::copy_n(at(outputs_[o], values), lanes,
-                    outputs + static_cast<std::ptrdiff_t>(o) * lanes);
-}
-
-// The same without loops over one lane, which would cost more than what they do.
-void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
-                      double* outputs) const {
-    const double* const read = remembered(1, values);
-    const auto at = [&](int place, const double* nodes) {
-        return place < 0 ? inputs[(-1 - place) * input_row] : nodes[place];
-    };
-    std::copy(constants_.begin(), constants_.end(), values);
-    double* result = values + constants_.size();
-    for (const Instruction& instruction : instructions_)
-        *result++ = apply(instruction.function, at(instruction.arguments[0], read),
-                          at(instruction.arguments[1], read), at(instruction.arguments[2], read));
-    for (const int output : outputs_) *outputs++ = at(output, values);
-}
-
-// What nodes read: of a delayed program a copy of what the step before has left.
-const double* Program::remembered(int lanes, double* values) const {
-    if (!delayed_) return values;
-    const std::ptrdiff_t count = std::ptrdiff_t{slots_} * lanes;
-    std::copy_n(values, count, values + count);
-    return values + count;
 }
 
 }  // namespace rddlc::solvers

@@ -68,42 +68,4 @@ struct Activity {
 };
 Activity activity_of(const Genome& genome);
 
-// Of all that has a part in the outputs: equal programs have equal numbers.
-std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity);
-
-// What is left of a genome, ready to run: for any number of lanes at once.
-class Program {
-  public:
-    Program() = default;
-    explicit Program(const Genome& genome);
-
-    const std::vector<int>& used_inputs() const { return used_inputs_; }
-    bool delayed() const { return delayed_; }
-    // Numbers of a lane.
-    int slots() const { return slots_ + (delayed_ ? slots_ : 0); }
-    // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
-    // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
-    // A delayed program finds there what the step before has left, or zeros where an episode
-    // begins.
-    void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
-             double* outputs) const;
-
-  private:
-    void run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
-                 double* outputs) const;
-
-    const double* remembered(int lanes, double* values) const;
-
-    struct Instruction {
-        Function function;
-        std::array<int, 3> arguments;  // slots; negative: input -1 - argument
-    };
-    std::vector<Instruction> instructions_;  // the k-th writes slot constants + k
-    std::vector<double> constants_;
-    std::vector<int> outputs_;  // as arguments
-    std::vector<int> used_inputs_;
-    int slots_ = 0;  // with a value each; of delayed programs, those of the step before follow
-    bool delayed_ = false;
-};
-
 }  // namespace rddlc::solvers

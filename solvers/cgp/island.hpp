@@ -158,16 +158,16 @@ class Island {
         std::vector<std::size_t> places;
         std::vector<std::uint64_t> hashes(genomes.size());
         for (std::size_t g = 0; g < genomes.size(); ++g) {
-            const Activity activity = activity_of(genomes[g]);
-            hashes[g] = phenotype_hash(genomes[g], activity);
-            all[g].nodes = activity.nodes;
+            Program program(genomes[g]);
+            hashes[g] = program.hash();
+            all[g].nodes = activity_of(genomes[g]).nodes;
             const auto known = known_.find(hashes[g]);
             if (known != known_.end()) {
                 all[g].value = known->second.value;
                 all[g].steps = known->second.steps;
                 all[g].reach = known->second.reach;
             } else {
-                programs.emplace_back(genomes[g]);
+                programs.push_back(std::move(program));
                 places.push_back(g);
             }
         }
@@ -296,11 +296,9 @@ class Island {
     // A father that is not the one that was looked at last.
     void confirm() {
         if (generations_ % 5 != 0 && has_record_) return;
-        const Activity activity = activity_of(father_);
-        const std::uint64_t hash = phenotype_hash(father_, activity);
-        if (has_record_ && hash == confirmed_) return;
-        confirmed_ = hash;
         const Program program(father_);
+        if (has_record_ && program.hash() == confirmed_) return;
+        confirmed_ = program.hash();
         const Program* const pointer = &program;
         std::vector<std::uint64_t> seeds;
         Random numbers(options_.seed, std::uint64_t{1} << 40);
@@ -310,7 +308,7 @@ class Island {
         episodes_ += confirmations;
         const double steps = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
                              static_cast<double>(confirmations);
-        note(father_, {measured(returns, options_.measure), steps, 0, activity.nodes});
+        note(father_, {measured(returns, options_.measure), steps, 0, activity_of(father_).nodes});
     }
 
     // Evolution strategy on the constants that count: children about the father, of a size that
