@@ -104,8 +104,8 @@ Genome random_genome(const GenomeShape& shape, Random& random) {
     return genome;
 }
 
-void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, Random& random) {
-    const Activity activity = activity_of(genome);
+void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, const Activity& activity,
+            Random& random) {
     const int genes = gene_count(genome);
     if (mutation == Mutation::Single) {
         const auto any = [&] {

@@ -59,7 +59,6 @@ struct GenomeShape {
 };
 
 Genome random_genome(const GenomeShape& shape, Random& random);
-void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, Random& random);
 
 // Which nodes have a part in the outputs; `used` tells which inputs and constants do, too.
 struct Activity {
@@ -67,5 +66,9 @@ struct Activity {
     int nodes = 0;
 };
 Activity activity_of(const Genome& genome);
+
+// `activity` is that of the genome as it is.
+void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, const Activity& activity,
+            Random& random);
 
 }  // namespace rddlc::solvers

@@ -103,13 +103,14 @@ class Island {
     bool is_noisy() const { return options_.episodes > 1; }
 
     void generation() {
-        std::vector<Genome> candidates{father_};
-        for (int c = 0; c < options_.children; ++c) {
-            candidates.push_back(father_);
-            mutate(candidates.back(), shape_, options_.mutation, random_);
+        const std::size_t first = is_noisy() ? 1 : 0;  // with noise the father plays again
+        candidates_.resize(first + static_cast<std::size_t>(options_.children));
+        const Activity activity = activity_of(father_);
+        for (std::size_t c = 0; c < candidates_.size(); ++c) {
+            candidates_[c] = father_;
+            if (c >= first) mutate(candidates_[c], shape_, options_.mutation, activity, random_);
         }
-        if (!is_noisy()) candidates.erase(candidates.begin());
-        choose(candidates);
+        choose(candidates_);
         generations_ += 1;
         if (options_.tune_every > 0 && generations_ % options_.tune_every == 0) tune();
         if (options_.restart_after > 0 && stagnation_ >= options_.restart_after) restart();
@@ -160,7 +161,7 @@ class Island {
         for (std::size_t g = 0; g < genomes.size(); ++g) {
             Program program(genomes[g]);
             hashes[g] = program.hash();
-            all[g].nodes = activity_of(genomes[g]).nodes;
+            all[g].nodes = program.nodes();
             const auto known = known_.find(hashes[g]);
             if (known != known_.end()) {
                 all[g].value = known->second.value;
@@ -199,7 +200,7 @@ class Island {
         std::vector<Fitness> all;
         for (const Genome& genome : genomes) {
             programs.emplace_back(genome);
-            all.push_back({0, 0, 0, activity_of(genome).nodes});
+            all.push_back({0, 0, 0, programs.back().nodes()});
         }
         std::vector<std::uint64_t> seeds;
         for (int e = 0; e < options_.episodes; ++e) seeds.push_back(random_.bits());
@@ -308,7 +309,7 @@ class Island {
         episodes_ += confirmations;
         const double steps = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
                              static_cast<double>(confirmations);
-        note(father_, {measured(returns, options_.measure), steps, 0, activity_of(father_).nodes});
+        note(father_, {measured(returns, options_.measure), steps, 0, program.nodes()});
     }
 
     // Evolution strategy on the constants that count: children about the father, of a size that
@@ -356,6 +357,7 @@ class Island {
     Evaluator first_round_;
     std::unique_ptr<Evaluator> others_, confirmation_;
     Genome father_, record_;
+    std::vector<Genome> candidates_;  // of a generation; kept for their memory alone
     Fitness fitness_, record_fitness_;
     bool has_record_ = false, replaced_ = false;
     std::int64_t generations_ = 0, stagnation_ = 0, evaluations_ = 0, episodes_ = 0, restarts_ = 0;

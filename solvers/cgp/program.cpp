@@ -20,6 +20,7 @@ int arity_of(Function function) {
 
 Program::Program(const Genome& genome) : delayed_(genome.delayed) {
     const Activity activity = activity_of(genome);
+    nodes_ = activity.nodes;
     const auto first_node = static_cast<std::size_t>(genome.first_node());
     std::vector<int> places(activity.used.size());
     for (std::size_t a = 0; a < first_node; ++a) {

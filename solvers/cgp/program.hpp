@@ -18,6 +18,8 @@ class Program {
     explicit Program(const Genome& genome);
 
     const std::vector<int>& used_inputs() const { return used_inputs_; }
+    // Nodes of the genome that have a part in the outputs, whatever is left of them.
+    int nodes() const { return nodes_; }
     bool delayed() const { return delayed_; }
     // Numbers of a lane.
     int slots() const { return slots_ + (delayed_ ? slots_ : 0); }
@@ -48,6 +50,7 @@ class Program {
     std::vector<double> constants_;
     std::vector<int> outputs_;  // as arguments
     std::vector<int> used_inputs_;
+    int nodes_ = 0;
     int slots_ = 0;  // with a value each; of delayed programs, those of the step before follow
     bool delayed_ = false;
 };

@@ -155,7 +155,7 @@ TEST(Cgp, MutationsOfOneGeneChangeThePhenotype) {
     int same = 0;
     for (int round = 0; round < 500; ++round) {
         const std::uint64_t before = Program(genome).hash();
-        mutate(genome, shape, Mutation::Single, random);
+        mutate(genome, shape, Mutation::Single, activity_of(genome), random);
         same += Program(genome).hash() == before;
     }
     EXPECT_LT(same, 25);  // an argument may change for one that computes the same
