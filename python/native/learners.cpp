@@ -189,6 +189,7 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     options.take("islands", cgp.islands);
     options.take("threads", cgp.threads);
     options.take("time", cgp.time);
+    options.take("compat", cgp.skdecide, {{"none", false}, {"skdecide", true}});
     options.take("seed", cgp.seed);
     options.finish();
     if (!functions.empty()) cgp.functions = solvers::functions_named(functions);
@@ -204,7 +205,7 @@ Policy policy_of_text(const LoadedProblem& problem, const std::string& text, boo
 
 std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {
     const auto found = solvers::read_program(*problem.simulator, text);
-    return solvers::formula_text(solvers::simplified(found->genome), found->scope);
+    return solvers::program_formula(found->scope, found->genome);
 }
 
 void write_policy(const std::string& path, const std::string& text) {

@@ -186,7 +186,7 @@ class CGP(Learner):
 
     options, as `rddl help train cgp` tells them: children, nodes, constants, functions (a list of
     names or groups), episodes, measure ("mean", "median", "min", "cvar"), restart_after, tune_every,
-    islands, threads, time, seed.
+    islands, threads, time, compat ("skdecide": programs as scikit-decide has them), seed.
     """
 
     extension, total = ".cgp", "generations"

@@ -45,7 +45,7 @@ ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& 
 
 void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> programs,
                        std::span<const std::uint8_t> running, const float* observations,
-                       std::int64_t steps, float* actions) {
+                       std::span<const std::int64_t> steps, float* actions) {
     const int columns = scope_.observations.column_count();
     const int outputs = scope_.actions.output_count();
     const auto units = static_cast<std::ptrdiff_t>(scope_.units.size());
@@ -58,13 +58,13 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
         for (std::int64_t e = 0; e < episodes_; ++e) {
             const float* features = observations + (p * episodes_ + e) * columns;
             if (copies) {
-                write_features(scope_.observations, features, steps, true, features_.data());
+                write_features(scope_.observations, features, steps[at], true, features_.data());
                 features = features_.data();
             }
             read_inputs(scope_, features, program.used_inputs(), inputs_.data() + e, episodes_);
         }
-        values_.resize(std::max(values_.size(), static_cast<std::size_t>(program.slots() * lanes)));
-        program.run(lanes, inputs_.data(), lanes, values_.data(), results_.data());
+        program.run(lanes, inputs_.data(), lanes, room_for(program, at, lanes, steps[at]),
+                    results_.data());
         for (std::int64_t e = 0; e < episodes_; ++e)
             write_outputs(scope_, results_.data() + e, episodes_,
                           outputs_.data() + (p * episodes_ + e) * outputs);
@@ -77,6 +77,19 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
             return ChoiceKey{0, 0, 0};
         },
         chosen, actions);
+}
+
+double* ProgramActor::room_for(const Program& program, std::size_t number, int lanes,
+                               std::int64_t steps) {
+    const std::size_t size =
+        static_cast<std::size_t>(program.slots()) * static_cast<std::size_t>(lanes);
+    if (!program.delayed()) {
+        values_.resize(std::max(values_.size(), size));
+        return values_.data();
+    }
+    memories_.resize(static_cast<std::size_t>(programs_));
+    if (steps == 0) memories_[number].assign(size, 0.0);
+    return memories_[number].data();
 }
 
 Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
@@ -94,6 +107,7 @@ Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
     rewards_.resize(environments);
     for (auto* each : {&causes_, &ended_}) each->resize(environments);
     running_.resize(static_cast<std::size_t>(programs));
+    steps_.resize(running_.size());
     seeds_.resize(environments);
 }
 
@@ -134,7 +148,9 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
             any |= runs;
         }
         if (!any) break;
-        actor_.act(batch_.get(), programs_, running_, observations_.data(), step, actions_.data());
+        std::fill(steps_.begin(), steps_.end(), step);
+        actor_.act(batch_.get(), programs_, running_, observations_.data(), steps_,
+                   actions_.data());
         require_done(simulator_, simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(),
                                                         observations_.data(), &out));
         if (reach) follow_reach();

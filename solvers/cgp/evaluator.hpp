@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/batches/batch.hpp"
-#include "solvers/cgp/genome.hpp"
+#include "solvers/cgp/program.hpp"
 #include "solvers/cgp/scope.hpp"
 #include "solvers/choosing/choosing.hpp"
 
@@ -21,12 +21,15 @@ class ProgramActor {
                  std::int64_t episodes);
 
     // Reads rows of the simulator's observed values, writes rows of action values. Programs whose
-    // `running` is 0 are left out, their actions are what they were. steps: made by all.
+    // `running` is 0 are left out, their actions are what they were. steps: that each program's
+    // episodes have made.
     void act(rddl_batch* batch, std::span<const Program* const> programs,
-             std::span<const std::uint8_t> running, const float* observations, std::int64_t steps,
-             float* actions);
+             std::span<const std::uint8_t> running, const float* observations,
+             std::span<const std::int64_t> steps, float* actions);
 
   private:
+    double* room_for(const Program& program, std::size_t number, int lanes, std::int64_t steps);
+
     const ProgramScope& scope_;
     std::int64_t programs_, episodes_;
     Chooser chooser_;
@@ -34,6 +37,7 @@ class ProgramActor {
     std::vector<std::int32_t> indices_;
     std::vector<std::uint8_t> masks_;
     std::vector<double> inputs_, values_, results_;
+    std::vector<std::vector<double>> memories_;  // of delayed programs, in place of values_
 };
 
 class Evaluator {
@@ -65,6 +69,7 @@ class Evaluator {
     std::vector<double> rewards_;
     std::vector<std::uint8_t> causes_, ended_, running_;
     std::vector<std::uint64_t> seeds_;
+    std::vector<std::int64_t> steps_;
     std::vector<const Program*> programs_;
 };
 

@@ -271,6 +271,19 @@ std::string formula_cpp(const Formula& formula, const ProgramScope& scope) {
         "inline double floor_(double a) { return std::floor(a); }\n"
         "inline double ceil_(double a) { return std::ceil(a); }\n"
         "inline double round_(double a) { return std::nearbyint(a); }\n"
+        "constexpr double pi = 3.14159265358979323846;\n"
+        "inline double in_unit(double x) { return x > 1 ? 1 : x < -1 ? -1 : x; }\n"
+        "inline double halfsum_(double a, double b) { return in_range(0.5 * (a + b)); }\n"
+        "inline double halfdist_(double a, double b) { return in_range(0.5 * std::abs(a - b)); }\n"
+        "inline double uexp_(double a) {\n"
+        "    return in_range((std::exp(a) - 1) / (std::exp(1.0) - 1));\n}\n"
+        "inline double ulength_(double a, double b) {\n"
+        "    return in_range(std::sqrt(a * a + b * b) / std::sqrt(2.0));\n}\n"
+        "inline double upow_(double a, double b) {\n"
+        "    return in_range(std::pow(std::abs(a), std::abs(b)));\n}\n"
+        "inline double uasin_(double a) { return 2 * std::asin(in_unit(a)) / pi; }\n"
+        "inline double uacos_(double a) { return std::acos(in_unit(a)) / pi; }\n"
+        "inline double uatan_(double a) { return 4 * std::atan(a) / pi; }\n"
         "}  // namespace f\n\n";
     text += fmt::format("constexpr int input_count = {}, output_count = {};\n\n",
                         scope.input_count(), scope.output_count());
@@ -327,7 +340,17 @@ std::string formula_python(const Formula& formula, const ProgramScope& scope) {
         "def _half(a): return a * 0.5\n"
         "def _floor(a): return float(math.floor(a))\n"
         "def _ceil(a): return float(math.ceil(a))\n"
-        "def _round(a): return float(round(a))\n\n\n";
+        "def _round(a): return float(round(a))\n"
+        "def _halfsum(a, b): return _in_range(0.5 * (a + b))\n"
+        "def _halfdist(a, b): return _in_range(0.5 * abs(a - b))\n"
+        "def _uexp(a): return 1e6 if a > 15 else _in_range((math.exp(a) - 1) / (math.e - 1))\n"
+        "def _ulength(a, b): return _in_range(math.sqrt(a * a + b * b) / math.sqrt(2))\n"
+        "def _upow(a, b):\n"
+        "    try: return _in_range(abs(a) ** abs(b))\n"
+        "    except OverflowError: return 1e6\n"
+        "def _uasin(a): return 2 * math.asin(max(-1.0, min(1.0, a))) / math.pi\n"
+        "def _uacos(a): return math.acos(max(-1.0, min(1.0, a))) / math.pi\n"
+        "def _uatan(a): return 4 * math.atan(a) / math.pi\n\n\n";
     text += "INPUTS = [";
     for (const ProgramInput& input : scope.inputs) text += fmt::format("\"{}\", ", input.name);
     text += "]\nOUTPUTS = [";

@@ -1,102 +1,52 @@
 #include "solvers/cgp/functions.hpp"
 
+#include "solvers/cgp/compute.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace rddlc::solvers {
 
 namespace {
 
 constexpr FunctionInfo all_functions[] = {
-    {Function::Add, "add", "arith", 2},       {Function::Subtract, "sub", "arith", 2},
-    {Function::Multiply, "mul", "arith", 2},  {Function::Divide, "div", "arith", 2},
-    {Function::Negate, "neg", "arith", 1},    {Function::Absolute, "abs", "arith", 1},
-    {Function::Minimum, "min", "arith", 2},   {Function::Maximum, "max", "arith", 2},
-    {Function::Square, "square", "arith", 1}, {Function::Root, "sqrt", "arith", 1},
-    {Function::Sine, "sin", "trig", 1},       {Function::Cosine, "cos", "trig", 1},
-    {Function::Tanh, "tanh", "trig", 1},      {Function::Exponential, "exp", "trig", 1},
-    {Function::Greater, "gt", "logic", 2},    {Function::If, "if", "logic", 3},
-    {Function::And, "and", "logic", 2},       {Function::Or, "or", "logic", 2},
-    {Function::Not, "not", "logic", 1},       {Function::Sign, "sign", "logic", 1},
-    {Function::One, "one", "logic", 0},       {Function::Zero, "zero", "logic", 0},
-    {Function::Half, "half", "arith", 1},     {Function::Floor, "floor", "round", 1},
-    {Function::Ceiling, "ceil", "round", 1},  {Function::Round, "round", "round", 1},
+    {Function::Add, "add", "arith", 2},
+    {Function::Subtract, "sub", "arith", 2},
+    {Function::Multiply, "mul", "arith", 2},
+    {Function::Divide, "div", "arith", 2},
+    {Function::Negate, "neg", "arith", 1},
+    {Function::Absolute, "abs", "arith", 1},
+    {Function::Minimum, "min", "arith", 2},
+    {Function::Maximum, "max", "arith", 2},
+    {Function::Square, "square", "arith", 1},
+    {Function::Root, "sqrt", "arith", 1},
+    {Function::Sine, "sin", "trig", 1},
+    {Function::Cosine, "cos", "trig", 1},
+    {Function::Tanh, "tanh", "trig", 1},
+    {Function::Exponential, "exp", "trig", 1},
+    {Function::Greater, "gt", "logic", 2},
+    {Function::If, "if", "logic", 3},
+    {Function::And, "and", "logic", 2},
+    {Function::Or, "or", "logic", 2},
+    {Function::Not, "not", "logic", 1},
+    {Function::Sign, "sign", "logic", 1},
+    {Function::One, "one", "logic", 0},
+    {Function::Zero, "zero", "logic", 0},
+    {Function::Half, "half", "arith", 1},
+    {Function::Floor, "floor", "round", 1},
+    {Function::Ceiling, "ceil", "round", 1},
+    {Function::Round, "round", "round", 1},
+    {Function::HalfSum, "halfsum", "unit", 2},
+    {Function::HalfDistance, "halfdist", "unit", 2},
+    {Function::ScaledExponential, "uexp", "unit", 1},
+    {Function::ScaledLength, "ulength", "unit", 2},
+    {Function::AbsolutePower, "upow", "unit", 2},
+    {Function::ArcSine, "uasin", "unit", 1},
+    {Function::ArcCosine, "uacos", "unit", 1},
+    {Function::ArcTangent, "uatan", "unit", 1},
 };
-
-double bounded(double x) {
-    if (std::isnan(x)) return 0;
-    return std::clamp(x, -largest_result, largest_result);
-}
-
-// Numbers above 0 are true; true is 1, false 0.
-double truth(bool holds) {
-    return holds ? 1 : 0;
-}
-
-// Calls use(compute), where compute(a, b, c) is the function.
-template <class Use>
-void with(Function function, Use use) {
-    switch (function) {
-        case Function::Add:
-            return use([](double a, double b, double) { return bounded(a + b); });
-        case Function::Subtract:
-            return use([](double a, double b, double) { return bounded(a - b); });
-        case Function::Multiply:
-            return use([](double a, double b, double) { return bounded(a * b); });
-        case Function::Divide:  // by nearly nothing: 1
-            return use([](double a, double b, double) {
-                return std::abs(b) < 1e-9 ? 1.0 : bounded(a / b);
-            });
-        case Function::Negate:
-            return use([](double a, double, double) { return -a; });
-        case Function::Absolute:
-            return use([](double a, double, double) { return std::abs(a); });
-        case Function::Minimum:
-            return use([](double a, double b, double) { return std::min(a, b); });
-        case Function::Maximum:
-            return use([](double a, double b, double) { return std::max(a, b); });
-        case Function::Square:
-            return use([](double a, double, double) { return bounded(a * a); });
-        case Function::Root:
-            return use([](double a, double, double) { return std::sqrt(std::abs(a)); });
-        case Function::Sine:
-            return use([](double a, double, double) { return std::sin(a); });
-        case Function::Cosine:
-            return use([](double a, double, double) { return std::cos(a); });
-        case Function::Tanh:
-            return use([](double a, double, double) { return std::tanh(a); });
-        case Function::Exponential:
-            return use([](double a, double, double) { return bounded(std::exp(a)); });
-        case Function::Greater:
-            return use([](double a, double b, double) { return truth(a > b); });
-        case Function::If:
-            return use([](double a, double b, double c) { return a > 0 ? b : c; });
-        case Function::And:
-            return use([](double a, double b, double) { return truth(a > 0 && b > 0); });
-        case Function::Or:
-            return use([](double a, double b, double) { return truth(a > 0 || b > 0); });
-        case Function::Not:
-            return use([](double a, double, double) { return truth(!(a > 0)); });
-        case Function::Sign:
-            return use([](double a, double, double) { return a > 0 ? 1.0 : a < 0 ? -1.0 : 0.0; });
-        case Function::One:
-            return use([](double, double, double) { return 1.0; });
-        case Function::Zero:
-            return use([](double, double, double) { return 0.0; });
-        case Function::Half:
-            return use([](double a, double, double) { return a * 0.5; });
-        case Function::Floor:
-            return use([](double a, double, double) { return std::floor(a); });
-        case Function::Ceiling:
-            return use([](double a, double, double) { return std::ceil(a); });
-        case Function::Round:
-            return use([](double a, double, double) { return std::nearbyint(a); });
-    }
-}
 
 }  // namespace
 
@@ -122,7 +72,7 @@ std::vector<Function> functions_named(const std::vector<std::string>& words) {
             if (word == info.name || word == info.group) add(info.function);
         if (functions.size() == before && !function_named(word))
             throw Failure(fmt::format("'{}' is no function of CGP, nor a group of them", word),
-                          "groups are arith, trig, logic and round", usage_error);
+                          "groups are arith, trig, logic, round and unit", usage_error);
     }
     return functions;
 }

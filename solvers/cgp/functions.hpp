@@ -35,15 +35,24 @@ enum class Function : std::uint8_t {
     Half,
     Floor,
     Ceiling,
-    Round
+    Round,
+    // From [-1, 1] to [-1, 1], as scikit-decide has them.
+    HalfSum,
+    HalfDistance,
+    ScaledExponential,  // (e^a - 1) / (e - 1)
+    ScaledLength,       // of (a, b), by that of (1, 1)
+    AbsolutePower,      // |a|^|b|
+    ArcSine,            // by pi / 2
+    ArcCosine,          // by pi
+    ArcTangent          // by pi / 4
 };
-inline constexpr int function_count = static_cast<int>(Function::Round) + 1;
+inline constexpr int function_count = static_cast<int>(Function::ArcTangent) + 1;
 inline constexpr double largest_result = 1e6;
 
 struct FunctionInfo {
     Function function;
     const char* name;   // in files and options
-    const char* group;  // arith, trig, logic, round
+    const char* group;  // arith, trig, logic, round, unit
     int arity;          // 0 .. 3
 };
 const FunctionInfo& info_of(Function function);

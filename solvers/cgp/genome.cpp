@@ -3,7 +3,6 @@
 #include <rddl/philox.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -93,6 +92,7 @@ bool mutate_gene(Genome& genome, const GenomeShape& shape, int gene, const Activ
 Genome random_genome(const GenomeShape& shape, Random& random) {
     Genome genome;
     genome.inputs = shape.inputs;
+    genome.delayed = shape.delayed;
     for (int c = 0; c < shape.constants; ++c) genome.constants.push_back(random.normal());
     for (int n = 0; n < shape.nodes; ++n) {
         Node node;
@@ -104,8 +104,8 @@ Genome random_genome(const GenomeShape& shape, Random& random) {
     return genome;
 }
 
-void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, Random& random) {
-    const Activity activity = activity_of(genome);
+void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, const Activity& activity,
+            Random& random) {
     const int genes = gene_count(genome);
     if (mutation == Mutation::Single) {
         const auto any = [&] {
@@ -132,102 +132,16 @@ Activity activity_of(const Genome& genome) {
         if (!activity.used[static_cast<std::size_t>(genome.first_node()) + n]) continue;
         activity.nodes += 1;
         const Node& node = genome.nodes[n];
-        for (int a = 0; a < info_of(node.function).arity; ++a)
-            activity.used[static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(a)])] =
-                1;
+        const int read = genome.delayed ? arguments_of_delayed : info_of(node.function).arity;
+        for (int a = 0; a < read; ++a) {
+            const auto argument =
+                static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(a)]);
+            // A node behind this one that nobody behind it reads has no part in a delayed program.
+            if (argument < static_cast<std::size_t>(genome.first_node()) + n)
+                activity.used[argument] = 1;
+        }
     }
     return activity;
-}
-
-std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity) {
-    std::uint64_t hash = 0xCBF29CE484222325;
-    const auto add = [&](std::uint64_t number) {
-        hash = (hash ^ number) * 0x9E3779B97F4A7C15;
-        hash ^= hash >> 29;
-    };
-    // Nodes count among those that are used, so that where they stand does not matter.
-    std::vector<int> numbers(activity.used.size());
-    int next = genome.first_node();
-    for (std::size_t a = 0; a < numbers.size(); ++a) {
-        if (a < static_cast<std::size_t>(genome.first_node())) {
-            numbers[a] = static_cast<int>(a);
-            if (a >= static_cast<std::size_t>(genome.inputs) && activity.used[a]) {
-                add(a);
-                add(std::bit_cast<std::uint64_t>(
-                    genome.constants[a - static_cast<std::size_t>(genome.inputs)]));
-            }
-            continue;
-        }
-        if (!activity.used[a]) continue;
-        numbers[a] = next++;
-        const Node& node = genome.nodes[a - static_cast<std::size_t>(genome.first_node())];
-        add(static_cast<std::uint64_t>(node.function));
-        for (int k = 0; k < info_of(node.function).arity; ++k)
-            add(static_cast<std::uint64_t>(
-                numbers[static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(k)])]));
-    }
-    for (const int output : genome.outputs)
-        add(static_cast<std::uint64_t>(numbers[static_cast<std::size_t>(output)]));
-    return hash;
-}
-
-Program::Program(const Genome& genome) : constants_(genome.constants) {
-    const Activity activity = activity_of(genome);
-    std::vector<int> places(activity.used.size());
-    const auto first_node = static_cast<std::size_t>(genome.first_node());
-    slots_ = static_cast<int>(constants_.size());
-    for (std::size_t a = 0; a < places.size(); ++a) {
-        if (a < static_cast<std::size_t>(genome.inputs)) {
-            places[a] = -1 - static_cast<int>(a);
-            if (activity.used[a]) used_inputs_.push_back(static_cast<int>(a));
-        } else if (a < first_node) {
-            places[a] = static_cast<int>(a) - genome.inputs;
-        } else if (activity.used[a]) {
-            const Node& node = genome.nodes[a - first_node];
-            Instruction instruction{node.function, {}};
-            for (int k = 0; k < info_of(node.function).arity; ++k) {
-                const auto at = static_cast<std::size_t>(k);
-                instruction.arguments[at] = places[static_cast<std::size_t>(node.arguments[at])];
-            }
-            instructions_.push_back(instruction);
-            places[a] = slots_++;
-        }
-    }
-    for (const int output : genome.outputs)
-        outputs_.push_back(places[static_cast<std::size_t>(output)]);
-}
-
-void Program::run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
-                  double* outputs) const {
-    if (lanes == 1) return run_one(inputs, input_row, values, outputs);
-    const auto at = [&](int place) -> const double* {
-        return place < 0 ? inputs + (-1 - place) * input_row : values + place * lanes;
-    };
-    for (std::size_t c = 0; c < constants_.size(); ++c)
-        std::fill_n(values + static_cast<std::ptrdiff_t>(c) * lanes, lanes, constants_[c]);
-    double* result = values + static_cast<std::ptrdiff_t>(constants_.size()) * lanes;
-    for (const Instruction& instruction : instructions_) {
-        apply(instruction.function, lanes, at(instruction.arguments[0]),
-              at(instruction.arguments[1]), at(instruction.arguments[2]), result);
-        result += lanes;
-    }
-    for (std::size_t o = 0; o < outputs_.size(); ++o)
-        std::copy_n(at(outputs_[o]), lanes, outputs + static_cast<std::ptrdiff_t>(o) * lanes);
-}
-
-// The same without loops over one lane, which would cost more than what they do.
-void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
-                      double* outputs) const {
-    const auto at = [&](int place) {
-        return place < 0 ? inputs[(-1 - place) * input_row] : values[place];
-    };
-    for (const double constant : constants_) *values++ = constant;
-    double* result = values;
-    values -= constants_.size();
-    for (const Instruction& instruction : instructions_)
-        *result++ = apply(instruction.function, at(instruction.arguments[0]),
-                          at(instruction.arguments[1]), at(instruction.arguments[2]));
-    for (const int output : outputs_) *outputs++ = at(output);
 }
 
 }  // namespace rddlc::solvers

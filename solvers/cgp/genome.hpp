@@ -18,11 +18,17 @@ struct Node {
     bool operator==(const Node&) const = default;
 };
 
+// Of a node of a delayed program, whatever its function's arity is: both count as read.
+inline constexpr int arguments_of_delayed = 2;
+
 struct Genome {
     int inputs = 0;
     std::vector<double> constants;
     std::vector<Node> nodes;
     std::vector<int> outputs;  // addresses
+    // Nodes read what other nodes computed in the step before, at first 0; inputs are of this step.
+    // Then a node may read any other, and itself. So do programs of scikit-decide (skdecide.hpp).
+    bool delayed = false;
 
     int first_node() const { return inputs + static_cast<int>(constants.size()); }
 };
@@ -49,10 +55,10 @@ struct GenomeShape {
     int inputs = 0, constants = 0, nodes = 0, outputs = 0;
     int levels_back = 0;  // how many nodes before it a node reads at most; 0: all
     std::vector<Function> functions;
+    bool delayed = false;
 };
 
 Genome random_genome(const GenomeShape& shape, Random& random);
-void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, Random& random);
 
 // Which nodes have a part in the outputs; `used` tells which inputs and constants do, too.
 struct Activity {
@@ -61,35 +67,8 @@ struct Activity {
 };
 Activity activity_of(const Genome& genome);
 
-// Of all that has a part in the outputs: equal programs have equal numbers.
-std::uint64_t phenotype_hash(const Genome& genome, const Activity& activity);
-
-// What is left of a genome, ready to run: for any number of lanes at once.
-class Program {
-  public:
-    Program() = default;
-    explicit Program(const Genome& genome);
-
-    const std::vector<int>& used_inputs() const { return used_inputs_; }
-    int slots() const { return slots_; }
-    // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
-    // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
-    void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
-             double* outputs) const;
-
-  private:
-    void run_one(const double* inputs, std::ptrdiff_t input_row, double* values,
-                 double* outputs) const;
-
-    struct Instruction {
-        Function function;
-        std::array<int, 3> arguments;  // slots; negative: input -1 - argument
-    };
-    std::vector<Instruction> instructions_;  // the k-th writes slot constants + k
-    std::vector<double> constants_;
-    std::vector<int> outputs_;  // as arguments
-    std::vector<int> used_inputs_;
-    int slots_ = 0;
-};
+// `activity` is that of the genome as it is.
+void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, const Activity& activity,
+            Random& random);
 
 }  // namespace rddlc::solvers

@@ -63,6 +63,7 @@ void archive_genome(Archive& archive, Genome& genome) {
     archive(genome.constants);
     archive(genome.nodes);
     archive(genome.outputs);
+    archive(genome.delayed);
 }
 
 // A program, and how good it is.
@@ -78,8 +79,8 @@ class Island {
            int number)
         : scope_(scope),
           options_(options),
-          shape_{scope.input_count(),  options.constants,   options.nodes,
-                 scope.output_count(), options.levels_back, options.functions},
+          shape_{scope.input_count(), options.constants, options.nodes,   scope.output_count(),
+                 options.levels_back, options.functions, options.skdecide},
           random_(options.seed, static_cast<std::uint64_t>(number)),
           first_round_(simulator, scope, options.children + 1, std::max(1, options.episodes / 4)),
           others_(options.episodes > 1
@@ -102,13 +103,14 @@ class Island {
     bool is_noisy() const { return options_.episodes > 1; }
 
     void generation() {
-        std::vector<Genome> candidates{father_};
-        for (int c = 0; c < options_.children; ++c) {
-            candidates.push_back(father_);
-            mutate(candidates.back(), shape_, options_.mutation, random_);
+        const std::size_t first = is_noisy() ? 1 : 0;  // with noise the father plays again
+        candidates_.resize(first + static_cast<std::size_t>(options_.children));
+        const Activity activity = activity_of(father_);
+        for (std::size_t c = 0; c < candidates_.size(); ++c) {
+            candidates_[c] = father_;
+            if (c >= first) mutate(candidates_[c], shape_, options_.mutation, activity, random_);
         }
-        if (!is_noisy()) candidates.erase(candidates.begin());
-        choose(candidates);
+        choose(candidates_);
         generations_ += 1;
         if (options_.tune_every > 0 && generations_ % options_.tune_every == 0) tune();
         if (options_.restart_after > 0 && stagnation_ >= options_.restart_after) restart();
@@ -157,16 +159,16 @@ class Island {
         std::vector<std::size_t> places;
         std::vector<std::uint64_t> hashes(genomes.size());
         for (std::size_t g = 0; g < genomes.size(); ++g) {
-            const Activity activity = activity_of(genomes[g]);
-            hashes[g] = phenotype_hash(genomes[g], activity);
-            all[g].nodes = activity.nodes;
+            Program program(genomes[g]);
+            hashes[g] = program.hash();
+            all[g].nodes = program.nodes();
             const auto known = known_.find(hashes[g]);
             if (known != known_.end()) {
                 all[g].value = known->second.value;
                 all[g].steps = known->second.steps;
                 all[g].reach = known->second.reach;
             } else {
-                programs.emplace_back(genomes[g]);
+                programs.push_back(std::move(program));
                 places.push_back(g);
             }
         }
@@ -198,7 +200,7 @@ class Island {
         std::vector<Fitness> all;
         for (const Genome& genome : genomes) {
             programs.emplace_back(genome);
-            all.push_back({0, 0, 0, activity_of(genome).nodes});
+            all.push_back({0, 0, 0, programs.back().nodes()});
         }
         std::vector<std::uint64_t> seeds;
         for (int e = 0; e < options_.episodes; ++e) seeds.push_back(random_.bits());
@@ -295,11 +297,9 @@ class Island {
     // A father that is not the one that was looked at last.
     void confirm() {
         if (generations_ % 5 != 0 && has_record_) return;
-        const Activity activity = activity_of(father_);
-        const std::uint64_t hash = phenotype_hash(father_, activity);
-        if (has_record_ && hash == confirmed_) return;
-        confirmed_ = hash;
         const Program program(father_);
+        if (has_record_ && program.hash() == confirmed_) return;
+        confirmed_ = program.hash();
         const Program* const pointer = &program;
         std::vector<std::uint64_t> seeds;
         Random numbers(options_.seed, std::uint64_t{1} << 40);
@@ -309,7 +309,7 @@ class Island {
         episodes_ += confirmations;
         const double steps = std::accumulate(lengths.begin(), lengths.end(), 0.0) /
                              static_cast<double>(confirmations);
-        note(father_, {measured(returns, options_.measure), steps, 0, activity.nodes});
+        note(father_, {measured(returns, options_.measure), steps, 0, program.nodes()});
     }
 
     // Evolution strategy on the constants that count: children about the father, of a size that
@@ -357,6 +357,7 @@ class Island {
     Evaluator first_round_;
     std::unique_ptr<Evaluator> others_, confirmation_;
     Genome father_, record_;
+    std::vector<Genome> candidates_;  // of a generation; kept for their memory alone
     Fitness fitness_, record_fitness_;
     bool has_record_ = false, replaced_ = false;
     std::int64_t generations_ = 0, stagnation_ = 0, evaluations_ = 0, episodes_ = 0, restarts_ = 0;

@@ -3,6 +3,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/formula.hpp"
+#include "solvers/cgp/skdecide.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -60,6 +61,14 @@ class Lines {
     std::istringstream stream_;
 };
 
+void require_problem(const rddl_simulator& simulator, const std::string& domain,
+                     const std::string& instance) {
+    const rddl_problem& problem = *simulator.problem;
+    if (domain != problem.domain || instance != problem.instance)
+        throw Failure(fmt::format("it is of the problem {} ({}), not of {} ({})", instance, domain,
+                                  problem.instance, problem.domain));
+}
+
 struct FoundActor {
     FoundActor(const rddl_simulator& its_simulator, std::shared_ptr<const FoundProgram> its_found,
                std::int64_t environments)
@@ -77,12 +86,9 @@ struct FoundActor {
     void act(Decision& decision) {
         require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
                                                                  observations.data()));
-        std::int64_t steps = 0;  // of all that run: their episodes have begun together
-        for (std::size_t i = 0; i < running.size(); ++i) {
-            running[i] = decision.running[i];
-            if (running[i]) steps = decision.steps[i];
-        }
-        actor.act(decision.batch, programs, running, observations.data(), steps, actions.data());
+        for (std::size_t i = 0; i < running.size(); ++i) running[i] = decision.running[i];
+        actor.act(decision.batch, programs, running, observations.data(), decision.steps,
+                  actions.data());
         const auto columns = static_cast<std::size_t>(found->scope.actions.column_count);
         for (std::size_t i = 0; i < running.size(); ++i)
             records.write(actions.data() + i * columns,
@@ -99,11 +105,47 @@ struct FoundActor {
     std::vector<float> observations, actions;
 };
 
+// Three lines of scikit-decide's, and perhaps those that program_text has added.
+std::shared_ptr<const FoundProgram> read_skdecide_program(const rddl_simulator& simulator,
+                                                          std::string_view text) {
+    const auto found = std::make_shared<FoundProgram>();
+    found->genome = read_skdecide_genome(text);
+    const Genome& genome = found->genome;
+    std::size_t end = 0;
+    for (int line = 0; line < 3 && end != std::string_view::npos; ++line)
+        end = text.find('\n', end + (line > 0 ? 1 : 0));
+    if (end != std::string_view::npos && end + 1 < text.size()) {
+        Lines lines(text.substr(end));
+        const std::string domain = lines.text("domain"), instance = lines.text("instance");
+        require_problem(simulator, domain, instance);
+        lines.next("end");
+    }
+    found->scope = skdecide_scope(simulator);
+    const ProgramScope& scope = found->scope;
+    if (genome.inputs != scope.input_count() ||
+        static_cast<int>(genome.outputs.size()) != scope.output_count())
+        throw Failure(fmt::format(
+            "it has {} inputs and {} outputs, and the problem {} observed values and {} actions",
+            genome.inputs, genome.outputs.size(), scope.input_count(), scope.output_count()));
+    return found;
+}
+
 }  // namespace
+
+bool is_program(std::string_view text) {
+    return text.starts_with("rddl-cgp") || is_skdecide_genome(text);
+}
+
+std::string program_formula(const ProgramScope& scope, const Genome& genome) {
+    return genome.delayed ? delayed_text(genome, scope) : formula_text(simplified(genome), scope);
+}
 
 std::string program_text(const rddl_simulator& simulator, const ProgramScope& scope,
                          const Genome& genome) {
     const rddl_problem& problem = *simulator.problem;
+    if (genome.delayed)
+        return skdecide_genome_text(genome) +
+               fmt::format("domain {}\ninstance {}\nend\n", problem.domain, problem.instance);
     std::string text = fmt::format("rddl-cgp {}\ndomain {}\ninstance {}\nlifted {}\ntime {}\n",
                                    file_version, problem.domain, problem.instance,
                                    scope.lifted ? 1 : 0, scope.observations.time ? 1 : 0);
@@ -127,7 +169,7 @@ std::string program_text(const rddl_simulator& simulator, const ProgramScope& sc
 
 std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator,
                                                  std::string_view text) {
-    const rddl_problem& problem = *simulator.problem;
+    if (is_skdecide_genome(text)) return read_skdecide_program(simulator, text);
     if (!text.starts_with("rddl-cgp ")) throw Failure("it is no program of CGP");
     Lines lines(text);
     constexpr std::int64_t many = 1 << 24;
@@ -137,9 +179,7 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
                                   version, file_version));
     const std::string domain = lines.text("domain"), instance = lines.text("instance");
     const bool lifted = lines.number("lifted", 0, 1) != 0, time = lines.number("time", 0, 1) != 0;
-    if (domain != problem.domain || (!lifted && instance != problem.instance))
-        throw Failure(fmt::format("it is of the problem {} ({}), not of {} ({})", instance, domain,
-                                  problem.instance, problem.domain));
+    require_problem(simulator, domain, lifted ? simulator.problem->instance : instance);
     const auto found = std::make_shared<FoundProgram>();
     found->scope = program_scope(simulator, lifted ? Lifting::On : Lifting::Off, time, 0);
     ProgramScope& scope = found->scope;

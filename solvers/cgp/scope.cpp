@@ -1,6 +1,7 @@
 #include "solvers/cgp/scope.hpp"
 
 #include "solvers/batches/batch.hpp"
+#include "solvers/cgp/skdecide.hpp"
 #include "solvers/policies/random_actions.hpp"
 
 #include <algorithm>
@@ -370,6 +371,7 @@ ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, boo
 
 void read_inputs(const ProgramScope& scope, const float* features, const std::vector<int>& used,
                  double* inputs, std::ptrdiff_t stride) {
+    if (scope.skdecide) return read_skdecide_inputs(scope, features, used, inputs, stride);
     if (scope.plain) {
         for (const int i : used) {
             const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
@@ -396,6 +398,7 @@ void read_inputs(const ProgramScope& scope, const float* features, const std::ve
 
 void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff_t stride,
                    float* row) {
+    if (scope.skdecide) return write_skdecide_outputs(scope, values, stride, row);
     const ActionSpace& space = scope.actions;
     const auto units = static_cast<std::ptrdiff_t>(scope.units.size());
     const auto value_of = [&](int column) {

@@ -49,6 +49,7 @@ struct ProgramScope {
     std::vector<Term> terms;
     std::vector<std::uint32_t> ends;  // of unit * inputs + i's terms, from the one before
     bool plain = false;               // input i is feature i, and there is one unit
+    bool skdecide = false;            // read and written as skdecide.hpp says
 
     int input_count() const { return static_cast<int>(inputs.size()); }
     int output_count() const { return static_cast<int>(outputs.size()); }

@@ -1,6 +1,7 @@
 #include "solvers/cgp/search.hpp"
 
 #include "solvers/cgp/island.hpp"
+#include "solvers/cgp/skdecide.hpp"
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
 
@@ -16,7 +17,26 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 3};
+const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 4};
+
+// Options that it brings itself may not be given.
+void take_skdecide(CgpOptions& options) {
+    const CgpOptions none;
+    if (options.functions != none.functions || options.constants != none.constants ||
+        options.levels_back != none.levels_back || options.lifting == Lifting::On || options.time)
+        throw Failure(
+            "scikit-decide's programs have their own functions, no constants, and read "
+            "neither objects nor the time",
+            "leave out --functions, --constants, --levels-back, --lifted and "
+            "--time-input, or --compat",
+            usage_error);
+    options.functions = skdecide_functions();
+    options.constants = 0;
+    options.mutation = Mutation::Gene;
+    options.restart_after = options.tune_every = 0;
+    options.parsimony = false;
+    if (options.children == 0) options.children = 4;
+}
 
 CgpOptions completed(CgpOptions options, const rddl_problem& problem, const Ranks& ranks) {
     if (options.islands == 0) options.islands = ranks.count;
@@ -24,7 +44,7 @@ CgpOptions completed(CgpOptions options, const rddl_problem& problem, const Rank
         throw Failure(fmt::format("{} ranks need as many islands, and --islands is {}", ranks.count,
                                   options.islands),
                       {}, usage_error);
-
+    if (options.skdecide) take_skdecide(options);
     if (options.episodes == 0) options.episodes = problem.stochastic ? 16 : 1;
     if (options.children == 0) options.children = problem.stochastic ? 8 : 32;
     if (options.episodes > 1 && options.episodes < 4) options.episodes = 4;
@@ -40,7 +60,9 @@ struct CgpSearch::State {
         : simulator(its_simulator),
           ranks(its_ranks),
           options(completed(its_options, *simulator.problem, ranks)),
-          scope(program_scope(simulator, options.lifting, options.time, options.seed)),
+          scope(options.skdecide
+                    ? skdecide_scope(simulator)
+                    : program_scope(simulator, options.lifting, options.time, options.seed)),
           share(rddl::share_of(ranks.number, ranks.count, options.islands, 1)),
           team(std::min(options.threads, static_cast<int>(share.end - share.begin))) {
         for (std::int64_t i = share.begin; i < share.end; ++i)
@@ -152,6 +174,9 @@ struct CgpSearch::State {
     template <class Archive>
     void archive(Archive& archive) {
         archive(progress);
+        bool skdecide = options.skdecide;
+        archive(skdecide);
+        if (skdecide != options.skdecide) throw Failure("it is of other programs (--compat)");
         std::vector<double> scales;
         for (const ProgramInput& input : scope.inputs) {
             scales.push_back(input.shift);

@@ -44,6 +44,9 @@ struct CgpOptions {
     Lifting lifting = Lifting::Auto;
     bool parsimony = true;  // of programs that are as good, a smaller one is better
     bool time = false;      // programs read how much of the episode is over
+    // Programs and mutations are those of scikit-decide (skdecide.hpp), and so is lambda unless it
+    // is given. Its evaluation is not: one lucky episode does not make a record here.
+    bool skdecide = false;
     std::uint64_t seed = 0;
     // Asked by all threads, between generations: whether run() shall end early. May be empty.
     std::function<bool()> stops;

@@ -29,7 +29,8 @@ std::string cgp_status(const CgpSearch& search) {
     return fmt::format(
         "gen {}  {} evaluations/s  {:.6g} in {:.6g} steps  nodes {}  {}", p.generations,
         count_text(static_cast<double>(p.evaluations) / std::max(p.seconds, 1e-9)), p.best.value,
-        p.best.steps, p.best.nodes, short_formula(simplified(search.best()), search.scope(), 60));
+        p.best.steps, p.best.nodes,
+        search.best().delayed ? "" : short_formula(simplified(search.best()), search.scope(), 60));
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
         return search->progress().best.value;
     };
     trainee.summary = [=] {
-        return formula_text(simplified(search->best()), search->scope());
+        return program_formula(search->scope(), search->best());
     };
     trainee.policy = [=, &simulator] {
         const auto found =

@@ -1,4 +1,6 @@
-// Products of small matrices and tanh, in the vector registers that RDDL_VECTOR_BYTES says.
+// Products of small matrices and tanh, in the vector registers that RDDL_VECTOR_BYTES says. Long rows
+// of products and tanh are done in those of RDDL_WIDE_BYTES, which are as large or larger: each
+// number is computed in the same way, so it has the same bits.
 //
 // All matrices are row-major. Rows of results have a multiple of `padding` numbers, so that no loop
 // has a rest. Each sum is made in the order of its terms, whatever the number of rows: so a
@@ -7,21 +9,21 @@
 // This file is included once for each instruction set, within a namespace of its own
 // (variants.hpp): it includes nothing itself.
 
-template <class Real>
+template <class Real, int bytes = RDDL_VECTOR_BYTES>
 struct VectorOf {
-    typedef Real Type __attribute__((vector_size(RDDL_VECTOR_BYTES), aligned(sizeof(Real))));
-    static constexpr int width = RDDL_VECTOR_BYTES / static_cast<int>(sizeof(Real));
+    typedef Real Type __attribute__((vector_size(bytes), aligned(sizeof(Real))));
+    static constexpr int width = bytes / static_cast<int>(sizeof(Real));
 };
-template <class Real>
-using Vector = typename VectorOf<Real>::Type;
+template <class Real, int bytes = RDDL_VECTOR_BYTES>
+using Vector = typename VectorOf<Real, bytes>::Type;
 
-template <class Real>
-inline Vector<Real> load(const Real* from) {
-    return *reinterpret_cast<const Vector<Real>*>(from);
+template <int bytes = RDDL_VECTOR_BYTES, class Real>
+inline Vector<Real, bytes> load(const Real* from) {
+    return *reinterpret_cast<const Vector<Real, bytes>*>(from);
 }
-template <class Real>
-inline void store(Real* to, const Vector<Real>& values) {
-    *reinterpret_cast<Vector<Real>*>(to) = values;
+template <int bytes = RDDL_VECTOR_BYTES, class Real>
+inline void store(Real* to, const Vector<Real, bytes>& values) {
+    *reinterpret_cast<Vector<Real, bytes>*>(to) = values;
 }
 
 // A matrix whose element (r, k) is at row * r + step * k.
@@ -32,20 +34,20 @@ struct Strided {
 };
 
 // `rows` x `vectors` vectors of the result stay in registers.
-template <int rows, int vectors, bool adds, class Real>
+template <int rows, int vectors, bool adds, int bytes, class Real>
 inline void product_block(int depth, Strided<Real> a, const Real* b, std::ptrdiff_t b_row, Real* c,
                           std::ptrdiff_t c_row) {
-    constexpr int width = VectorOf<Real>::width;
-    Vector<Real> sums[rows][vectors];
+    constexpr int width = VectorOf<Real, bytes>::width;
+    Vector<Real, bytes> sums[rows][vectors];
 #pragma GCC unroll 16
     for (int r = 0; r < rows; ++r)
 #pragma GCC unroll 4
         for (int v = 0; v < vectors; ++v)
-            sums[r][v] = adds ? load(c + r * c_row + v * width) : Vector<Real>{};
+            sums[r][v] = adds ? load<bytes>(c + r * c_row + v * width) : Vector<Real, bytes>{};
     for (int k = 0; k < depth; ++k) {
-        Vector<Real> factors[vectors];
+        Vector<Real, bytes> factors[vectors];
 #pragma GCC unroll 4
-        for (int v = 0; v < vectors; ++v) factors[v] = load(b + k * b_row + v * width);
+        for (int v = 0; v < vectors; ++v) factors[v] = load<bytes>(b + k * b_row + v * width);
 #pragma GCC unroll 16
         for (int r = 0; r < rows; ++r) {
             const Real factor = a.data[r * a.row + k * a.step];
@@ -56,10 +58,10 @@ inline void product_block(int depth, Strided<Real> a, const Real* b, std::ptrdif
 #pragma GCC unroll 16
     for (int r = 0; r < rows; ++r)
 #pragma GCC unroll 4
-        for (int v = 0; v < vectors; ++v) store(c + r * c_row + v * width, sums[r][v]);
+        for (int v = 0; v < vectors; ++v) store<bytes>(c + r * c_row + v * width, sums[r][v]);
 }
 
-template <int vectors, bool adds, class Real>
+template <int vectors, bool adds, int bytes, class Real>
 inline void product_columns(int rows, int depth, Strided<Real> a, const Real* b,
                             std::ptrdiff_t b_row, Real* c, std::ptrdiff_t c_row) {
     int r = 0;
@@ -67,65 +69,75 @@ inline void product_columns(int rows, int depth, Strided<Real> a, const Real* b,
         return Strided<Real>{a.data + row * a.row, a.row, a.step};
     };
     for (; r + 6 <= rows; r += 6)
-        product_block<6, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
+        product_block<6, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
     for (; r + 4 <= rows; r += 4)
-        product_block<4, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
+        product_block<4, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
     for (; r + 2 <= rows; r += 2)
-        product_block<2, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
-    if (r < rows) product_block<1, vectors, adds>(depth, at(r), b, b_row, c + r * c_row, c_row);
+        product_block<2, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
+    if (r < rows) product_block<1, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
 }
 
 // c (+)= a b, where a is rows x depth and b depth x columns.
 template <bool adds, class Real>
 inline void product(int rows, int columns, int depth, Strided<Real> a, const Real* b,
                     std::ptrdiff_t b_row, Real* c, std::ptrdiff_t c_row) {
-    constexpr int width = VectorOf<Real>::width;
+    constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
     int j = 0;
-    for (; j + 2 * width <= columns; j += 2 * width)
-        product_columns<2, adds>(rows, depth, a, b + j, b_row, c + j, c_row);
+    for (; j + 2 * wide <= columns; j += 2 * wide)
+        product_columns<2, adds, RDDL_WIDE_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
+    if constexpr (wide > width)
+        for (; j + 2 * width <= columns; j += 2 * width)
+            product_columns<2, adds, RDDL_VECTOR_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
     for (; j < columns; j += width)
-        product_columns<1, adds>(rows, depth, a, b + j, b_row, c + j, c_row);
+        product_columns<1, adds, RDDL_VECTOR_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
 }
 
-inline Vector<double> tanh_of(Vector<double> x) {
-    for (int i = 0; i < VectorOf<double>::width; ++i) x[i] = __builtin_tanh(x[i]);
+template <int bytes = RDDL_VECTOR_BYTES>
+inline Vector<double, bytes> tanh_of(Vector<double, bytes> x) {
+    for (int i = 0; i < VectorOf<double, bytes>::width; ++i) x[i] = __builtin_tanh(x[i]);
     return x;
 }
 
-// (e^2x - 1) / (e^2x + 1), from e^2x - 1 = 2^n (e^r - 1) + 2^n - 1, where e^r - 1 is a sum of
-// powers: precise to a few units of the last digit, about 0, too.
-inline Vector<float> tanh_of(Vector<float> x) {
-    using Ints = int __attribute__((vector_size(RDDL_VECTOR_BYTES)));
-    constexpr float most = 9.1f;  // where tanh is 1
-    constexpr float magic = 0x1.8p23f, log2e = 1.44269504f;
-    constexpr float ln2_high = 0.693359375f, ln2_low = -2.12194440e-4f;
-    x = x > most ? Vector<float>{} + most : x;
-    x = x < -most ? Vector<float>{} - most : x;
-    const Vector<float> y = x + x;
-    const Vector<float> shifted = y * log2e + magic;
-    const Vector<float> n = shifted - magic;
-    const Vector<float> r = (y - n * ln2_high) - n * ln2_low;
-    Vector<float> p = r * (1 / 5040.f) + 1 / 720.f;
-    p = p * r + 1 / 120.f;
-    p = p * r + 1 / 24.f;
-    p = p * r + 1 / 6.f;
-    p = p * r + 0.5f;
-    p = p * r * r + r;
-    const Ints exponent = ((Ints)shifted << 23) + 0x3F800000;
-    const Vector<float> power = (Vector<float>)exponent;
-    const Vector<float> m = power * p + (power - 1.f);
-    return m / (m + 2.f);
+// x p(x^2) / q(x^2), beyond 8 as at 8: to 3.4e-7 of the value, and never beyond 1. The numbers are
+// from docs/mathematics/tanh_of_networks.py.
+template <int bytes = RDDL_VECTOR_BYTES>
+inline Vector<float, bytes> tanh_of(Vector<float, bytes> x) {
+    using Floats = Vector<float, bytes>;
+    constexpr float most = 8;
+    x = x > most ? Floats{} + most : x;
+    x = x < -most ? Floats{} - most : x;
+    const Floats square = x * x;
+    Floats p = square * 1.52304143e-08f + 2.18946589e-05f;
+    p = p * square + 0.00357159786f;
+    p = p * square + 0.134444982f;
+    p = p * square + 1.f;
+    Floats q = square * 8.52244511e-07f + 0.000341129169f;
+    q = q * square + 0.0261644423f;
+    q = q * square + 0.467778265f;
+    q = q * square + 1.f;
+    return x * p / q;
+}
+
+template <bool squashes, int bytes, class Real>
+inline void add_bias_at(int c, const Real* bias, Real* x) {
+    const Vector<Real, bytes> sum = load<bytes>(x + c) + load<bytes>(bias + c);
+    if constexpr (squashes)
+        store<bytes>(x + c, tanh_of<bytes>(sum));
+    else
+        store<bytes>(x + c, sum);
 }
 
 // Rows of `columns` numbers: x = tanh(x + bias), or x + bias.
 template <bool squashes, class Real>
 inline void add_bias(int rows, int columns, const Real* bias, Real* x) {
-    constexpr int width = VectorOf<Real>::width;
-    for (int r = 0; r < rows; ++r, x += columns)
-        for (int c = 0; c < columns; c += width) {
-            const Vector<Real> sum = load(x + c) + load(bias + c);
-            store(x + c, squashes ? tanh_of(sum) : sum);
-        }
+    constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
+    for (int r = 0; r < rows; ++r, x += columns) {
+        int c = 0;
+        for (; c + wide <= columns; c += wide)
+            add_bias_at<squashes, RDDL_WIDE_BYTES>(c, bias, x);
+        if constexpr (wide > width)
+            for (; c < columns; c += width) add_bias_at<squashes, RDDL_VECTOR_BYTES>(c, bias, x);
+    }
 }
 
 // d *= 1 - h^2, the derivative of h = tanh.

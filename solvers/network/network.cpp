@@ -12,7 +12,9 @@ namespace rddlc::solvers {
 // The same text for each instruction set. What is included above is compiled for any processor.
 namespace portable {
 #define RDDL_VECTOR_BYTES 16
+#define RDDL_WIDE_BYTES 16
 #include "solvers/network/variant.hpp"
+#undef RDDL_WIDE_BYTES
 #undef RDDL_VECTOR_BYTES
 }  // namespace portable
 
@@ -25,9 +27,28 @@ namespace portable {
 #endif
 namespace avx2 {
 #define RDDL_VECTOR_BYTES 32
+#define RDDL_WIDE_BYTES 32
 #include "solvers/network/variant.hpp"
+#undef RDDL_WIDE_BYTES
 #undef RDDL_VECTOR_BYTES
 }  // namespace avx2
+#ifdef __clang__
+#pragma clang attribute pop
+#pragma clang attribute push(                                                        \
+    __attribute__((target("avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma"))), \
+    apply_to = function)
+#else
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma")
+#endif
+namespace avx512 {
+#define RDDL_VECTOR_BYTES 32
+#define RDDL_WIDE_BYTES 64
+#include "solvers/network/variant.hpp"
+#undef RDDL_WIDE_BYTES
+#undef RDDL_VECTOR_BYTES
+}  // namespace avx512
 #ifdef __clang__
 #pragma clang attribute pop
 #else
@@ -37,23 +58,25 @@ namespace avx2 {
 
 #ifdef __x86_64__
 namespace {
-bool has_avx2() {
-    static const bool has = rddl::allowed_instruction_set() != rddl::InstructionSet::Sse2;
-    return has;
+rddl::InstructionSet instruction_set() {
+    static const rddl::InstructionSet allowed = rddl::allowed_instruction_set();
+    return allowed;
 }
 }  // namespace
 #endif
 
 const NetworkFunctions<float>& network_functions() {
 #ifdef __x86_64__
-    if (has_avx2()) return avx2::functions<float>;
+    if (instruction_set() == rddl::InstructionSet::Avx512) return avx512::functions<float>;
+    if (instruction_set() == rddl::InstructionSet::Avx2) return avx2::functions<float>;
 #endif
     return portable::functions<float>;
 }
 
 const GruFunctions<float>& gru_functions() {
 #ifdef __x86_64__
-    if (has_avx2()) return avx2::gru_functions_of<float>;
+    if (instruction_set() == rddl::InstructionSet::Avx512) return avx512::gru_functions_of<float>;
+    if (instruction_set() == rddl::InstructionSet::Avx2) return avx2::gru_functions_of<float>;
 #endif
     return portable::gru_functions_of<float>;
 }

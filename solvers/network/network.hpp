@@ -58,6 +58,8 @@ struct NetworkFunctions {
                      Real* d_inner);
     // The weights as rows.
     void (*transpose)(const Network&, const Real* parameters, Real* rows);
+    // The sum of the squares. These sizes, too, are multiples of the padding.
+    double (*squares)(std::size_t count, const Real* numbers);
     // to += from; sizes are multiples of the padding.
     void (*add)(std::size_t count, const Real* from, Real* to);
     // A step of Adam (Kingma and Ba, 2015, algorithm 1), with the bias corrections in `rate` and

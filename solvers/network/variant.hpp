@@ -67,6 +67,20 @@ void transpose(const Network& network, const Real* parameters, Real* rows) {
     }
 }
 
+// In as many sums as the padding, so that instruction sets do not differ.
+template <class Real>
+double squares(std::size_t count, const Real* numbers) {
+    double sums[padding] = {};
+    for (std::size_t i = 0; i < count; i += padding)
+        for (int k = 0; k < padding; ++k) {
+            const auto number = static_cast<double>(numbers[i + static_cast<std::size_t>(k)]);
+            sums[k] += number * number;
+        }
+    double all = 0;
+    for (const double sum : sums) all += sum;
+    return all;
+}
+
 template <class Real>
 void add(std::size_t count, const Real* from, Real* to) {
     for (std::size_t i = 0; i < count; i += VectorOf<Real>::width)
@@ -98,6 +112,6 @@ void adam(std::size_t count, const Real* gradient, Real factor, Real rate, Real 
 
 template <class Real>
 constexpr NetworkFunctions<Real> functions{forward<Real>, backward<Real>, transpose<Real>,
-                                           add<Real>, adam<Real>};
+                                           squares<Real>, add<Real>,      adam<Real>};
 
 #include "solvers/network/gru_variant.hpp"

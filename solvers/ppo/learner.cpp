@@ -229,10 +229,7 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
         all.clipped += sums_[c].clipped;
     }
     add_up(gradient, all);
-    double squares = 0;
-    for (const float number : gradient)
-        squares += static_cast<double>(number) * static_cast<double>(number);
-    const double norm = std::sqrt(squares);
+    const double norm = std::sqrt(functions.squares(gradient.size(), gradient.data()));
     if (!std::isfinite(norm))
         throw Failure(fmt::format(
             "the gradient is not finite: the loss of the policy is {}, that of the values {}",

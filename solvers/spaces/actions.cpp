@@ -269,7 +269,10 @@ void squash_bounded(ActionSpace& space) {
         if (head.range == RealHead::Range::Bounded) head.range = RealHead::Range::Squashed;
 }
 
-double real_value(const RealHead& head, double number) {
+namespace {
+
+// Asked for in each step of each environment.
+inline double value_of_real(const RealHead& head, double number) {
     double value = 0;
     switch (head.range) {
         case RealHead::Range::Squashed:
@@ -293,12 +296,18 @@ double real_value(const RealHead& head, double number) {
     return std::clamp(head.rounds ? std::nearbyint(value) : value, head.lower, head.upper);
 }
 
+}  // namespace
+
+double real_value(const RealHead& head, double number) {
+    return value_of_real(head, number);
+}
+
 void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
                   float* values) {
     std::copy(space.defaults.begin(), space.defaults.end(), values);
     const auto set_real = [&](std::size_t r) {
         constexpr double most = std::numeric_limits<float>::max();
-        const double value = real_value(space.reals[r], static_cast<double>(numbers[r]));
+        const double value = value_of_real(space.reals[r], static_cast<double>(numbers[r]));
         if (!std::isnan(value))  // else the default: simulators refuse actions that are none
             values[space.reals[r].column] = static_cast<float>(std::clamp(value, -most, most));
     };

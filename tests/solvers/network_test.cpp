@@ -17,7 +17,9 @@ namespace rddlc::solvers {
 // As network.cpp does it, for doubles.
 namespace doubles {
 #define RDDL_VECTOR_BYTES 16
+#define RDDL_WIDE_BYTES 16
 #include "solvers/network/variant.hpp"
+#undef RDDL_WIDE_BYTES
 #undef RDDL_VECTOR_BYTES
 }  // namespace doubles
 

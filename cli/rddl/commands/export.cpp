@@ -26,8 +26,13 @@ struct ExportOptions {
 std::string exported_program(const rddl_simulator& simulator, const std::string& text,
                              const std::string& form) {
     const auto found = solvers::read_program(simulator, text);
+    if (form == "formula") return solvers::program_formula(found->scope, found->genome);
+    if (found->genome.delayed)
+        throw Failure(fmt::format("it remembers the step before, as programs of scikit-decide do, "
+                                  "and such programs are not written as {}",
+                                  form),
+                      "--as formula tells what it does", usage_error);
     const solvers::Formula formula = solvers::simplified(found->genome);
-    if (form == "formula") return solvers::formula_text(formula, found->scope);
     if (form == "cpp") return solvers::formula_cpp(formula, found->scope);
     if (form == "dot") return solvers::formula_dot(formula, found->scope);
     if (form == "svg") return solvers::formula_svg(formula, found->scope);
@@ -51,7 +56,7 @@ ExitStatus export_policy(const ExportOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const std::filesystem::path file = policy_file(options.policy);
     const std::string text = read_file(file);
-    const bool program = text.starts_with("rddl-cgp");
+    const bool program = solvers::is_program(text);
     const std::string form = !options.form.empty() ? options.form : program ? "formula" : "json";
     std::string result;
     try {

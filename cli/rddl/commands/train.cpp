@@ -259,8 +259,8 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
     add_number_option<std::int64_t>(command, "--gens", "N", "Generations (1000)", cgp.generations,
                                     1, std::int64_t{1} << 40);
     add_number_option(command, "--lambda", "N",
-                      "Children (32, or 8 where anything is drawn at random)", cgp.children, 1,
-                      1 << 16);
+                      "Children (32, or 8 where anything is drawn at random; 4 with --compat)",
+                      cgp.children, 1, 1 << 16);
     add_number_option(command, "--cols", "N", "Nodes (100)", cgp.nodes, 1, 1 << 20);
     add_number_option(command, "--constants", "N", "Constants (4)", cgp.constants, 0, 1 << 10);
     add_number_option(command, "--levels-back", "N", "How far back a node reads; 0 (default): all",
@@ -269,9 +269,10 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
         command, "--mutation", "HOW",
         "single (default): until one gene that counts is another; gene: each with a probability",
         cgp.mutation, {{"single", Mutation::Single}, {"gene", Mutation::Gene}});
-    add_list_option(command, "--functions", "NAME,...",
-                    "Functions, or groups of them: arith, trig, logic (default: these), round",
-                    [&options](const std::string& name) { options.functions.push_back(name); });
+    add_list_option(
+        command, "--functions", "NAME,...",
+        "Functions, or groups of them: arith, trig, logic (default: these), round, unit",
+        [&options](const std::string& name) { options.functions.push_back(name); });
     add_number_option(command, "--episodes", "N",
                       "Of each program (1, or 16 where anything is drawn at random)", cgp.episodes,
                       1, 1 << 20);
@@ -300,6 +301,10 @@ void add_cgp_options(Command& command, TrainCgpOptions& options) {
                             "(default), off",
                             cgp.parsimony, {{"on", true}, {"off", false}});
     add_flag(command, "--time-input", "Programs read how much of the episode is over", cgp.time);
+    add_choice_option<bool>(command, "--compat", "WHOSE",
+                            "skdecide: search for programs as scikit-decide has them, by its "
+                            "functions and its mutation; none (default)",
+                            cgp.skdecide, {{"none", false}, {"skdecide", true}});
     add_number_option(command, "--islands", "N", "Populations (1, or one for each rank of MPI)",
                       cgp.islands, 1, 1 << 12);
     add_number_option<std::int64_t>(command, "--migrate", "N",

@@ -21,7 +21,8 @@ std::filesystem::path policy_file(const std::filesystem::path& path) {
 bool is_learned_policy(const std::filesystem::path& path) {
     const std::filesystem::path file = policy_file(path);
     const std::string ending = file.extension();
-    return (ending == ".json" || ending == ".cgp" || ending == ".jsonl") && is_there(file);
+    return (ending == ".json" || ending == ".cgp" || ending == ".jsonl" || ending == ".txt") &&
+           is_there(file);
 }
 
 namespace {
@@ -57,7 +58,7 @@ solvers::Policy recorded_plan(const rddl_simulator& simulator, const std::filesy
 
 solvers::Policy policy_of_text(const rddl_simulator& simulator, const std::string& text,
                                bool random, std::uint64_t seed, const std::string& name) {
-    if (text.starts_with("rddl-cgp"))
+    if (solvers::is_program(text))
         return solvers::program_policy(simulator, solvers::read_program(simulator, text), name);
     return solvers::ppo_policy(simulator, solvers::read_ppo_policy(simulator, text), random, seed,
                                name);
