@@ -169,7 +169,8 @@ void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, doub
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const double width = swatch + spaces.before_name + canvas.text_width(entries[i].name, size);
         if (x + width > right) {
-            canvas.text({x, y}, "+" + std::to_string(entries.size() - i), style);
+            const std::string more = "+" + std::to_string(entries.size() - i);
+            canvas.text({std::min(x, box.right() - canvas.text_width(more, size)), y}, more, style);
             return;
         }
         const Box square{x, y - swatch / 2, swatch, swatch};
@@ -194,6 +195,7 @@ void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries)
     if (whole_legend_at_right(canvas, box, entries)) return;
     // Each name has as much room as the others, if that tells anything.
     constexpr double size = 9, least = 28;
+    if (box.width < 2 * size) return;  // not even for "+2"
     const Spaces spaces(size);
     const double room = (box.width + spaces.between) / static_cast<double>(entries.size()) -
                         spaces.swatch - spaces.before_name - spaces.between;

@@ -462,6 +462,18 @@ class Terminal(PictureTest):
         self.assertEqual(process.wait(), SUCCESS, text)
         return text
 
+    def test_progress(self):
+        """While files are drawn, a bar on the terminal that is gone in the end; none with --quiet."""
+        self.run_car("--trace=t.jsonl", "--policy=noop", horizon=900)
+        for option, bars in ([], True), (["--quiet"], False):
+            ours, theirs = pty.openpty()
+            subprocess.run([RDDL, "render", "t.jsonl", "--gif=a.gif", *option], stdout=subprocess.DEVNULL, stderr=theirs,
+                           cwd=self.folder, env=environment(), check=True)
+            os.close(theirs)
+            told = self.rest_of(ours)
+            self.assertEqual("drawing [=" in told, bars, told)
+            self.assertTrue(told.endswith("\r\x1b[K") or not bars, told)
+
     def test_text_in_place(self):
         text = self.watch(EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl")
         states = text.split("\x1b[H")[1:]

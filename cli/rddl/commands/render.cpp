@@ -142,6 +142,7 @@ Command render_command() {
         // Nothing is stepped: the interpreter is there at once.
         options->load.engine = Engine::Interpreter;
         options->load.quiet = true;
+        options->pictures.quiet = options->quiet;
         return render_trace(*options);
     };
     return command;

@@ -330,6 +330,7 @@ Command run_command() {
     add_flag(command, "--quiet", "Print neither progress nor summary", options->quiet);
     command.run = [options] {
         options->load.quiet = options->quiet;
+        options->pictures.quiet = options->quiet;
         return run(*options);
     };
     return command;

@@ -17,6 +17,7 @@ struct PictureOptions {
     std::string png, svg;           // a file of one state, or a folder of all
     std::string html;               // replay page
     bool watch = false;             // in the terminal
+    bool quiet = false;             // no progress is shown
     std::string scene;              // a file that says what to draw; empty: none
     std::string visualizer;         // empty: the one for the domain
     int width = 600, height = 400;  // pixels

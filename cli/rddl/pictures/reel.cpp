@@ -3,6 +3,7 @@
 #include "pictures/pace.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 
@@ -47,7 +48,12 @@ void Reel::take(TraceStep&& step, bool is_last) {
     held_.push_back(std::move(step));
     if (!is_last) return;
     begin_episode(static_cast<std::int64_t>(held_.size()) - 1);
-    for (std::size_t i = 0; i < held_.size(); ++i) draw(std::move(held_[i]), i + 1 == held_.size());
+    Progress progress("drawing", static_cast<std::int64_t>(held_.size()),
+                      !options_.quiet && !options_.watch);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        draw(std::move(held_[i]), i + 1 == held_.size());
+        progress.advance();
+    }
     held_.clear();
 }
 

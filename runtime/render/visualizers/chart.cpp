@@ -212,9 +212,10 @@ double room_for_title(const Canvas& canvas, double row, const Panel& panel) {
     if (panel.look.shares_key) return row;
     if (fluent.rank == 0 && has_lines(fluent))
         return row - canvas.text_width(value_text(panel.past.back(), 0), 11) - 16;
-    // A long one has the row; there would be no room for the key.
+    // A long one has the row, for there would be no room for the key. Lines need theirs.
     const bool is_long = canvas.text_width(fluent.name, 12) > row / 2;
-    return panel.look.is_small && is_long ? row : row * 0.7;
+    if (!panel.look.is_small || !is_long) return row * 0.7;
+    return has_lines(fluent) ? row * 0.45 : row;
 }
 
 // The room for what stands at the left of a panel: numbers, or names of objects.
