@@ -52,11 +52,13 @@ class Training {
             show(false);
             agree();
             stops = result_.interrupted || ends_by_time_ || result_.reached;
-            if (!stops && saves_) save();
+            if (!stops && saves_) save(state());
         }
+        // Whoever goes on shall not know of an evaluation that a whole run does not make.
+        const std::string before = state();
         if (!evaluated_ || evaluated_at_ != trainee_.steps()) evaluate();
         show(true);
-        save();
+        save(before);
         result_.seconds = elapsed();
         result_.best_return = best_return_;
         result_.best_length = best_length_;
@@ -153,8 +155,15 @@ class Training {
         write_file(file(name), text, used);
     }
 
+    // What a checkpoint holds of the training itself.
+    std::string state() {
+        SavingArchive archive;
+        archive_all(archive);
+        return archive.bytes();
+    }
+
     // The checkpoint is the last, so that it never knows more than the other files.
-    void save() {
+    void save(const std::string& state) {
         last_saved_ = Clock::now();
         const std::string learner = trainee_.save();  // of all ranks
         if (!options_.ranks.is_first()) return;
@@ -166,7 +175,7 @@ class Training {
         write("progress.csv", log_.csv());
         write("events.out.tfevents.rddl", log_.events());
         SavingArchive archive;
-        archive_all(archive);
+        archive.append(state);
         archive(learner);
         write("checkpoint", archive.bytes());
     }
