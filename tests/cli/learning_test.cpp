@@ -132,10 +132,10 @@ TEST_F(LearningProgram, DrawsLearningCurvesAndComparisons) {
         std::filesystem::copy(folder_ / "runs/tanks_cgp_0",
                               folder_ / "lambdas" / ("lambda_" + std::string(children)),
                               std::filesystem::copy_options::recursive);
-    ASSERT_EQ(run("plot lambdas/lambda_4 lambdas/lambda_8 --size 640x480 --svg lambdas.svg").status,
-              0);
-    for (const char* const name : {"lambdas/lambda_4", "lambdas/lambda_8"})
-        EXPECT_NE(read_file(folder_ / "lambdas.svg").find(name), std::string::npos) << name;
+    const std::string lambdas = "plot lambdas/lambda_4 lambdas/lambda_8 --size 640x480 ";
+    ASSERT_EQ(run(lambdas + "--png l.png").status, 0);
+    ASSERT_EQ(run(lambdas + "--png each.png --each").status, 0);
+    EXPECT_EQ(read_file(folder_ / "l.png"), read_file(folder_ / "each.png"));
     write_file(folder_ / "lambdas/lambda_4/run.json", "{\"seed\": -1}");
     EXPECT_NE(run("plot lambdas/lambda_4").err.find("does not tell the seed"), std::string::npos);
     ASSERT_EQ(run("plot runs --each --size 640x480 --png c.png").status, 0);
