@@ -7,6 +7,7 @@
 #include "support/program.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -162,6 +163,16 @@ class Training {
         return archive.bytes();
     }
 
+    std::string description() const {
+        const rddl_problem& problem = *simulator_.problem;
+        nlohmann::ordered_json run;
+        run["solver"] = trainee_.solver;
+        run["domain"] = problem.domain;
+        run["instance"] = problem.instance;
+        run["seed"] = options_.seed;
+        return run.dump(1) + "\n";
+    }
+
     // The checkpoint is the last, so that it never knows more than the other files.
     void save(const std::string& state) {
         last_saved_ = Clock::now();
@@ -172,6 +183,7 @@ class Training {
         write((std::string("policy") + extension).c_str(),
               best_policy_.empty() ? trainee_.policy_text() : best_policy_);
         write((std::string("last") + extension).c_str(), trainee_.policy_text());
+        write("run.json", description());
         write("progress.csv", log_.csv());
         write("events.out.tfevents.rddl", log_.events());
         SavingArchive archive;

@@ -56,12 +56,13 @@ struct TrainingResult {
     double best_return = 0, best_length = 0;  // mean of the best evaluation
 };
 
-// Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
-// events.out.tfevents.rddl, checkpoint. All are written whole or not at all. Throws a Failure where
-// the folder holds another run, or nothing to resume.
 // How many digits people read: "1.5 M", "812".
 std::string count_text(double count);
 
+// Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
+// events.out.tfevents.rddl, run.json (the solver, the problem and the seed), checkpoint. All are
+// written whole or not at all. Throws a Failure where the folder holds another run, or nothing to
+// resume.
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 

@@ -46,11 +46,11 @@ TEST(LearningCurves, RefuseWhatIsNotThere) {
 }
 
 TEST(LearningCurves, AreOfRunsThatDifferInTheSeed) {
-    EXPECT_EQ(without_seed("runs/car_ppo_12"), "runs/car_ppo");
-    EXPECT_EQ(without_seed("runs/car_ppo"), "runs/car_ppo");
-    EXPECT_EQ(without_seed("runs/a2"), "runs/a2");
-    EXPECT_EQ(without_seed("7"), "7");
-    EXPECT_EQ(without_seed("_7"), "_7");
+    EXPECT_EQ(without_seed("runs/car_ppo_12", 12), "runs/car_ppo");
+    EXPECT_EQ(without_seed("runs/car_ppo_12", 2), "runs/car_ppo_12");
+    EXPECT_EQ(without_seed("runs/lambda_8", 0), "runs/lambda_8");
+    EXPECT_EQ(without_seed("runs/a2", 2), "runs/a2");
+    EXPECT_EQ(without_seed("_7", 7), "_7");
 }
 
 }  // namespace

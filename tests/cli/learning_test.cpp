@@ -155,6 +155,18 @@ TEST_F(LearningProgram, DrawsLearningCurvesAndComparisons) {
     EXPECT_NE(read_file(folder_ / "a.svg").find("<svg"), std::string::npos);
     // A band about one curve, or two curves.
     ASSERT_EQ(run("plot runs/tanks_cgp_0/ runs/tanks_cgp_1 --size 640x480 --png b.png").status, 0);
+    // Another number than the seed is no seed: two curves, though the runs are the same.
+    std::filesystem::create_directories(folder_ / "lambdas");
+    for (const char* const children : {"4", "8"})
+        std::filesystem::copy(folder_ / "runs/tanks_cgp_0",
+                              folder_ / "lambdas" / ("lambda_" + std::string(children)),
+                              std::filesystem::copy_options::recursive);
+    const std::string lambdas = "plot lambdas/lambda_4 lambdas/lambda_8 --size 640x480 ";
+    ASSERT_EQ(run(lambdas + "--png l.png").status, 0);
+    ASSERT_EQ(run(lambdas + "--png each.png --each").status, 0);
+    EXPECT_EQ(read_file(folder_ / "l.png"), read_file(folder_ / "each.png"));
+    write_file(folder_ / "lambdas/lambda_4/run.json", "{\"seed\": -1}");
+    EXPECT_NE(run("plot lambdas/lambda_4").err.find("does not tell the seed"), std::string::npos);
     ASSERT_EQ(run("plot runs --each --size 640x480 --png c.png").status, 0);
     EXPECT_NE(read_file(folder_ / "a.png"), read_file(folder_ / "c.png"));
     const Outcome wrong = run("plot runs --y rollout/loss");

@@ -16,6 +16,12 @@ grep -q '"recurrent":{"units":8,' "$folder/recurrent/policy.json"
 grep "^return [89][0-9].* 1 of 1 terminated" "$folder/evaluation"  # it reaches the flag
 "$cgp" train --out "$folder/cgp" --gens 80 --resume
 
+# The widest registers do what narrower ones do.
+for set in avx2 avx512; do
+  RDDL_INSTRUCTION_SET=$set "$ppo" train --out "$folder/$set" --steps 20000 --envs 16 --rollout 64 --minibatch 256
+done
+cmp "$folder/avx2/last.json" "$folder/avx512/last.json"
+
 if "$ppo" train --out "$folder/ppo" 2> "$folder/err"; then exit 1; fi
 grep "holds a run already" "$folder/err"
 if "$ppo" evaluate "$folder/cgp/policy.cgp" 2> "$folder/err"; then exit 1; fi

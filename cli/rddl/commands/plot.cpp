@@ -34,7 +34,9 @@ std::vector<Group> groups_of(const PlotOptions& options) {
         const std::vector<std::filesystem::path> folders = run_folders(word);
         const bool is_run = folders.size() == 1 && folders[0] == word;
         for (const std::filesystem::path& folder : folders) {
-            std::string name = is_run && !options.each ? without_seed(word) : word;
+            std::string name = word;
+            if (const auto seed = seed_of_run(folder); seed && is_run && !options.each)
+                name = without_seed(word, *seed);
             if (options.each && !is_run) name = folder.string();
             const auto known = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
                 return group.name == name && !options.each;
@@ -95,9 +97,10 @@ Command plot_command() {
     command.name = "plot";
     command.summary = "Draw the learning curves of runs";
     command.details =
-        "Runs of 'rddl train' whose names differ in the seed behind the last '_' are one curve, "
-        "as\n"
-        "are all runs in a folder: their mean, and a band of the standard deviation about it.\n\n"
+        "Runs of 'rddl train' whose names end in '_' and their seeds, and else are the same, are "
+        "one\n"
+        "curve, as are all runs in a folder: their mean, and a band of the standard deviation "
+        "about it.\n\n"
         "Examples:\n"
         "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
         "  rddl plot runs/a --y train/approx_kl --svg kl.svg";

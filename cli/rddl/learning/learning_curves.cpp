@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -157,11 +158,19 @@ Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, co
     return curve;
 }
 
-std::string without_seed(const std::string& name) {
-    const std::size_t digits = name.find_last_not_of("0123456789");
-    const bool has_seed = digits != std::string::npos && digits > 0 && digits + 1 < name.size() &&
-                          name[digits] == '_';
-    return has_seed ? name.substr(0, digits) : name;
+std::string without_seed(const std::string& name, std::uint64_t seed) {
+    const std::string ending = fmt::format("_{}", seed);
+    const bool has_seed = name.size() > ending.size() && name.ends_with(ending);
+    return has_seed ? name.substr(0, name.size() - ending.size()) : name;
+}
+
+std::optional<std::uint64_t> seed_of_run(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    if (!is_there(file)) return std::nullopt;
+    const auto run = nlohmann::json::parse(read_file(file), nullptr, false);
+    if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
+        throw Failure(fmt::format("'{}' does not tell the seed of a run", file.string()));
+    return run["seed"].get<std::uint64_t>();
 }
 
 }  // namespace rddlc::cli

@@ -1,7 +1,9 @@
 // What runs have logged, as curves.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +36,12 @@ struct Curve {
 Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, const std::string& x,
                const std::string& y);
 
-// "runs/car_ppo_3" is one of the runs "runs/car_ppo", which differ in the number of their seeds.
-std::string without_seed(const std::string& name);
+// "runs/car_ppo_3" is one of the runs "runs/car_ppo" if its seed is 3; any other number is part of
+// the name.
+std::string without_seed(const std::string& name, std::uint64_t seed);
+
+// The seed of the run in the folder, as its run.json tells it, if there is one. Throws a Failure
+// that names the file where that makes no sense.
+std::optional<std::uint64_t> seed_of_run(const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli
