@@ -40,6 +40,8 @@ Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
       observation_columns_(simulator_->observation_value_count(simulator_.get())),
       records_of_values_(*simulator_),
       calls_(settings.environments > 1) {
+    if (settings.environments < 1)
+        throw Refused(fmt::format("num_envs is {}: one or more", settings.environments));
     solvers::require_room(*simulator_, settings.environments, default_memory_limit);
     batch_ = solvers::create_batch(*simulator_, options_of(settings, *simulator_->problem));
     const rddl_problem& problem = *simulator_->problem;

@@ -11,6 +11,7 @@
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -65,6 +66,8 @@ class Policy {
         options.episodes = episodes;
         options.seed = seed;
         options.threads = threads;
+        if (episodes < 1)
+            throw Refused(fmt::format("an evaluation takes one episode or more, not {}", episodes));
         std::atomic<bool> stops = false;
         solvers::Watch watch;
         watch.stops = [&] {

@@ -33,9 +33,9 @@ class Painter {
         : simulator_(problem.simulator),
           world_(*simulator_),
           visualizer_(chosen(visualizer)),
-          width_(width),
-          height_(height),
-          canvas_(width, height) {}
+          width_(side(width)),
+          height_(side(height)),
+          canvas_(width_, height_) {}
 
     void begin(Batch& batch, std::int64_t horizon) {
         steps_.clear();
@@ -99,6 +99,13 @@ class Painter {
             canvas_.read(picture_);
             visit(then);
         }
+    }
+
+    static int side(int pixels) {
+        if (pixels < 16 || pixels > 8192)
+            throw Refused(fmt::format("a picture has from 16 to 8192 pixels in each direction, not {}",
+                                      pixels));
+        return pixels;
     }
 
     const render::Visualizer& chosen(const std::string& name) const {

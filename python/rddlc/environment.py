@@ -175,6 +175,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     ) -> tuple[Any, dict[str, Any]]:
         """Starts an episode: the first one of `seed`, or the next one. Before the first seed one is
         drawn. options: {"state": State} starts it there."""
+        state = _state_in(options)
         super().reset(seed=seed)
         if seed is None and self._seed is None:
             seed = int(self.np_random.integers(1 << 63))
@@ -183,8 +184,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self._batch.set_seed(seed)
         self._batch.reset()
         self._ended = self._batch.causes_of(0)
-        if options and options.get("state") is not None:
-            self._restore(options["state"])
+        if state is not None:
+            self._restore(state)
         if self._renderer is not None:
             self._renderer.begin(self._batch, self.horizon)
             self._show()
@@ -261,6 +262,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def set_state(self, state: State) -> None:
         """The episode goes on from there. The random numbers of a step depend on seed, episode and
         the number of the step: those that follow are this episode's own."""
+        if not isinstance(state, State):
+            raise TypeError(f"a state is an rddlc.State, not a {type(state).__name__}")
         if self._seed is None:
             self.reset()
         self._restore(state)
@@ -381,6 +384,16 @@ def _unpickled(
     go_on_from(env.action_space, action_space)
     env.spec = spec
     return env
+
+
+def _state_in(options: Mapping[str, Any] | None) -> Any:
+    """A State, or None."""
+    if options is not None and not isinstance(options, Mapping):
+        raise TypeError(f"options are a dictionary, not a {type(options).__name__}")
+    state = (options or {}).get("state")
+    if state is not None and not isinstance(state, State):
+        raise TypeError(f"a state is an rddlc.State, not a {type(state).__name__}")
+    return state
 
 
 def _one_of(what: str, given: Any, known: tuple[Any, ...]) -> Any:

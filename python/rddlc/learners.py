@@ -79,6 +79,8 @@ class Learner:
     def learn(self: L, amount: int, callback: Callback | None = None) -> L:
         """Learns for so many steps (PPO) or generations (CGP); again, it goes on from where it was.
         Ctrl-C ends it, within an update, too, and leaves what has been learned."""
+        if amount < 1:
+            raise ValueError(f"{amount} {self.total} cannot be learned: one or more")
         before = 0 if self._native is None else self._native.steps
         learner = self._new_native(self._options | {self.total: before + amount})
         if self._native is not None:

@@ -108,6 +108,8 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Starts episodes: of seed + i, or of the i-th seed; without seeds the next ones. options:
         {"reset_mask": (num_envs,) bool} starts them only there."""
         mask = None if options is None else options.get("reset_mask")
+        if mask is not None and np.shape(mask) != (self.num_envs,):
+            raise ValueError(f"reset_mask has the shape {np.shape(mask)}, not ({self.num_envs},)")
         if seed is None and not self._has_begun:
             seed = int(self.np_random.integers(1 << 62))
         if seed is not None:
