@@ -88,8 +88,10 @@ double* ProgramActor::room_for(const Program& program, std::size_t number, int l
         return values_.data();
     }
     memories_.resize(static_cast<std::size_t>(programs_));
-    if (steps == 0) memories_[number].assign(size, 0.0);
-    return memories_[number].data();
+    std::vector<double>& memory = memories_[number];
+    // Who begins to watch in the middle of an episode has nothing to remember, either.
+    if (steps == 0 || memory.size() != size) memory.assign(size, 0.0);
+    return memory.data();
 }
 
 Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,

@@ -1,6 +1,6 @@
-// Products of small matrices and tanh, in the vector registers that RDDL_VECTOR_BYTES says. Long rows
-// of products and tanh are done in those of RDDL_WIDE_BYTES, which are as large or larger: each
-// number is computed in the same way, so it has the same bits.
+// Products of small matrices and tanh, in the vector registers that RDDL_VECTOR_BYTES says. Long
+// rows of products and tanh are done in those of RDDL_WIDE_BYTES, which are as large or larger:
+// each number is computed in the same way, so it has the same bits.
 //
 // All matrices are row-major. Rows of results have a multiple of `padding` numbers, so that no loop
 // has a rest. Each sum is made in the order of its terms, whatever the number of rows: so a
@@ -74,7 +74,8 @@ inline void product_columns(int rows, int depth, Strided<Real> a, const Real* b,
         product_block<4, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
     for (; r + 2 <= rows; r += 2)
         product_block<2, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
-    if (r < rows) product_block<1, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
+    if (r < rows)
+        product_block<1, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
 }
 
 // c (+)= a b, where a is rows x depth and b depth x columns.
@@ -133,8 +134,7 @@ inline void add_bias(int rows, int columns, const Real* bias, Real* x) {
     constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
     for (int r = 0; r < rows; ++r, x += columns) {
         int c = 0;
-        for (; c + wide <= columns; c += wide)
-            add_bias_at<squashes, RDDL_WIDE_BYTES>(c, bias, x);
+        for (; c + wide <= columns; c += wide) add_bias_at<squashes, RDDL_WIDE_BYTES>(c, bias, x);
         if constexpr (wide > width)
             for (; c < columns; c += width) add_bias_at<squashes, RDDL_VECTOR_BYTES>(c, bias, x);
     }
