@@ -65,8 +65,7 @@ std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabiliti
                draw.part == part;
     };
     for (std::size_t i = 0; i < made_; ++i)
-        if (is_same(draws_[i]))
-            return static_cast<std::int64_t>(draws_[i].chosen);
+        if (is_same(draws_[i])) return static_cast<std::int64_t>(draws_[i].chosen);
     if (made_ == draws_.size()) {
         const std::size_t first = next_possible(probabilities, 0);
         draws_.push_back({place, part, std::move(probabilities), first});

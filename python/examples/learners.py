@@ -32,10 +32,12 @@ def rddlc_cgp(problem: rddlc.Problem) -> Policy:
 
 
 def stable_baselines3_ppo(problem: rddlc.Problem) -> Policy:
+    import torch
     from stable_baselines3 import PPO
 
     from rddlc import sb3
 
+    torch.set_num_threads(1)
     envs = sb3.make_vec(problem, num_envs=16, actions="box", normalize=True)
     model = PPO("MlpPolicy", envs, n_steps=256, batch_size=256, seed=SEED, device="cpu")
     model.learn(100_000)
@@ -49,6 +51,7 @@ def rllib_ppo(problem: rddlc.Problem) -> Policy:
 
     from rddlc import rllib
 
+    torch.set_num_threads(1)  # its networks are small
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, ignore_reinit_error=True)
     try:
         algorithm = (

@@ -154,8 +154,7 @@ bool Batch::step_values(const Outputs& outputs, const void* actions, nb::handle 
     void* const values = outputs.values ? outputs.values : own;
     calls_.run(
         [=, this] {
-            check(*simulator_,
-                  simulator_->step_values(batch, number(), actions, values, &out));
+            check(*simulator_, simulator_->step_values(batch, number(), actions, values, &out));
         },
         kept.is_valid() ? kept : outputs.kept);
     return has_ended();
@@ -242,8 +241,7 @@ std::vector<std::int32_t> Batch::violated_preconditions(std::span<const std::byt
         throw Refused(fmt::format("actions of {} environments have {} bytes, not {}",
                                   settings_.environments, arrays_.actions.size(), actions.size()));
     std::vector<std::int32_t> violated(static_cast<std::size_t>(settings_.environments));
-    check(*simulator_,
-          simulator_->violated_preconditions(live(), actions.data(), violated.data()));
+    check(*simulator_, simulator_->violated_preconditions(live(), actions.data(), violated.data()));
     return violated;
 }
 

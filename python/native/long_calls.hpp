@@ -20,9 +20,9 @@ class LongCalls {
     LongCalls& operator=(const LongCalls&) = delete;
     ~LongCalls();
 
-    // Returns when the job is done, and throws what it throws. On Ctrl-C it calls `stop`, which asks
-    // the job to end early, and throws KeyboardInterrupt: soon after, even if the job goes on. Then
-    // finish() waits for it. `kept`: what the job works with.
+    // Returns when the job is done, and throws what it throws. On Ctrl-C it calls `stop`, which
+    // asks the job to end early, and throws KeyboardInterrupt: soon after, even if the job goes on.
+    // Then finish() waits for it. `kept`: what the job works with.
     template <class Job>
     void run(const Job& job, nanobind::handle kept = {}, const std::function<void()>& stop = {}) {
         enter();

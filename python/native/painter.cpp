@@ -103,8 +103,8 @@ class Painter {
 
     static int side(int pixels) {
         if (pixels < 16 || pixels > 8192)
-            throw Refused(fmt::format("a picture has from 16 to 8192 pixels in each direction, not {}",
-                                      pixels));
+            throw Refused(fmt::format(
+                "a picture has from 16 to 8192 pixels in each direction, not {}", pixels));
         return pixels;
     }
 

@@ -49,7 +49,8 @@ class Entries {
     const T* as(std::size_t count) const {
         if (!is_open_ || view_.len != static_cast<Py_ssize_t>(count * sizeof(T))) return nullptr;
         const std::string_view format = view_.format ? view_.format : "B";
-        const bool is_right = std::is_same_v<T, float> ? format == "f" : format == "l" || format == "q";
+        const bool is_right =
+            std::is_same_v<T, float> ? format == "f" : format == "l" || format == "q";
         return is_right && view_.itemsize == sizeof(T) ? static_cast<const T*>(view_.buf) : nullptr;
     }
 
@@ -104,9 +105,11 @@ std::optional<bool> RowWriter::step(nb::handle rows, nb::handle into) {
     const bool is_all = static_cast<std::int64_t>(limits_.size()) == batch_.action_columns();
     if (!categories_ && is_all) {
         const Entries given(rows);
-        const auto* const numbers = given.as<float>(static_cast<std::size_t>(count) * limits_.size());
+        const auto* const numbers =
+            given.as<float>(static_cast<std::size_t>(count) * limits_.size());
         if (!numbers || !are_within(numbers, count, limits_)) return std::nullopt;
-        return batch_.step_values(outputs, numbers, nb::make_tuple(nb::borrow(rows), nb::borrow(into)));
+        return batch_.step_values(outputs, numbers,
+                                  nb::make_tuple(nb::borrow(rows), nb::borrow(into)));
     }
     if (!write(rows)) return std::nullopt;
     return batch_.step_values(outputs);

@@ -38,7 +38,8 @@ def legal_space(space: spaces.Space[Any], writer: Writer, environments: int) -> 
 
     Copies of it, and what is pickled, are the plain space: they belong to no environment.
     """
-    legal = _blank(_legal_kind(type(space)))
+    kind: Any = type(space)
+    legal = _blank(_legal_kind(kind))
     legal.__dict__.update(space.__dict__, _sampler=_Sampler(space, writer, environments))
     return legal
 
@@ -62,7 +63,7 @@ class _Legal(spaces.Space[Any]):
 
 
 @cache
-def _legal_kind(kind: type[spaces.Space[Any]]) -> type[spaces.Space[Any]]:
+def _legal_kind(kind: Any) -> Any:
     return type(kind.__name__, (_Legal, kind), {})
 
 
@@ -139,7 +140,8 @@ def _entry(space: spaces.Space[Any], row: Array) -> Any:
 def _within(space: spaces.Space[Any], value: Any) -> Array:
     """(values,)"""
     if isinstance(space, spaces.Discrete):
-        value = np.clip(value, space.start, space.start + space.n - 1)
+        start = int(space.start)
+        value = np.clip(value, start, start + int(space.n) - 1)
     elif isinstance(space, spaces.MultiDiscrete):
         value = np.clip(value, 0, space.nvec - 1)
     elif isinstance(space, spaces.Box):

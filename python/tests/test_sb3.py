@@ -82,6 +82,20 @@ class StableBaselines(unittest.TestCase):
         masks = envs.env_method("action_masks")
         self.assertEqual([mask.tolist() for mask in masks], [[True, False, True]] * 2)
 
+    @unittest.skipIf(find_spec("sb3_contrib") is None, "sb3-contrib is not installed")
+    def test_maskable_ppo_chooses_what_is_legal(self) -> None:
+        from sb3_contrib import MaskablePPO
+
+        problem = problem_of("refuses_some")  # opening the second door is not allowed
+        envs = sb3.make_vec(problem, num_envs=2)
+        model = MaskablePPO("MlpPolicy", envs, n_steps=16, batch_size=16, seed=1, device="cpu")
+        model.learn(64)
+        env = sb3.make(problem, enforce_action_constraints=True)
+        for seed in range(5):
+            seen, _ = env.reset(seed=seed)
+            chosen, _ = model.predict(seen, action_masks=env.action_masks(), deterministic=False)
+            env.step(chosen)  # raises for what is not allowed
+
     def test_other_autoreset_modes_are_refused(self) -> None:
         with self.assertRaisesRegex(rddlc.Error, "SameStep"):
             VecEnv(rddlc.make_vec(example("network").problem, num_envs=2))

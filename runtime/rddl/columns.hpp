@@ -428,8 +428,7 @@ RDDL_INLINE void write_whole(const T& values, Number* number, std::int64_t row_s
     typename T::Element elements[T::width];
     values.store(elements);
     Number numbers[T::width];
-    for (int lane = 0; lane < T::width; ++lane)
-        numbers[lane] = static_cast<Number>(elements[lane]);
+    for (int lane = 0; lane < T::width; ++lane) numbers[lane] = static_cast<Number>(elements[lane]);
     for (int lane = 0; lane < T::width; ++lane, number += row_size) *number = numbers[lane];
 }
 
