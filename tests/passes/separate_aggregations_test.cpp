@@ -8,7 +8,7 @@ namespace rddlc {
 namespace {
 
 // Nine pairs of objects, some of which are linked; the CPF of `depth` is given, and the reward.
-Problem with_pairs(const std::string& cpf_of_level, const std::string& reward = "0") {
+Problem with_summed_pairs(const std::string& cpf_of_level, const std::string& reward = "0") {
     return {
         .pvariables =
             "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
@@ -26,7 +26,7 @@ ir::Program separated(const Problem& problem, passes::Report& report) {
 }
 std::string step_of(const std::string& cpf_of_level) {
     passes::Report report;
-    return step_text(separated(with_pairs(cpf_of_level), report));
+    return step_text(separated(with_summed_pairs(cpf_of_level), report));
 }
 
 const std::string flow = "(sum_{?z : obj} [depth(?z, ?y) * LINK(?x, ?z)])";
@@ -50,7 +50,7 @@ TEST(SeparateAggregations, LeavesThoseInBranchesAndWhatIsCheap) {
           "depth(?x, ?y) + " + flow, "depth(?y, ?x) + Normal(0, 1) + " + flow,
           std::string("Normal(0, 1) + (sum_{?z : obj} [Normal(0, 1)])")}) {
         passes::Report report;
-        separated(with_pairs(cpf), report);
+        separated(with_summed_pairs(cpf), report);
         EXPECT_TRUE(report.empty()) << cpf;
     }
 }
@@ -58,9 +58,9 @@ TEST(SeparateAggregations, LeavesThoseInBranchesAndWhatIsCheap) {
 TEST(SeparateAggregations, ComputesTermsBeforeTheyAreAdded) {
     passes::Report report;
     const ir::Program program =
-        separated(with_pairs("0.0",
-                             "1.0 + sum_{?x : obj, ?y : obj} [if (depth(?x, ?y) > 2.0) then "
-                             "exp[depth'(?x, ?y)] else COST(?x, ?y)]"),
+        separated(with_summed_pairs("0.0",
+                                    "1.0 + sum_{?x : obj, ?y : obj} [if (depth(?x, ?y) > 2.0) then "
+                                    "exp[depth'(?x, ?y)] else COST(?x, ?y)]"),
                   report);
     EXPECT_EQ(report["sums whose terms are computed before"], 1);
     EXPECT_EQ(ir::print(program, program.reward.value),
@@ -75,7 +75,7 @@ TEST(SeparateAggregations, LeavesCheapTermsAndThoseThatAreNotAlwaysAdded) {
           "sum_{?x : obj, ?y : obj} [exp[depth(?y, ?x)]]", "sum_{?x : obj} [exp[depth(?x, ?x)]]",
           "sum_{?x : obj, ?y : obj} [lngamma[depth(?x, ?y)]]"}) {
         passes::Report report;
-        separated(with_pairs("0.0", reward), report);
+        separated(with_summed_pairs("0.0", reward), report);
         EXPECT_TRUE(report.empty()) << reward;
     }
 }
@@ -87,7 +87,8 @@ TEST(SeparateAggregations, LeavesWeightsInTheirDraw) {
         "(Discrete_{?w : obj} [sum_{?x : obj, ?y : obj} [exp[depth(?y, ?w) * depth(?x, ?y)]]]) == "
         "OTHER";
     passes::Report report;
-    const Problem problem = with_pairs("Normal(0, 1) + exp[depth(?x, ?y)] + " + drawn, reward);
+    const Problem problem =
+        with_summed_pairs("Normal(0, 1) + exp[depth(?x, ?y)] + " + drawn, reward);
     EXPECT_EQ(step_text(separated(problem, report)), step_text(grounded(problem)));
     EXPECT_EQ(report["sums whose terms are computed before"], 0);
 }

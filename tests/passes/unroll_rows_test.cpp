@@ -8,7 +8,7 @@
 namespace rddlc {
 namespace {
 
-Problem with_links(const std::string& cpf_of_depth) {
+Problem with_linked_rows(const std::string& cpf_of_depth) {
     return {.pvariables =
                 "LINK(obj, obj) : { non-fluent, bool, default = false };\n"
                 "SHARE(obj, obj) : { non-fluent, real, default = 0.5 };\n"
@@ -26,7 +26,7 @@ std::string unrolled(const Problem& problem, passes::Report& report) {
 }
 std::string unrolled(const std::string& cpf_of_depth) {
     passes::Report report;
-    return unrolled(with_links(cpf_of_depth), report);
+    return unrolled(with_linked_rows(cpf_of_depth), report);
 }
 
 const std::string inflow = "(sum_{?y : obj} [LINK(?x, ?y) * SHARE(?x, ?y) * depth(?y)])";
@@ -52,7 +52,7 @@ TEST(UnrollRows, TakesAFewOperationsBesideTheSum) {
 }
 
 TEST(UnrollRows, RunsOverAllObjectsOfNestedLoops) {
-    Problem problem = with_links("depth(?x)");
+    Problem problem = with_linked_rows("depth(?x)");
     problem.pvariables += "\nflow(obj, obj) : { interm-fluent, real };";
     problem.cpfs += "\nflow(?x, ?z) = " + inflow + " + depth(?z);";
     passes::Report report;
@@ -70,13 +70,13 @@ TEST(UnrollRows, LeavesLoopsThatDoMore) {
           "if (depth(?x) > 1.0) then " + inflow + " else 0.0",
           std::string("sum_{?y : obj} [depth(?y) * depth(?x)]")}) {
         passes::Report report;
-        unrolled(with_links(cpf), report);
+        unrolled(with_linked_rows(cpf), report);
         EXPECT_TRUE(report.empty()) << cpf;
     }
 }
 
 TEST(UnrollRows, LeavesLargeTables) {
-    Problem problem = with_links("depth(?x)");
+    Problem problem = with_linked_rows("depth(?x)");
     problem.pvariables += "\nflow(obj, obj, obj, obj, obj, obj) : { interm-fluent, real };";
     problem.cpfs += "\nflow(?x, ?a, ?b, ?c, ?d, ?e) = " + inflow + ";";
     passes::Report report;
@@ -89,7 +89,7 @@ TEST(UnrollRows, LeavesWhatDrawsOrMayFault) {
     for (const char* cpf : {"sum_{?y : obj} [LINK(?x, ?y) * pow[2, n(?y)]]",
                             "sum_{?y : obj} [LINK(?x, ?y) * lngamma[depth(?y)]]",
                             "sum_{?y : obj} [LINK(?x, ?y) * Bernoulli(0.5)]"}) {
-        const Problem problem = with_links(cpf);
+        const Problem problem = with_linked_rows(cpf);
         passes::Report report;
         EXPECT_EQ(unrolled(problem, report).find("next.depth[0]"), std::string::npos);
         EXPECT_EQ(report["loops over rows unrolled"], 0);
