@@ -4,7 +4,7 @@
 
 SITE-PACKAGES holds `rltools` of PyPI (2.2.1), whose headers are compiled by the flags of its own package
 (-O3 -march=native -ffast-math), with OpenBLAS (Debian: libopenblas-dev). All learn Pendulum, with 4 environments x 1,024
-steps, 2 epochs of minibatches of 256, and networks of 64-64 units; each number is the least of the repetitions, without
+steps, 2 epochs of minibatches of 256, and networks of 64-64 units, tanh or relu; each number is the least of the repetitions, without
 what a short run takes.
 """
 
@@ -47,17 +47,21 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
 
-        def ours(updates):
-            run = folder / f"run{len(list(folder.iterdir()))}"
-            return [arguments.rddl, "train", "ppo", "Pendulum_gym", 0, "--out", run, *OURS, "--steps", updates * STEPS]
+        def ours(activation):
+            def words(updates):
+                run = folder / f"run{len(list(folder.iterdir()))}"
+                return [arguments.rddl, "train", "ppo", "Pendulum_gym", 0, "--out", run, *OURS, "--activation", activation,
+                        "--steps", updates * STEPS]
+            return words
 
         def theirs(activation):
             return compiled(arguments.cxx, "rltools.cpp", folder / activation, f"-I{headers}",
                             "-DRL_TOOLS_BACKEND_ENABLE_OPENBLAS", f"-DACTIVATION={activation}")
 
-        programs = {"rddl train ppo": ours, "RLtools, tanh": theirs("TANH"), "RLtools, relu": theirs("RELU"),
+        programs = {"rddl, tanh": ours("tanh"), "RLtools, tanh": theirs("TANH"),
+                    "rddl, relu": ours("relu"), "RLtools, relu": theirs("RELU"),
                     "products alone": compiled(arguments.cxx, "products.cpp", folder / "products")}
-        processor_seconds(ours(1))  # compiles the simulator
+        processor_seconds(ours("tanh")(1))  # compiles the simulator
         least = {}
         for _ in range(arguments.repetitions):
             for program, words in programs.items():
@@ -66,7 +70,8 @@ def main():
                     least[program, updates] = min(seconds, least.get((program, updates), seconds))
         rates = {program: STEPS * (MANY - FEW) / (least[program, MANY] - least[program, FEW]) for program in programs}
         for program, rate in rates.items():
-            print(f"{program}: {rate / 1e3:.0f} k steps/s; rddl has {rates['rddl train ppo'] / rate:.2f} of it")
+            ratios = ", ".join(f"{own} has {rates[own] / rate:.2f} of it" for own in ("rddl, tanh", "rddl, relu"))
+            print(f"{program}: {rate / 1e3:.0f} k steps/s; {ratios}")
     return 0
 
 

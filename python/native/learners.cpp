@@ -160,6 +160,8 @@ Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::d
     options.take("value_weight", ppo.value_weight);
     options.take("gradient_norm", ppo.gradient_norm);
     options.take("hidden", ppo.hidden);
+    options.take("activation", ppo.activation,
+                 {{"tanh", solvers::Activation::Tanh}, {"relu", solvers::Activation::Relu}});
     options.take("stack", ppo.observations.stack);
     options.take("recurrent", ppo.recurrent);
     options.take("segment", ppo.segment);

@@ -168,8 +168,8 @@ class PPO(Learner):
 
     preset: "fast", "sb3" (Stable-Baselines3's defaults) or "rllib". options, as `rddl help train ppo`
     tells them: environments, rollout, epochs, minibatch, learning_rate, schedule ("linear",
-    "constant", "kl"), gamma, gae_lambda, clip, value_weight, gradient_norm, hidden (a list), stack,
-    recurrent, segment, seed, threads.
+    "constant", "kl"), gamma, gae_lambda, clip, value_weight, gradient_norm, hidden (a list),
+    activation ("tanh", "relu"), stack, recurrent, segment, seed, threads.
     """
 
     extension, total = ".json", "steps"

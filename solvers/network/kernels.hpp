@@ -1,5 +1,5 @@
-// Products of small matrices and tanh, in the vector registers that RDDL_VECTOR_BYTES says. Long
-// rows of products and tanh are done in those of RDDL_WIDE_BYTES, which are as large or larger:
+// Products of small matrices and activations, in the vector registers that RDDL_VECTOR_BYTES says.
+// Long rows of both are done in those of RDDL_WIDE_BYTES, which are as large or larger:
 // each number is computed in the same way, so it has the same bits.
 //
 // All matrices are row-major. Rows of results have a multiple of `padding` numbers, so that no loop
@@ -119,34 +119,58 @@ inline Vector<float, bytes> tanh_of(Vector<float, bytes> x) {
     return x * p / q;
 }
 
-template <bool squashes, int bytes, class Real>
+// What ends a layer: h = value(sum), and what becomes of a derivative d by h. All map 0 to 0, so
+// padding stays 0, and what is no number to what is none.
+struct Linear {
+    template <class Real, int bytes>
+    static Vector<Real, bytes> value(Vector<Real, bytes> sum) {
+        return sum;
+    }
+};
+struct Tanh {
+    template <class Real, int bytes>
+    static Vector<Real, bytes> value(Vector<Real, bytes> sum) {
+        return tanh_of<bytes>(sum);
+    }
+    template <class Real>
+    static Vector<Real> derivative(Vector<Real> h, Vector<Real> d) {
+        return d * (Real(1) - h * h);
+    }
+};
+struct Relu {
+    template <class Real, int bytes>
+    static Vector<Real, bytes> value(Vector<Real, bytes> sum) {
+        return sum < Real(0) ? Vector<Real, bytes>{} : sum;
+    }
+    template <class Real>
+    static Vector<Real> derivative(Vector<Real> h, Vector<Real> d) {
+        return h > Real(0) ? d : Vector<Real>{};
+    }
+};
+
+template <class End, int bytes, class Real>
 inline void add_bias_at(int c, const Real* bias, Real* x) {
     const Vector<Real, bytes> sum = load<bytes>(x + c) + load<bytes>(bias + c);
-    if constexpr (squashes)
-        store<bytes>(x + c, tanh_of<bytes>(sum));
-    else
-        store<bytes>(x + c, sum);
+    store<bytes>(x + c, End::template value<Real, bytes>(sum));
 }
 
-// Rows of `columns` numbers: x = tanh(x + bias), or x + bias.
-template <bool squashes, class Real>
+// Rows of `columns` numbers: x = End::value(x + bias).
+template <class End, class Real>
 inline void add_bias(int rows, int columns, const Real* bias, Real* x) {
     constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
     for (int r = 0; r < rows; ++r, x += columns) {
         int c = 0;
-        for (; c + wide <= columns; c += wide) add_bias_at<squashes, RDDL_WIDE_BYTES>(c, bias, x);
+        for (; c + wide <= columns; c += wide) add_bias_at<End, RDDL_WIDE_BYTES>(c, bias, x);
         if constexpr (wide > width)
-            for (; c < columns; c += width) add_bias_at<squashes, RDDL_VECTOR_BYTES>(c, bias, x);
+            for (; c < columns; c += width) add_bias_at<End, RDDL_VECTOR_BYTES>(c, bias, x);
     }
 }
 
-// d *= 1 - h^2, the derivative of h = tanh.
-template <class Real>
+// d *= the derivative of h = End::value.
+template <class End, class Real>
 inline void times_derivative(int count, const Real* h, Real* d) {
-    for (int i = 0; i < count; i += VectorOf<Real>::width) {
-        const Vector<Real> value = load(h + i);
-        store(d + i, load(d + i) * (Real(1) - value * value));
-    }
+    for (int i = 0; i < count; i += VectorOf<Real>::width)
+        store(d + i, End::template derivative<Real>(load(h + i), load(d + i)));
 }
 
 template <class Real>

@@ -81,8 +81,10 @@ const GruFunctions<float>& gru_functions() {
     return portable::gru_functions_of<float>;
 }
 
-Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner) {
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner,
+                     Activation activation) {
     Network network;
+    network.activation = activation;
     network.inner = inner;
     std::vector<int> widths = hidden;
     widths.push_back(outputs);

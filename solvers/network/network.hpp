@@ -1,4 +1,4 @@
-// Networks of tanh layers, of any width and depth, on rows of samples.
+// Networks of tanh or relu layers, of any width and depth, on rows of samples.
 //
 // Parameters of a network are one array of numbers, in the order of the layers: the transposed
 // weights, a row of padded_outputs numbers for each input, and then the bias. What pads rows is 0
@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -24,9 +26,22 @@ struct Layer {
     std::size_t values = 0;             // where its results begin in a sample's activations
 };
 
-// All hidden layers end with tanh, the last one with nothing.
+enum class Activation { Tanh, Relu };  // Relu: max(0, x)
+
+inline const char* name_of(Activation activation) {
+    return activation == Activation::Relu ? "relu" : "tanh";
+}
+// Nothing if none has this name.
+inline std::optional<Activation> activation_named(std::string_view name) {
+    for (const Activation each : {Activation::Tanh, Activation::Relu})
+        if (name == name_of(each)) return each;
+    return std::nullopt;
+}
+
+// All hidden layers end with the activation, the last one with nothing.
 struct Network {
     std::vector<Layer> layers;
+    Activation activation = Activation::Tanh;
     int inner = 0;  // of the inputs, the last ones, come from another network: backward() tells it
     std::size_t parameters = 0;  // numbers
     std::size_t rows = 0;  // numbers: weights as [output][padded input], for backward(); of the
@@ -37,7 +52,8 @@ struct Network {
     int padded_outputs() const { return layers.back().padded_outputs; }
 };
 
-Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner = 0);
+Network make_network(int inputs, const std::vector<int>& hidden, int outputs, int inner = 0,
+                     Activation activation = Activation::Tanh);
 
 // Samples that go through all layers together, so that what they need stays in a processor's cache.
 inline constexpr int tile = 64;

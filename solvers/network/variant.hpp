@@ -3,6 +3,22 @@
 
 #include "solvers/network/kernels.hpp"
 
+// Of hidden layers.
+template <class Real>
+inline void end_layer(Activation activation, int rows, int columns, const Real* bias, Real* x) {
+    if (activation == Activation::Relu)
+        add_bias<Relu>(rows, columns, bias, x);
+    else
+        add_bias<Tanh>(rows, columns, bias, x);
+}
+template <class Real>
+inline void end_layer_back(Activation activation, int count, const Real* h, Real* d) {
+    if (activation == Activation::Relu)
+        times_derivative<Relu>(count, h, d);
+    else
+        times_derivative<Tanh>(count, h, d);
+}
+
 template <class Real>
 void forward(const Network& network, const Real* parameters, int count, const Real* x, int x_row,
              Real* activations) {
@@ -13,10 +29,11 @@ void forward(const Network& network, const Real* parameters, int count, const Re
         product<false>(count, layer.padded_outputs, layer.inputs, Strided<Real>{x, x_row, 1},
                        parameters + layer.weights, layer.padded_outputs, values,
                        layer.padded_outputs);
+        const Real* const bias = parameters + layer.bias;
         if (l + 1 < layers)
-            add_bias<true>(count, layer.padded_outputs, parameters + layer.bias, values);
+            end_layer(network.activation, count, layer.padded_outputs, bias, values);
         else
-            add_bias<false>(count, layer.padded_outputs, parameters + layer.bias, values);
+            add_bias<Linear>(count, layer.padded_outputs, bias, values);
         x = values;
         x_row = layer.padded_outputs;
     }
@@ -48,7 +65,7 @@ void backward(const Network& network, const Real* rows, int count, const Real* x
         product<false>(count, layer.padded_inputs, layer.outputs,
                        Strided<Real>{d, layer.padded_outputs, 1}, rows + layer.rows,
                        layer.padded_inputs, d_input, layer.padded_inputs);
-        times_derivative(count * layer.padded_inputs, input, d_input);
+        end_layer_back(network.activation, count * layer.padded_inputs, input, d_input);
         d = d_input;
     }
 }

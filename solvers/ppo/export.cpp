@@ -96,6 +96,10 @@ std::vector<float> squashed_outputs(const PpoModel& model) {
 
 // ------------------------------------------------------------------------------------- C++
 
+const char* activation_cpp(Activation activation) {
+    return activation == Activation::Relu ? "(sum > 0 ? sum : 0)" : "std::tanh(sum)";
+}
+
 std::string memory_arrays_cpp(const PpoModel& model) {
     const GruArrays arrays = arrays_of(model, {0, 1, 2});
     return fmt::format(
@@ -242,7 +246,7 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         "    for (int o = 0; o < outputs; ++o) {{\n"
         "        float sum = bias[o];\n"
         "        for (int i = 0; i < inputs; ++i) sum += weights[o * inputs + i] * from[i];\n"
-        "        to[o] = last ? sum : std::tanh(sum);\n    }}\n}}\n\n"
+        "        to[o] = last ? sum : {4};\n    }}\n}}\n\n"
         "{1}inline void act(const float* features, {2}float* outputs) {{\n"
         "    float a[{0}], b[{0}];\n"
         "    for (int f = 0; f < feature_count; ++f) {{\n"
@@ -251,7 +255,8 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         widest, remembers ? remember_cpp : "", remembers ? "float* memory, " : "",
         remembers ? "    remember(a, memory);\n"
                     "    for (int u = 0; u < memory_count; ++u) a[feature_count + u] = memory[u];\n"
-                  : "");
+                  : "",
+        activation_cpp(network.activation));
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const Layer& layer = network.layers[l];
         const bool last = l + 1 == network.layers.size();
@@ -295,7 +300,9 @@ std::string ppo_policy_onnx(const PpoModel& model) {
         add_node(node(
             "Gemm", {fmt::format("x{}", l), fmt::format("weights{}", l), fmt::format("bias{}", l)},
             {last ? (squashes ? "all" : "outputs") : fmt::format("sum{}", l)}, {{"transB", 1}}));
-        if (!last) add_node(node("Tanh", {fmt::format("sum{}", l)}, {fmt::format("x{}", l + 1)}));
+        if (!last)
+            add_node(node(network.activation == Activation::Relu ? "Relu" : "Tanh",
+                          {fmt::format("sum{}", l)}, {fmt::format("x{}", l + 1)}));
     }
     if (squashes) {
         // all + squashed * (tanh(all) - all)

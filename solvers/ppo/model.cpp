@@ -85,9 +85,11 @@ void initialise(const Gru& gru, Normals& normals, float* parameters) {
 
 void make_networks(PpoModel& model) {
     const int inputs = model.features() + model.recurrent;
-    model.policy =
-        make_network(inputs, model.hidden, model.actions.output_count(), model.recurrent);
-    model.value = make_network(inputs, model.hidden, 1, model.recurrent);
+    const auto network_of = [&](int outputs) {
+        return make_network(inputs, model.hidden, outputs, model.recurrent, model.activation);
+    };
+    model.policy = network_of(model.actions.output_count());
+    model.value = network_of(1);
     if (model.recurrent > 0) model.memory = make_gru(model.features(), model.recurrent);
     model.parameters.assign(model.memory_begin() + model.memory.parameters, 0.0f);
     model.normaliser = Normaliser(model.features());
@@ -103,6 +105,7 @@ PpoModel make_model(const ObservationSpace& observations, const ActionSpace& act
     model.correlation = options.correlation;
     model.noise_steps = options.noise_steps;
     model.hidden = options.hidden;
+    model.activation = options.activation;
     model.recurrent = options.recurrent;
     make_networks(model);
     Normals normals(options.seed);

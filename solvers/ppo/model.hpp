@@ -21,7 +21,8 @@ struct PpoModel {
     double correlation = 0;  // of Ar1
     int noise_steps = 8;     // with the same weights, of Sde
     std::vector<int> hidden;
-    int recurrent = 0;  // units that remember; 0: none
+    Activation activation = Activation::Tanh;  // of hidden layers
+    int recurrent = 0;                         // units that remember; 0: none
     // Both networks see a row of features and then what is remembered, this row's features
     // included.
     Network policy, value;
@@ -57,7 +58,8 @@ struct PpoModel {
 PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
                     const PpoOptions& options);
 
-// Room for the networks, once the spaces and `hidden` are there; all parameters are 0.
+// Room for the networks, once the spaces and all that says what they are is there; all parameters
+// are 0.
 void make_networks(PpoModel& model);
 
 }  // namespace rddlc::solvers

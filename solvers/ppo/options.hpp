@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solvers/choosing/choosing.hpp"
+#include "solvers/network/network.hpp"
 #include "solvers/spaces/observations.hpp"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ struct PpoOptions {
     // Where nearly all episodes earn the same, seeing more of the problem is rewarded
     // (curiosity.hpp).
     bool curious = true;
-    std::vector<int> hidden = {64, 64};  // of the policy's network, and of the values'
+    std::vector<int> hidden = {64, 64};        // of the policy's network, and of the values'
+    Activation activation = Activation::Tanh;  // of hidden layers
     // Units that remember, which both networks see beside the observation; 0: none. The gradient
     // goes back through as many steps as a segment has at most.
     int recurrent = 0;

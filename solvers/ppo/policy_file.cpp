@@ -67,6 +67,17 @@ Noise noise_of(const Json& json, double correlation) {
         if (name == name_of(noise)) return noise;
     throw Failure("its noise is unknown: '" + name + "'");
 }
+// Files without one are of tanh.
+Activation activation_of(const Json& json) {
+    const std::string name = json.value("activation", name_of(Activation::Tanh));
+    if (const auto known = activation_named(name)) return *known;
+    throw Failure("its activation is unknown: '" + name + "'");
+}
+
+int version_of(const PpoModel& model) {
+    if (model.activation != Activation::Tanh) return 3;
+    return model.recurrent > 0 ? 2 : 1;
+}
 
 std::string text_of(const ActionSpace& space) {
     const std::string reals = array_of(space.reals, [](const RealHead& head) {
@@ -207,6 +218,7 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         throw Failure("it is of another version of the problem: what is seen or done has changed");
     model->hidden = json.at("hidden").get<std::vector<int>>();
     if (model->hidden.empty()) throw Failure("its layers do not fit");
+    model->activation = activation_of(json);
     if (json.contains("recurrent")) model->recurrent = units_of(json.at("recurrent"));
     model->correlation = json.at("correlation").get<double>();
     model->noise = noise_of(json, model->correlation);
@@ -328,7 +340,7 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
     const rddl_problem& problem = *simulator.problem;
     std::string text = fmt::format(
         R"({{"format":"rddl-policy","version":{},"solver":"ppo","domain":"{}","instance":"{}",)",
-        model.recurrent > 0 ? 2 : 1, problem.domain, problem.instance);
+        version_of(model), problem.domain, problem.instance);
     text +=
         fmt::format(R"("observation":{{"space":{},"stack":{},"time":{},"means":{},"factors":{}}},)",
                     text_of(model.observations), model.observations.stack, model.observations.time,
@@ -336,6 +348,8 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
                     array(model.normaliser.factors.data(), model.normaliser.factors.size()));
     text += fmt::format(R"("action":{},"hidden":{},)", text_of(model.actions),
                         array_of(model.hidden, [](int units) { return std::to_string(units); }));
+    if (model.activation != Activation::Tanh)
+        text += fmt::format(R"("activation":"{}",)", name_of(model.activation));
     if (model.recurrent > 0)
         text += fmt::format(R"("recurrent":{},)", text_of(model.memory, model.memory_parameters()));
     text +=

@@ -12,8 +12,9 @@
 
 namespace rddlc::solvers {
 
-// The highest that is read. Files of networks that remember are of version 2, others of 1.
-inline constexpr int policy_file_version = 2;
+// The highest that is read. Files of networks whose activation is not tanh are of version 3, others
+// of 2 if they remember, and else of 1.
+inline constexpr int policy_file_version = 3;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 

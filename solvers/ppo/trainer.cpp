@@ -21,7 +21,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 3};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 4};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -353,11 +353,13 @@ struct PpoTrainer::State {
     void archive(Archive& archive) {
         archive(progress);
         const std::size_t size = model.parameters.size();
+        Activation activation = model.activation;
+        archive(activation);
         archive(model.parameters);
-        if (model.parameters.size() != size)
+        if (activation != model.activation || model.parameters.size() != size)
             throw Failure(
-                "it is of a run with other networks: --hidden, --stack and --recurrent have to be "
-                "as they were");
+                "it is of a run with other networks: --hidden, --activation, --stack and "
+                "--recurrent have to be as they were");
         archive(model.normaliser.means);
         archive(model.normaliser.factors);
         archive(learner.first_moments);

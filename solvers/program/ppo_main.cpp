@@ -2,6 +2,7 @@
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "solvers/program/program.hpp"
+#include "support/failure.hpp"
 
 extern "C" const rddl_simulator* rddl_solver_simulator(void);
 
@@ -12,7 +13,7 @@ int main(int argc, char** argv) {
     program.solver = "ppo";
     program.help =
         "  --steps N  --envs N  --rollout T  --epochs E  --minibatch M  --lr RATE  --gamma G\n"
-        "  --stack K  --recurrent UNITS  --threads T\n";
+        "  --stack K  --recurrent UNITS  --activation tanh|relu  --threads T\n";
     add_number(program.options, "--steps", options.steps);
     add_number(program.options, "--envs", options.environments);
     add_number(program.options, "--rollout", options.rollout);
@@ -23,6 +24,13 @@ int main(int argc, char** argv) {
     add_number(program.options, "--stack", options.observations.stack);
     add_number(program.options, "--recurrent", options.recurrent);
     add_number(program.options, "--threads", options.threads);
+    program.options["--activation"] = [&](const std::string& word) {
+        const auto known = activation_named(word);
+        if (!known)
+            throw rddlc::Failure("--activation: '" + word + "' is neither tanh nor relu", {},
+                                 rddlc::usage_error);
+        options.activation = *known;
+    };
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;
         return ppo_trainee(simulator, options, ranks);

@@ -10,6 +10,8 @@ Step 0 begins an episode. Names are those of the policy file: "rlevel(t1)". Mask
 import json
 import math
 
+ACTIVATIONS = {"tanh": math.tanh, "relu": lambda x: max(0.0, x)}
+
 
 class Policy:
     def __init__(self, path):
@@ -17,8 +19,12 @@ class Policy:
             self.file = json.load(file)
         if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
             raise ValueError(f"{path} is no policy of PPO")
-        if self.file["version"] > 2:
-            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 2")
+        if self.file["version"] > 3:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 3")
+        name = self.file.get("activation", "tanh")
+        if name not in ACTIVATIONS:
+            raise ValueError(f"the activation of {path} is unknown: '{name}'")
+        self.activation = ACTIVATIONS[name]
         self.frames = []
         self.memory = []
 
@@ -63,7 +69,7 @@ class Policy:
             row = [bias + sum(w * x for w, x in zip(weights, row))
                    for weights, bias in zip(layer["weights"], layer["bias"])]
             if number + 1 < len(layers):
-                row = [math.tanh(x) for x in row]
+                row = [self.activation(x) for x in row]
         return row
 
     @staticmethod

@@ -58,7 +58,7 @@ TEST_F(LearningProgram, TrainsEvaluatesAndCompares) {
 
 // Killed at any moment, a run goes on as if nothing had happened.
 TEST_F(LearningProgram, GoesOnAfterItWasKilled) {
-    for (const char* const network : {"", "--recurrent 8 --segment 10 "}) {
+    for (const char* const network : {"", "--activation relu ", "--recurrent 8 --segment 10 "}) {
         std::filesystem::remove_all(folder_ / "parts");
         std::filesystem::remove_all(folder_ / "whole");
         const std::string options = fmt::format("--steps 40000 --seed 3 {}{}", network, small_ppo);
@@ -221,6 +221,7 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses(on_tanks("train ppo", "--recurrent 8 --rollout 1 --minibatch 9"),
             "a recurrent network learns from several steps in a row");
     refuses(on_tanks("train ppo", "--recurrent -1"), "--recurrent");
+    refuses(on_tanks("train ppo", "--activation gelu"), "--activation");
     refuses(on_tanks("train ppo", "--recurrent 8 --segment 1"), "--segment");
     refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");

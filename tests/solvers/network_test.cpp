@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -67,16 +68,28 @@ std::vector<double> plain_outputs(const Network& network, const std::vector<doub
                                   static_cast<std::size_t>(i * layer.padded_outputs + o)] *
                        x[static_cast<std::size_t>(i)];
             const bool last = &layer == &network.layers.back();
-            next[static_cast<std::size_t>(o)] = last ? sum : std::tanh(sum);
+            const bool relu = network.activation == Activation::Relu;
+            next[static_cast<std::size_t>(o)] = last   ? sum
+                                                : relu ? std::max(sum, 0.0)
+                                                       : std::tanh(sum);
         }
         x = next;
     }
     return x;
 }
 
+// Networks of these shapes with each activation.
+std::vector<Network> networks_of(int inputs, const std::vector<std::vector<int>>& shapes,
+                                 int outputs, int inner = 0) {
+    std::vector<Network> all;
+    for (const std::vector<int>& hidden : shapes)
+        for (const Activation activation : {Activation::Tanh, Activation::Relu})
+            all.push_back(make_network(inputs, hidden, outputs, inner, activation));
+    return all;
+}
+
 TEST(Network, ComputesWhatAPlainLoopDoes) {
-    for (const std::vector<int>& hidden : {std::vector<int>{}, {5}, {64, 64}, {13, 7, 9}}) {
-        const Network network = make_network(3, hidden, 5);
+    for (const Network& network : networks_of(3, {{}, {5}, {64, 64}, {13, 7, 9}}, 5)) {
         const auto parameters = parameters_of<double>(network, 1);
         const std::vector<float> floats(parameters.begin(), parameters.end());
         for (const int count : {1, 2, 5, 6, 7, 64}) {
@@ -133,9 +146,20 @@ TEST(Network, TanhIsPreciseEverywhere) {
     }
 }
 
+// So that descent, which tells numbers that are none, sees them.
+TEST(Network, HidesNoNumberThatIsNone) {
+    for (const Network& network : networks_of(1, {{9}}, 1)) {
+        const auto parameters = parameters_of<float>(network, 10);
+        const float number = std::nanf("");
+        std::vector<float> activations(network.activations);
+        network_functions().forward(network, parameters.data(), 1, &number, 1, activations.data());
+        EXPECT_TRUE(std::isnan(activations[network.layers.back().values]))
+            << name_of(network.activation);
+    }
+}
+
 TEST(Network, GradientAgreesWithFiniteDifferences) {
-    for (const std::vector<int>& hidden : {std::vector<int>{}, {6}, {9, 5}, {4, 3, 7}}) {
-        const Network network = make_network(3, hidden, 2);
+    for (const Network& network : networks_of(3, {{}, {6}, {9, 5}, {4, 3, 7}}, 2)) {
         auto parameters = parameters_of<double>(network, 5);
         constexpr int count = 7;
         const auto x = numbers<double>(count * 3, 6);
@@ -171,8 +195,7 @@ TEST(Network, GradientAgreesWithFiniteDifferences) {
 // By the last inputs, which another network has made.
 TEST(Network, TellsTheGradientByItsInnerInputs) {
     constexpr int count = 5, inputs = 7, inner = 3;
-    for (const std::vector<int>& hidden : {std::vector<int>{}, {9}, {4, 6}}) {
-        const Network network = make_network(inputs, hidden, 2, inner);
+    for (const Network& network : networks_of(inputs, {{}, {9}, {4, 6}}, 2, inner)) {
         const auto parameters = parameters_of<double>(network, 8);
         auto x = numbers<double>(count * inputs, 9);
         std::vector<double> weights(static_cast<std::size_t>(count * network.padded_outputs()));

@@ -89,6 +89,9 @@ class Graph:
     def tanh(self, a):
         return [[math.tanh(x) for x in row] for row in a]
 
+    def relu(self, a):
+        return [[max(0.0, x) for x in row] for row in a]
+
     def gemm(self, a, b, c, transB):
         assert transB == 1
         return [[sum(x * y for x, y in zip(row, weights)) + bias for weights, bias in zip(b, c)] for row in a]

@@ -329,11 +329,33 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     EXPECT_EQ(read("{}"), "it is no policy of PPO");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
-    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 2");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 3");
     EXPECT_NE(complaint([&] {
                   read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
               }).find("it is of the problem mountain_car_1"),
               std::string::npos);
+}
+
+TEST(Ppo, ReluNetworksAreReadAsTheyWereWritten) {
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    PpoOptions options = small_training();
+    PpoTrainer tanh(car, options);
+    options.activation = Activation::Relu;
+    PpoTrainer relu(car, options);
+    relu.update();
+    const std::string text = ppo_policy_text(car, relu.model());
+    EXPECT_NE(text.find(R"("version":3,)"), std::string::npos);
+    EXPECT_NE(text.find(R"("activation":"relu",)"), std::string::npos);
+    EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, text)), text);
+    // What says nothing of it is of tanh, as all older files are.
+    EXPECT_EQ(ppo_policy_text(car, tanh.model()).find("activation"), std::string::npos);
+    std::string other = text;
+    other.replace(other.find("\"relu\""), 6, "\"gelu\"");
+    EXPECT_EQ(complaint([&] { read_ppo_policy(car, other); }), "its activation is unknown: 'gelu'");
+    for (const auto& [from, to] : {std::pair{&relu, &tanh}, {&tanh, &relu}})
+        EXPECT_EQ(complaint([&] { to->load(from->save()); }),
+                  "it is of a run with other networks: --hidden, --activation, --stack and "
+                  "--recurrent have to be as they were");
 }
 
 // A reward that is not finite cannot be learned from; here by a learning rate that breaks

@@ -11,6 +11,9 @@ ppo=$1 cgp=$2
 "$ppo" train --out "$folder/recurrent" --steps 8192 --envs 8 --rollout 64 --minibatch 256 --recurrent 8
 grep -q '"recurrent":{"units":8,' "$folder/recurrent/policy.json"
 "$ppo" evaluate "$folder/recurrent/policy.json" --episodes 5 | grep "0 faults"
+"$ppo" train --out "$folder/relu" --steps 8192 --envs 8 --rollout 64 --minibatch 256 --activation relu
+grep -q '"activation":"relu",' "$folder/relu/policy.json"
+"$ppo" evaluate "$folder/relu/policy.json" --episodes 5 | grep "0 faults"
 "$cgp" train --out "$folder/cgp" --gens 60
 "$cgp" evaluate "$folder/cgp/policy.cgp" --episodes 1 | tee "$folder/evaluation"
 grep "^return [89][0-9].* 1 of 1 terminated" "$folder/evaluation"  # it reaches the flag
@@ -28,3 +31,5 @@ if "$ppo" evaluate "$folder/cgp/policy.cgp" 2> "$folder/err"; then exit 1; fi
 grep "error" "$folder/err"
 if "$ppo" train --steps many --out "$folder/x" 2> "$folder/err"; then exit 1; fi
 grep "'many' is no number" "$folder/err"
+if "$ppo" train --activation gelu --out "$folder/x" 2> "$folder/err"; then exit 1; fi
+grep "'gelu' is neither tanh nor relu" "$folder/err"

@@ -182,8 +182,8 @@ TEST(Recurrent, RefusesWhatCannotBe) {
     options.recurrent = 0;
     PpoTrainer forgetful(maze(), options);
     EXPECT_EQ(sentence_of([&] { forgetful.load(bytes); }),
-              "it is of a run with other networks: --hidden, --stack and --recurrent have to be "
-              "as they were");
+              "it is of a run with other networks: --hidden, --activation, --stack and "
+              "--recurrent have to be as they were");
     options = with_memory();
     options.rollout = 1;
     options.environments = 400;

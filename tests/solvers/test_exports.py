@@ -124,7 +124,8 @@ def main():
 
     formula = in_folder(check_formula)
     networks = [in_folder(check_network, arguments.cxx, *options)
-                for options in ((), ("--squash", "on"), ("--recurrent", "11"))]
+                for options in ((), ("--squash", "on"), ("--recurrent", "11"), ("--activation", "relu"),
+                                ("--activation", "relu", "--squash", "on", "--recurrent", "11"))]
     assert all(formula + steps > 100 for steps in networks), (formula, networks)
     steps = formula + sum(networks)
     print(f"{steps} steps agree")

@@ -192,6 +192,10 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                         first = false;
                         ppo.hidden.push_back(number_of<int>("--hidden", units, 1, 1 << 16));
                     });
+    add_choice_option<Activation>(command, "--activation", "FUNCTION",
+                                  "Of hidden layers: tanh (default), or relu, which is faster",
+                                  ppo.activation,
+                                  {{"tanh", Activation::Tanh}, {"relu", Activation::Relu}});
     add_number_option(command, "--stack", "K", "Observations seen at once (1)",
                       ppo.observations.stack, 1, 1000);
     add_number_option(command, "--recurrent", "UNITS",
