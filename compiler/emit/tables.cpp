@@ -26,7 +26,7 @@ std::string lane_type(ir::Scalar scalar) {
     return "typename L::Real";
 }
 
-std::string indented(const std::string& text, std::size_t columns) {
+std::string at_column(const std::string& text, std::size_t columns) {
     return std::string(columns, ' ') + text;
 }
 
@@ -60,15 +60,15 @@ class TableWriter {
         const bool innermost = dimension + 1 == shape_.size();
         if (innermost) {
             const std::string row = lead + on_one_line(dimension, begin) + tail;
-            if (column + row.size() <= line_width) return indented(row, column) + "\n";
+            if (column + row.size() <= line_width) return at_column(row, column) + "\n";
         }
-        std::string text = indented(lead + (innermost ? "{" : "{{") + "\n", column);
+        std::string text = at_column(lead + (innermost ? "{" : "{{") + "\n", column);
         text += innermost ? wrapped_row(column + indentation, begin) : "";
         for (std::int64_t i = 0; !innermost && i < shape_[dimension]; ++i) {
             text += on_lines("", column + indentation, dimension + 1,
                              begin + static_cast<std::size_t>(i) * stride(dimension), ",");
         }
-        return text + indented((innermost ? "}" : "}}") + tail + "\n", column);
+        return text + at_column((innermost ? "}" : "}}") + tail + "\n", column);
     }
 
   private:
@@ -87,7 +87,7 @@ class TableWriter {
         }
         std::string text;
         for (const std::string& line : fill(with_commas(std::move(entries)), column, 1)) {
-            text += indented(line, column) + "\n";
+            text += at_column(line, column) + "\n";
         }
         return text;
     }
@@ -249,7 +249,7 @@ std::string list(const std::string& declaration, const std::vector<std::string>&
     if (whole.size() <= line_width) return whole + "\n";
     std::string lines;
     for (const std::string& line : fill(with_commas(items), indentation, 1)) {
-        lines += indented(line, indentation) + "\n";
+        lines += at_column(line, indentation) + "\n";
     }
     return format_off + declaration + " = {\n" + lines + "};\n" + format_on;
 }
