@@ -296,6 +296,14 @@ TEST(Ppo, SquashedPoliciesAreReadAsTheyWereWritten) {
     const std::string text = ppo_policy_text(car, trainer.model());
     EXPECT_NE(text.find("\"squashed\""), std::string::npos);
     EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, text)), text);
+    // Other programs lay out JSON in their own way, with members in another order.
+    nlohmann::json json = nlohmann::json::parse(text);
+    EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, json.dump(2))), text);
+    json["hidden"][0] = 1'000'000'000;
+    EXPECT_THROW(read_ppo_policy(car, json.dump()), Failure);
+    json = nlohmann::json::parse(text);
+    json["policy"][0]["bias"][0] = 1e300;
+    EXPECT_THROW(read_ppo_policy(car, json.dump()), Failure);
 }
 
 TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
