@@ -13,9 +13,11 @@
 #include "support/failure.hpp"
 #include "support/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -396,6 +398,12 @@ TEST(Ppo, ARefusedCallLeavesTheCheckpoint) {
     EXPECT_EQ(complaint(go), "the simulator's sentence");
     EXPECT_EQ(read_file(folder / "checkpoint"), before);
     calls_left = 1'000'000;
+    {
+        const int other = ::open(folder.c_str(), O_RDONLY);
+        ASSERT_EQ(::flock(other, LOCK_EX), 0);
+        EXPECT_NE(complaint(go).find("another run writes into the folder"), std::string::npos);
+        ::close(other);
+    }
     EXPECT_EQ(complaint(go), "");
     EXPECT_NE(read_file(folder / "checkpoint"), before);
     std::filesystem::remove_all(folder);

@@ -85,11 +85,12 @@ double value_at(const Points& points, double x) {
 
 RunProgress read_progress(const fs::path& folder) {
     const fs::path file = folder / "progress.csv";
-    const std::string text = read_file(file);
+    const std::string text = read_file(file, largest_text);
     RunProgress run{folder, {}, {}};
     std::size_t number = 0;
-    for (const std::string_view line : parts_of(text, '\n')) {
+    for (std::string_view line : parts_of(text, '\n')) {
         ++number;
+        if (line.ends_with('\r')) line.remove_suffix(1);  // of spreadsheets
         if (line.empty()) continue;
         const std::vector<std::string_view> words = parts_of(line, ',');
         if (run.columns.empty()) {
