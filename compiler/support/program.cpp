@@ -1,6 +1,7 @@
 #include "support/program.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -94,6 +95,11 @@ bool is_terminal(int descriptor) {
 bool tells_to_screen() {
     const char* const terminal = std::getenv("TERM");
     return is_terminal(STDERR_FILENO) && (!terminal || std::string_view(terminal) != "dumb");
+}
+
+std::size_t screen_columns() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 bool tells_in_color() {

@@ -23,6 +23,8 @@ int run_program(std::string_view name, std::string_view version,
 bool is_terminal(int descriptor);
 // Whether what is told is read on a terminal that understands escape codes: TERM is not "dumb".
 bool tells_to_screen();
+// How many columns that terminal has; 0 if it does not tell.
+std::size_t screen_columns();
 // And by somebody who has not set NO_COLOR (https://no-color.org).
 bool tells_in_color();
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rddlc::solvers {
@@ -29,7 +30,7 @@ bool is_atom(const Term& term) {
     return term.kind != Term::Kind::Function || info_of(term.function).arity == 0;
 }
 
-// Infix operators, whose arguments need brackets.
+// Written in several words, which need brackets as an argument, as their arguments do.
 bool is_infix(Function function) {
     switch (function) {
         case Function::Add:
@@ -43,6 +44,7 @@ bool is_infix(Function function) {
         case Function::Not:
         case Function::Square:
         case Function::Half:
+        case Function::If:
             return true;
         default:
             return false;
@@ -153,6 +155,15 @@ Language for_people(const ProgramScope& scope) {
     return language;
 }
 
+// How many values besides the default can be chosen for a bool, an object or an int.
+int other_values(const ActionSpace& space, int column) {
+    for (const CategoryHead& head : space.categories)
+        if (head.column == column) return head.count - 1;
+    return static_cast<int>(
+        std::count_if(space.choices.begin(), space.choices.end(),
+                      [column](const Choice& choice) { return choice.column == column; }));
+}
+
 // What becomes of an output, where it is not clear.
 std::string meaning_of(const ProgramScope& scope, std::size_t output) {
     const ActionSpace& space = scope.actions;
@@ -182,11 +193,17 @@ std::string meaning_of(const ProgramScope& scope, std::size_t output) {
                                    number(head.scale));
         }
     }
-    if (space.picks > 0)
-        return space.picks == 1
-                   ? "   [the greatest above 0 is done]"
-                   : fmt::format("   [the greatest above 0 are done, at most {}]", space.picks);
-    return "   [above 0 is true]";
+    const int others = other_values(space, column);
+    if (space.picks == 0)
+        return others == 1
+                   ? "   [above 0 is true]"
+                   : fmt::format("   [x from -1 to 1 in {} equal parts, a value each]", others + 1);
+    const std::string which = others == 1 ? "above 0" : "|x|";
+    const std::string value =
+        others == 1 ? "" : fmt::format("; x from -1 to 1 in {} equal parts, a value each", others);
+    return space.picks == 1 ? fmt::format("   [the greatest {} is done{}]", which, value)
+                            : fmt::format("   [the greatest {} are done, at most {}{}]", which,
+                                          space.picks, value);
 }
 
 std::string identifier(const std::string& name) {

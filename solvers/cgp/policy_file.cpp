@@ -179,7 +179,11 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
                                   version, file_version));
     const std::string domain = lines.text("domain"), instance = lines.text("instance");
     const bool lifted = lines.number("lifted", 0, 1) != 0, time = lines.number("time", 0, 1) != 0;
-    require_problem(simulator, domain, lifted ? simulator.problem->instance : instance);
+    if (!lifted)
+        require_problem(simulator, domain, instance);
+    else if (domain != simulator.problem->domain)
+        throw Failure(
+            fmt::format("it is of the domain {}, not of {}", domain, simulator.problem->domain));
     const auto found = std::make_shared<FoundProgram>();
     found->scope = program_scope(simulator, lifted ? Lifting::On : Lifting::Off, time, 0);
     ProgramScope& scope = found->scope;

@@ -187,12 +187,24 @@ int units_of(const Json& json) {
     return units;
 }
 
+// The same of its hidden layers.
+std::vector<int> hidden_of(const Json& json) {
+    const auto hidden = json.at("hidden").get<std::vector<int>>();
+    const Json& layers = json.at("policy");
+    if (hidden.empty() || layers.size() != hidden.size() + 1)
+        throw Failure("its layers do not fit");
+    for (std::size_t l = 0; l < hidden.size(); ++l)
+        if (hidden[l] < 1 || layers.at(l).at("bias").size() != static_cast<std::size_t>(hidden[l]))
+            throw Failure("its layers do not fit");
+    return hidden;
+}
+
 std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
     const Json json = parse_json(text);
     if (json.value("format", "") != "rddl-policy" || json.value("solver", "") != "ppo")
         throw Failure("it is no policy of PPO");
     const int version = json.at("version").get<int>();
-    if (version > policy_file_version)
+    if (version < 1 || version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
                                   version, policy_file_version));
     const rddl_problem& problem = *simulator.problem;
@@ -210,14 +222,11 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
     model->actions = action_space(simulator);
     for (const Json& real : json.at("action").at("reals"))
         if (real.at("range") == "squashed") squash_bounded(model->actions);
-    const auto stands = [text](const char* name, const std::string& space) {
-        return text.find(fmt::format("\"{}\":{}", name, space)) != text.npos;
-    };
-    if (!stands("space", text_of(model->observations)) ||
-        !stands("action", text_of(model->actions)))
+    // As values: other programs lay out JSON in their own way.
+    if (parse_json(text_of(model->observations)) != seen.at("space") ||
+        parse_json(text_of(model->actions)) != json.at("action"))
         throw Failure("it is of another version of the problem: what is seen or done has changed");
-    model->hidden = json.at("hidden").get<std::vector<int>>();
-    if (model->hidden.empty()) throw Failure("its layers do not fit");
+    model->hidden = hidden_of(json);
     model->activation = activation_of(json);
     if (json.contains("recurrent")) model->recurrent = units_of(json.at("recurrent"));
     model->correlation = json.at("correlation").get<double>();
@@ -239,6 +248,13 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
         throw Failure("its actions do not fit");
     std::copy(deviations.begin(), deviations.end(),
               model->parameters.data() + model->deviations_begin());
+    const auto is_finite = [](float number) {
+        return std::isfinite(number);
+    };
+    if (!std::ranges::all_of(model->parameters, is_finite) ||
+        !std::ranges::all_of(model->normaliser.means, is_finite) ||
+        !std::ranges::all_of(model->normaliser.factors, is_finite))
+        throw Failure("a number in it is too large for a weight");
     return model;
 }
 

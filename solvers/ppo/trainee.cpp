@@ -12,15 +12,24 @@ namespace rddlc::solvers {
 
 namespace {
 
-Row ppo_row(const PpoProgress& progress, double seconds) {
-    const double all = std::max(seconds, 1e-9);
+// What this process has done: a run that goes on has steps that others made.
+struct Work {
+    std::int64_t steps_before = 0;
+    double seconds = 0;
+
+    double steps_per_second(const PpoProgress& progress) const {
+        return seconds > 0 ? static_cast<double>(progress.steps - steps_before) / seconds : 0;
+    }
+};
+
+Row ppo_row(const PpoProgress& progress, const Work& work) {
     const double rollout = std::max(progress.collect_seconds + progress.learn_seconds, 1e-9);
     return {{"rollout/ep_rew_mean", progress.mean_return},
             {"rollout/ep_disc_rew_mean", progress.mean_discounted_return},
             {"rollout/ep_len_mean", progress.mean_length},
             {"rollout/success_rate", progress.success_rate},
             {"rollout/mended_actions", progress.mended_rate},
-            {"time/fps", static_cast<double>(progress.steps) / all},
+            {"time/fps", work.steps_per_second(progress)},
             {"time/sim_share", progress.simulator_seconds / rollout},
             {"train/approx_kl", progress.kl},
             {"train/clip_fraction", progress.clip_fraction},
@@ -32,12 +41,11 @@ Row ppo_row(const PpoProgress& progress, double seconds) {
             {"train/value_loss", progress.value_loss}};
 }
 
-std::string ppo_status(const PpoProgress& progress, double seconds) {
+std::string ppo_status(const PpoProgress& progress, const Work& work) {
     return fmt::format("{} steps  {} steps/s  return {:.6g}  length {:.0f}  kl {:.4f}  ev {:.2f}",
                        count_text(static_cast<double>(progress.steps)),
-                       count_text(static_cast<double>(progress.steps) / std::max(seconds, 1e-9)),
-                       progress.mean_return, progress.mean_length, progress.kl,
-                       progress.explained_variance);
+                       count_text(work.steps_per_second(progress)), progress.mean_return,
+                       progress.mean_length, progress.kl, progress.explained_variance);
 }
 
 }  // namespace
@@ -45,13 +53,13 @@ std::string ppo_status(const PpoProgress& progress, double seconds) {
 Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
                     const Ranks& ranks) {
     const auto trainer = std::make_shared<PpoTrainer>(simulator, options, ranks);
-    const auto seconds = std::make_shared<double>(0);
+    const auto work = std::make_shared<Work>();
     const auto total = static_cast<double>(options.steps);
     Trainee trainee;
     trainee.solver = "ppo";
     trainee.update = [=] {
         trainer->update();
-        *seconds += trainer->progress().collect_seconds + trainer->progress().learn_seconds;
+        work->seconds += trainer->progress().collect_seconds + trainer->progress().learn_seconds;
     };
     trainee.done = [=] {
         return trainer->done();
@@ -63,16 +71,17 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
         return std::min(1.0, static_cast<double>(trainer->progress().steps) / total);
     };
     trainee.row = [=] {
-        return ppo_row(trainer->progress(), *seconds);
+        return ppo_row(trainer->progress(), *work);
     };
     trainee.status = [=] {
-        return ppo_status(trainer->progress(), *seconds);
+        return ppo_status(trainer->progress(), *work);
     };
     trainee.save = [=] {
         return trainer->save();
     };
     trainee.load = [=](std::string_view bytes) {
         trainer->load(bytes);
+        work->steps_before = trainer->progress().steps;
     };
     trainee.policy_text = [=, &simulator] {
         return ppo_policy_text(simulator, trainer->model());

@@ -1,5 +1,7 @@
 #include "solvers/spaces/observations.hpp"
 
+#include "support/failure.hpp"
+
 #include <algorithm>
 
 namespace rddlc::solvers {
@@ -56,6 +58,8 @@ ObservationSpace observation_space(const rddl_simulator& simulator,
     space.time = shows_time(problem, options.time);
     space.horizon = problem.horizon;
     const std::int64_t columns = simulator.observation_value_count(&simulator);
+    if (columns == 0)
+        throw Failure("there is nothing to observe in this problem: it has no state-fluents");
     for (std::int64_t c = 0; c < columns; ++c) {
         rddl_column description{};
         simulator.observation_column(&simulator, c, &description);

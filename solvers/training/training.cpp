@@ -6,9 +6,13 @@
 #include "support/files.hpp"
 #include "support/program.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 
@@ -31,6 +35,30 @@ std::string time_text(double seconds) {
     return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
                         : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
+
+// The folder of a run, which one process writes at a time.
+class RunFolder {
+  public:
+    RunFolder() = default;
+    ~RunFolder() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    RunFolder(const RunFolder&) = delete;
+    RunFolder& operator=(const RunFolder&) = delete;
+
+    // Throws a Failure where another process holds it. File systems without locks let all pass.
+    void hold(const std::filesystem::path& folder) {
+        descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
+            errno == EWOULDBLOCK)
+            throw Failure(
+                fmt::format("another run writes into the folder '{}' now", folder.string()),
+                "wait for its end, or name another one with --out");
+    }
+
+  private:
+    int descriptor_ = -1;
+};
 
 class Training {
   public:
@@ -70,16 +98,17 @@ class Training {
     std::filesystem::path file(const char* name) const { return options_.folder / name; }
 
     void open_folder() {
-        const bool exists =
-            options_.ranks.is_first() && std::filesystem::exists(file("checkpoint"));
-        if (options_.resumes) {
-            load();
-            return;
+        if (options_.ranks.is_first()) {
+            // Now, so that nothing is learned that cannot be written.
+            if (!options_.resumes) std::filesystem::create_directories(options_.folder);
+            held_.hold(options_.folder);
+            if (!options_.resumes && std::filesystem::exists(file("checkpoint")))
+                throw Failure(
+                    fmt::format("the folder '{}' holds a run already", options_.folder.string()),
+                    "go on with --resume, or name another one with --out");
+            if (is_folder(options_.folder)) require_writable(file("checkpoint"), {});
         }
-        if (exists)
-            throw Failure(
-                fmt::format("the folder '{}' holds a run already", options_.folder.string()),
-                "go on with --resume, or name another one with --out");
+        if (options_.resumes) load();
     }
 
     double elapsed() const { return seconds_before_ + seconds_between(begin_, Clock::now()); }
@@ -102,17 +131,20 @@ class Training {
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
         if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
-        const Summary summary =
-            summary_of(run_episodes(simulator_, trainee_.policy(), episodes, {}));
+        const Rollouts rollouts = run_episodes(simulator_, trainee_.policy(), episodes, {});
+        const Summary summary = summary_of(rollouts);
         evaluated_ = true;
         evaluated_at_ = trainee_.steps();
         evaluations_ = static_cast<std::int64_t>(trainee_.part_done() *
                                                  static_cast<double>(options_.evaluations));
         last_return_ = summary.undiscounted_return.mean;
         last_length_ = summary.length.mean;
+        result_.episodes = summary.episodes;
+        result_.faulted = summary.faulted;
+        if (rollouts.first_fault) result_.first_fault = rollouts.first_fault->message;
         // Of episodes with the same return, those that reach their end sooner are better.
         const bool better =
-            !has_best_ || last_return_ > best_return_ ||
+            !has_best_ || std::isnan(best_return_) || last_return_ > best_return_ ||
             (last_return_ == best_return_ && summary.terminated > 0 && last_length_ < best_length_);
         if (better) {
             has_best_ = true;
@@ -137,18 +169,26 @@ class Training {
     void show(bool last) {
         if (options_.quiet || !options_.ranks.is_first()) return;
         const auto now = Clock::now();
-        const bool terminal = is_terminal(2);
+        const bool terminal = tells_to_screen();
         if (!last && seconds_between(last_shown_, now) < (terminal ? 0.2 : 5.0)) return;
         last_shown_ = now;
         const double part = trainee_.part_done(), seconds = elapsed();
-        std::string text = fmt::format("{} {} {:3.0f} %  {}", trainee_.solver,
-                                       simulator_.problem->instance, 100 * part, trainee_.status());
-        if (evaluated_) text += fmt::format("  best {:.6g}", best_return_);
+        const std::string begin = fmt::format("{} {} {:3.0f} %  ", trainee_.solver,
+                                              simulator_.problem->instance, 100 * part);
+        std::string end;
+        if (evaluated_) end += fmt::format("  best {:.6g}", best_return_);
         if (last)
-            text += fmt::format("  in {}", time_text(seconds));
+            end += fmt::format("  in {}", time_text(seconds));
         else if (part > 0)
-            text += fmt::format("  {} left", time_text(seconds * (1 - part) / part));
-        tell("{}{}{}", terminal ? "\r\x1b[K" : "", text, terminal && !last ? "" : "\n");
+            end += fmt::format("  {} left", time_text(seconds * (1 - part) / part));
+        std::string status = trainee_.status();
+        // A line that the terminal breaks is not wiped by the next one.
+        if (const std::size_t columns = terminal && !last ? screen_columns() : 0; columns > 0) {
+            const std::size_t others = begin.size() + end.size() + 1;
+            status.resize(std::min(status.size(), columns > others ? columns - others : 0));
+        }
+        tell("{}{}{}{}{}", terminal ? "\r\x1b[K" : "", begin, status, end,
+             terminal && !last ? "" : "\n");
     }
 
     void write(const char* name, std::string_view text) {
@@ -228,6 +268,7 @@ class Training {
     const Trainee& trainee_;
     const TrainingOptions& options_;
     TrainingResult result_;
+    RunFolder held_;
     bool ends_by_time_ = false, saves_ = false;
     RunLog log_;
     Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;

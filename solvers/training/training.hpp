@@ -54,6 +54,8 @@ struct TrainingResult {
     bool reached = false;  // stop_return
     double seconds = 0;
     double best_return = 0, best_length = 0;  // mean of the best evaluation
+    std::int64_t episodes = 0, faulted = 0;   // of the last evaluation
+    std::string first_fault;                  // of all of them; its message
 };
 
 // How many digits people read: "1.5 M", "812".
@@ -61,8 +63,8 @@ std::string count_text(double count);
 
 // Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
 // events.out.tfevents.rddl, run.json (the solver, the problem and the seed), checkpoint. All are
-// written whole or not at all. Throws a Failure where the folder holds another run, or nothing to
-// resume.
+// written whole or not at all. Throws a Failure where the folder holds another run, nothing to
+// resume, or a run that goes on in another process.
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 

@@ -23,7 +23,8 @@ namespace rddlc::solvers {
 namespace {
 
 GenomeShape shape_of(int inputs, int outputs, int nodes = 30) {
-    return {inputs, 3, nodes, outputs, 0, functions_named({"arith", "trig", "logic", "round", "unit"})};
+    return {inputs,  3, nodes,
+            outputs, 0, functions_named({"arith", "trig", "logic", "round", "unit"})};
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,
@@ -90,6 +91,21 @@ TEST(Cgp, SimplifiedFormulasHaveTheSameValues) {
         }
     }
     EXPECT_GT(smaller, 300);
+}
+
+// A half of a choice is no choice of halves.
+TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
+    using Term = Formula::Term;
+    const ProgramScope scope =
+        program_scope(*rddl_simulator_mountain_car_mountain_car_1(), Lifting::Auto, false, 0);
+    Formula formula;
+    formula.terms.push_back(Term{Term::Kind::Constant, 0, 2.0, Function::Zero, {-1, -1, -1}});
+    formula.terms.push_back(Term{Term::Kind::Constant, 0, 3.0, Function::Zero, {-1, -1, -1}});
+    formula.terms.push_back(Term{Term::Kind::Function, 0, 0, Function::If, {0, 1, 0}});
+    formula.terms.push_back(Term{Term::Kind::Function, 0, 0, Function::Half, {2, -1, -1}});
+    formula.outputs = {3};
+    EXPECT_NE(formula_text(formula, scope).find("= (if 2 > 0 then 3 else 2) / 2"),
+              std::string::npos);
 }
 
 // The levels of all first states are the same: only steps show how far they spread.

@@ -13,9 +13,11 @@
 #include "support/failure.hpp"
 #include "support/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -296,6 +298,14 @@ TEST(Ppo, SquashedPoliciesAreReadAsTheyWereWritten) {
     const std::string text = ppo_policy_text(car, trainer.model());
     EXPECT_NE(text.find("\"squashed\""), std::string::npos);
     EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, text)), text);
+    // Other programs lay out JSON in their own way, with members in another order.
+    nlohmann::json json = nlohmann::json::parse(text);
+    EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, json.dump(2))), text);
+    json["hidden"][0] = 1'000'000'000;
+    EXPECT_THROW(read_ppo_policy(car, json.dump()), Failure);
+    json = nlohmann::json::parse(text);
+    json["policy"][0]["bias"][0] = 1e300;
+    EXPECT_THROW(read_ppo_policy(car, json.dump()), Failure);
 }
 
 TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
@@ -410,6 +420,12 @@ TEST(Ppo, ARefusedCallLeavesTheCheckpoint) {
     EXPECT_EQ(complaint(go), "the simulator's sentence");
     EXPECT_EQ(read_file(folder / "checkpoint"), before);
     calls_left = 1'000'000;
+    {
+        const int other = ::open(folder.c_str(), O_RDONLY);
+        ASSERT_EQ(::flock(other, LOCK_EX), 0);
+        EXPECT_NE(complaint(go).find("another run writes into the folder"), std::string::npos);
+        ::close(other);
+    }
     EXPECT_EQ(complaint(go), "");
     EXPECT_NE(read_file(folder / "checkpoint"), before);
     std::filesystem::remove_all(folder);

@@ -55,7 +55,7 @@ std::string exported_network(const rddl_simulator& simulator, const std::string&
 ExitStatus export_policy(const ExportOptions& options) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const std::filesystem::path file = policy_file(options.policy);
-    const std::string text = read_file(file);
+    const std::string text = policy_text(options.policy);
     const bool program = solvers::is_program(text);
     const std::string form = !options.form.empty() ? options.form : program ? "formula" : "json";
     std::string result;

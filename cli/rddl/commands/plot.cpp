@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 namespace rddlc::cli {
@@ -24,6 +25,7 @@ struct PlotOptions {
 // Runs that make one curve.
 struct Group {
     std::string name;
+    std::string what;  // solver and problem: returns of different problems have no mean
     std::vector<RunProgress> runs;
 };
 
@@ -35,19 +37,25 @@ std::vector<Group> groups_of(const PlotOptions& options) {
         const bool is_run = folders.size() == 1 && folders[0] == word;
         for (const std::filesystem::path& folder : folders) {
             std::string name = word;
-            if (const auto seed = seed_of_run(folder); seed && is_run && !options.each)
-                name = without_seed(word, *seed);
+            const RunDescription run = description_of(folder).value_or(RunDescription{});
+            if (!run.what.empty() && is_run && !options.each) name = without_seed(word, run.seed);
             if (options.each && !is_run) name = folder.string();
             const auto known = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-                return group.name == name && !options.each;
+                return group.name == name && group.what == run.what && !options.each;
             });
-            Group& group = known == groups.end() ? groups.emplace_back(Group{name, {}}) : *known;
+            Group& group =
+                known == groups.end() ? groups.emplace_back(Group{name, run.what, {}}) : *known;
             group.runs.push_back(read_progress(folder));
         }
     }
-    // A run that has no others keeps the name that it has.
+    // A run that has no others keeps the name that it has; groups of one folder tell what they are.
+    std::map<std::string, int> uses;
+    for (const Group& group : groups) uses[group.name] += 1;
     for (Group& group : groups)
-        if (group.runs.size() == 1) group.name = group.runs[0].folder.string();
+        if (group.runs.size() == 1)
+            group.name = group.runs[0].folder.string();
+        else if (uses[group.name] > 1)
+            group.name += ": " + group.what;
     return groups;
 }
 
@@ -99,8 +107,8 @@ Command plot_command() {
     command.details =
         "Runs of 'rddl train' whose names end in '_' and their seeds, and else are the same, are "
         "one\n"
-        "curve, as are all runs in a folder: their mean, and a band of the standard deviation "
-        "about it.\n\n"
+        "curve, as are all runs of a solver on a problem in a folder: their mean, and a band of "
+        "the\nstandard deviation about it.\n\n"
         "Examples:\n"
         "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
         "  rddl plot runs/a --y train/approx_kl --svg kl.svg";

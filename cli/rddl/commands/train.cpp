@@ -55,6 +55,9 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
                    number_text(result.best_length), duration_text(result.seconds),
                    training.folder.string());
     if (!training.quiet && trainee.summary) fmt::print("{}", trainee.summary());
+    if (!training.quiet && result.faulted > 0)
+        tell("rddl: warning: {} of {} episodes of the last evaluation ended by a fault: {}\n",
+             result.faulted, result.episodes, result.first_fault);
     if (!result.interrupted) return success;
     if (!ranks.is_first()) return interrupted_status();
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,

@@ -12,6 +12,26 @@
 
 namespace rddlc::cli {
 
+namespace {
+
+// Devices have no end. A network of 4,096 and 4,096 units takes 0.5 GB.
+constexpr std::size_t largest_policy = std::size_t{1} << 30;
+
+}  // namespace
+
+std::string policy_text(const std::filesystem::path& path) {
+    const std::filesystem::path file = policy_file(path);
+    if (!is_there(path))
+        throw Failure(fmt::format("there is no policy file, nor the folder of a run, named '{}'",
+                                  path.string()),
+                      {}, usage_error);
+    if (!is_there(file))
+        throw Failure(fmt::format("there is no policy in the folder '{}'", path.string()),
+                      "'rddl train' writes policy.json or policy.cgp into the folder of a run",
+                      usage_error);
+    return read_file(file, largest_policy);
+}
+
 std::filesystem::path policy_file(const std::filesystem::path& path) {
     if (!is_folder(path)) return path;
     const std::filesystem::path formula = path / "policy.cgp";
@@ -68,7 +88,7 @@ solvers::Policy learned_policy(const rddl_simulator& simulator, const std::files
                                bool random, std::uint64_t seed) {
     const std::filesystem::path file = policy_file(path);
     if (file.extension() == ".jsonl") return recorded_plan(simulator, file);
-    const std::string text = read_file(file);
+    const std::string text = policy_text(path);
     try {
         return policy_of_text(simulator, text, random, seed, path.string());
     } catch (const Failure& failure) {

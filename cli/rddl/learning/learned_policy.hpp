@@ -11,6 +11,8 @@ namespace rddlc::cli {
 
 // The file that holds the policy: the best one of a run's folder.
 std::filesystem::path policy_file(const std::filesystem::path& path);
+// Its bytes. Throws a Failure.
+std::string policy_text(const std::filesystem::path& path);
 
 // A policy file of a solver, the folder of a run, whose best policy it is, or a recorded plan: the
 // first episode of a trace (.jsonl).

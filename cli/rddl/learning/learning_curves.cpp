@@ -85,11 +85,12 @@ double value_at(const Points& points, double x) {
 
 RunProgress read_progress(const fs::path& folder) {
     const fs::path file = folder / "progress.csv";
-    const std::string text = read_file(file);
+    const std::string text = read_file(file, largest_text);
     RunProgress run{folder, {}, {}};
     std::size_t number = 0;
-    for (const std::string_view line : parts_of(text, '\n')) {
+    for (std::string_view line : parts_of(text, '\n')) {
         ++number;
+        if (line.ends_with('\r')) line.remove_suffix(1);  // of spreadsheets
         if (line.empty()) continue;
         const std::vector<std::string_view> words = parts_of(line, ',');
         if (run.columns.empty()) {
@@ -164,13 +165,17 @@ std::string without_seed(const std::string& name, std::uint64_t seed) {
     return has_seed ? name.substr(0, name.size() - ending.size()) : name;
 }
 
-std::optional<std::uint64_t> seed_of_run(const fs::path& folder) {
+std::optional<RunDescription> description_of(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     if (!is_there(file)) return std::nullopt;
-    const auto run = nlohmann::json::parse(read_file(file), nullptr, false);
+    const auto run = nlohmann::json::parse(read_file(file, largest_text), nullptr, false);
     if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
         throw Failure(fmt::format("'{}' does not tell the seed of a run", file.string()));
-    return run["seed"].get<std::uint64_t>();
+    std::string what;
+    for (const char* const name : {"solver", "domain", "instance"})
+        if (run.contains(name) && run[name].is_string())
+            what += (what.empty() ? "" : " ") + run[name].get<std::string>();
+    return RunDescription{what, run["seed"].get<std::uint64_t>()};
 }
 
 }  // namespace rddlc::cli

@@ -40,8 +40,12 @@ Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, co
 // the name.
 std::string without_seed(const std::string& name, std::uint64_t seed);
 
-// The seed of the run in the folder, as its run.json tells it, if there is one. Throws a Failure
-// that names the file where that makes no sense.
-std::optional<std::uint64_t> seed_of_run(const std::filesystem::path& folder);
+struct RunDescription {
+    std::string what;  // "ppo mountain_car inst_1": solver, domain and instance
+    std::uint64_t seed = 0;
+};
+// Of the run in the folder, as its run.json tells it, if there is one. Throws a Failure that names
+// the file where that makes no sense.
+std::optional<RunDescription> description_of(const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli
