@@ -229,6 +229,9 @@ Command ppo_command() {
     command.name = "ppo";
     command.summary = "Learn a neural network by proximal policy optimisation";
     command.details =
+        "Takes all kinds of fluents and actions, bounded or not, observed in full or in part\n"
+        "('rddl info' tells what a problem has). Refuses problems without an end, without a\n"
+        "choice or with too many choices, and says why.\n\n"
         "Examples:\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a\n"
         "  rddl train ppo CartPole_Continuous_gym 0 --preset sb3 --steps 100000 --seed 3\n"
@@ -327,6 +330,9 @@ Command cgp_command() {
     command.name = "cgp";
     command.summary = "Find a formula by Cartesian genetic programming";
     command.details =
+        "Takes all kinds of fluents and actions, bounded or not ('rddl info' tells what a problem\n"
+        "has). Of a problem that is observed in part programs read the present observation alone.\n"
+        "Refuses problems without a choice or with too many choices, and says why.\n\n"
         "Examples:\n"
         "  rddl train cgp MountainCar_ippc2023 1 --gens 25 --out runs/c\n"
         "  rddl train cgp Reservoir_ippc2023 1 --time 60 --islands 2 --threads 2";
