@@ -4,6 +4,7 @@
 #include "solvers/files/archive.hpp"
 #include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 #include "support/program.hpp"
 
 #include <fcntl.h>
@@ -210,7 +211,7 @@ class Training {
         run["domain"] = problem.domain;
         run["instance"] = problem.instance;
         run["seed"] = options_.seed;
-        return run.dump(1) + "\n";
+        return json_document(run);
     }
 
     // The checkpoint is the last, so that it never knows more than the other files.

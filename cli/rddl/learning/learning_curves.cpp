@@ -2,6 +2,7 @@
 
 #include "support/failure.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -168,7 +169,7 @@ std::string without_seed(const std::string& name, std::uint64_t seed) {
 std::optional<RunDescription> description_of(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     if (!is_there(file)) return std::nullopt;
-    const auto run = nlohmann::json::parse(read_file(file, largest_text), nullptr, false);
+    const auto run = json_if_valid(read_file(file, largest_text));
     if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
         throw Failure(fmt::format("'{}' does not tell the seed of a run", file.string()));
     std::string what;
