@@ -66,14 +66,17 @@ def table(results):
             return str(mean)
         return f"{mean:.4g} ± {half_width:.2g}" if half_width else f"{mean:.4g}"
 
-    lines = ["| problem | | no-op | random | PPO | CGP |", "|---|---|---|---|---|---|"]
+    def seconds(result):
+        return " and ".join(f"{result[key]:.0f}" if key in result else "-" for key in ("ppo_seconds", "cgp_seconds"))
+
+    lines = ["| problem | | no-op | random | PPO | CGP | seconds of both |", "|---|---|---|---|---|---|---|"]
     good = dict.fromkeys(("PPO", "CGP", "the better of both"), 0)
     for result in results:
         if "failure" in result:
-            lines.append(f"| {result['problem']} | {result['instance']} | {result['failure']} | | | |")
+            lines.append(f"| {result['problem']} | {result['instance']} | {result['failure']} | | | | |")
             continue
         lines.append(f"| {result['problem']} | {result['instance']} | " + " | ".join(
-            cell(result, key) for key in ("noop", "random", "ppo", "cgp")) + " |")
+            cell(result, key) for key in ("noop", "random", "ppo", "cgp")) + f" | {seconds(result)} |")
         floor = max(result[k][0] for k in ("noop", "random") if isinstance(result[k][0], (int, float)))
         learned = {name: result.get(name.lower(), [float("-inf")])[0] for name in ("PPO", "CGP")}
         learned["the better of both"] = max(learned.values())

@@ -9,6 +9,8 @@ namespace {
 
 // Where a problem has no horizon.
 constexpr std::int64_t longest_episode = 1000;
+// Numbers that stay near the processor: programs run for so many units of episodes at a time.
+constexpr std::int64_t most_lanes = 4096;
 
 rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t count) {
     rddl_batch_options options{};
@@ -38,7 +40,11 @@ ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& 
     log_probabilities_.resize(environments);
     indices_.resize(rows(scope.actions.index_count()));
     masks_.resize(rows(scope.actions.mask_size()));
-    const std::size_t lanes = scope.units.size() * static_cast<std::size_t>(episodes);
+    const auto units = static_cast<std::int64_t>(scope.units.size());
+    together_ =
+        scope.skdecide ? episodes : std::clamp<std::int64_t>(most_lanes / units, 1, episodes);
+    const auto lanes = static_cast<std::size_t>(units * together_);
+    sums_.resize(static_cast<std::size_t>(scope.sum_count()));
     inputs_.resize(scope.inputs.size() * lanes);
     results_.resize(scope.outputs.size() * lanes);
 }
@@ -46,37 +52,43 @@ ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& 
 void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> programs,
                        std::span<const std::uint8_t> running, const float* observations,
                        std::span<const std::int64_t> steps, float* actions) {
-    const int columns = scope_.observations.column_count();
-    const int outputs = scope_.actions.output_count();
-    const auto units = static_cast<std::ptrdiff_t>(scope_.units.size());
-    const auto lanes = static_cast<int>(units * episodes_);
-    const bool copies = scope_.observations.has_objects || scope_.observations.time;
     for (std::int64_t p = 0; p < programs_; ++p) {
         const auto at = static_cast<std::size_t>(p);
         if (!running[at]) continue;
-        const Program& program = *programs[at];
-        for (std::int64_t e = 0; e < episodes_; ++e) {
-            const float* features = observations + (p * episodes_ + e) * columns;
-            if (copies) {
-                write_features(scope_.observations, features, steps[at], true, features_.data());
-                features = features_.data();
-            }
-            read_inputs(scope_, features, program.used_inputs(), inputs_.data() + e, episodes_);
-        }
-        program.run(lanes, inputs_.data(), lanes, room_for(program, at, lanes, steps[at]),
-                    results_.data());
-        for (std::int64_t e = 0; e < episodes_; ++e)
-            write_outputs(scope_, results_.data() + e, episodes_,
-                          outputs_.data() + (p * episodes_ + e) * outputs);
+        for (std::int64_t e = 0; e < episodes_; e += together_)
+            run(*programs[at], at, p * episodes_ + e, std::min(together_, episodes_ - e),
+                observations, steps[at]);
     }
     const Chosen chosen{numbers_.data(), shifts_.data(), spreads_.data(),
                         indices_.data(), masks_.data(),  log_probabilities_.data()};
     chooser_.choose(
-        batch, outputs_.data(), outputs, {},
+        batch, outputs_.data(), scope_.actions.output_count(), {},
         [](std::int64_t) {
             return ChoiceKey{0, 0, 0};
         },
         chosen, actions);
+}
+
+// For so many environments from `first` on.
+void ProgramActor::run(const Program& program, std::size_t number, std::int64_t first,
+                       std::int64_t count, const float* observations, std::int64_t steps) {
+    const int columns = scope_.observations.column_count();
+    const int outputs = scope_.actions.output_count();
+    const auto lanes = static_cast<int>(static_cast<std::int64_t>(scope_.units.size()) * count);
+    const bool copies = scope_.observations.has_objects || scope_.observations.time;
+    for (std::int64_t e = 0; e < count; ++e) {
+        const float* features = observations + (first + e) * columns;
+        if (copies) {
+            write_features(scope_.observations, features, steps, true, features_.data());
+            features = features_.data();
+        }
+        read_inputs(scope_, features, program.used_inputs(), sums_.data(), inputs_.data() + e,
+                    count);
+    }
+    program.run(lanes, inputs_.data(), lanes, room_for(program, number, lanes, steps),
+                results_.data());
+    for (std::int64_t e = 0; e < count; ++e)
+        write_outputs(scope_, results_.data() + e, count, outputs_.data() + (first + e) * outputs);
 }
 
 double* ProgramActor::room_for(const Program& program, std::size_t number, int lanes,

@@ -28,15 +28,18 @@ class ProgramActor {
              std::span<const std::int64_t> steps, float* actions);
 
   private:
+    void run(const Program& program, std::size_t number, std::int64_t first, std::int64_t count,
+             const float* observations, std::int64_t steps);
     double* room_for(const Program& program, std::size_t number, int lanes, std::int64_t steps);
 
     const ProgramScope& scope_;
     std::int64_t programs_, episodes_;
+    std::int64_t together_;  // episodes that a program is run for at once
     Chooser chooser_;
     std::vector<float> features_, outputs_, numbers_, shifts_, spreads_, log_probabilities_;
     std::vector<std::int32_t> indices_;
     std::vector<std::uint8_t> masks_;
-    std::vector<double> inputs_, values_, results_;
+    std::vector<double> sums_, inputs_, values_, results_;
     std::vector<std::vector<double>> memories_;  // of delayed programs, in place of values_
 };
 

@@ -155,6 +155,13 @@ Language for_people(const ProgramScope& scope) {
     return language;
 }
 
+// Where the bool is one of a group.
+const CategoryHead* group_of(const ActionSpace& space, int column) {
+    for (const CategoryHead& head : space.categories)
+        if (std::ranges::binary_search(head.group, column)) return &head;
+    return nullptr;
+}
+
 // How many values besides the default can be chosen for a bool, an object or an int.
 int other_values(const ActionSpace& space, int column) {
     for (const CategoryHead& head : space.categories)
@@ -193,6 +200,9 @@ std::string meaning_of(const ProgramScope& scope, std::size_t output) {
                                    number(head.scale));
         }
     }
+    if (const CategoryHead* const group = group_of(space, column))
+        return fmt::format("   [of those that exclude each other the greatest{} is done]",
+                           group->first_value == 0 ? " above 0" : "");
     const int others = other_values(space, column);
     if (space.picks == 0)
         return others == 1

@@ -36,23 +36,26 @@ struct ProgramScope {
 
     // A run of the program: for all action values, or for one.
     struct Unit {
-        int output = 0;         // of lifted programs, the only one that counts
-        int column = -1;        // of actions; -1: all, output by output
-        std::size_t begin = 0;  // of its terms, input by input; see terms
+        int output = 0;   // of lifted programs, the only one that counts
+        int column = -1;  // of actions; -1: all, output by output
     };
     std::vector<Unit> units;
-    // Input i of a unit is a sum of features times factors, plus a number.
+    // Of lifted programs: what inputs may be, sums of features times factors, plus a number. Units
+    // that are about the same objects read the same one.
     struct Term {
         int feature;  // -1: the factor itself
         double factor;
     };
-    std::vector<Term> terms;
-    std::vector<std::uint32_t> ends;  // of unit * inputs + i's terms, from the one before
-    bool plain = false;               // input i is feature i, and there is one unit
-    bool skdecide = false;            // read and written as skdecide.hpp says
+    std::vector<Term> terms;                // sum by sum
+    std::vector<std::size_t> sum_ends;      // of each sum's terms, from the one before
+    std::vector<std::int32_t> input_ends;   // of each input's sums, from the one before
+    std::vector<std::int32_t> sum_of_unit;  // of input i and unit u at [i * units + u]
+    bool plain = false;                     // input i is feature i, and there is one unit
+    bool skdecide = false;                  // read and written as skdecide.hpp says
 
     int input_count() const { return static_cast<int>(inputs.size()); }
     int output_count() const { return static_cast<int>(outputs.size()); }
+    int sum_count() const { return static_cast<int>(sum_ends.size()); }
 };
 
 // Learns shifts and scales of unbounded inputs by some random episodes.
@@ -60,8 +63,9 @@ ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, boo
                            std::uint64_t seed);
 
 // Reads one environment's features: inputs of unit u, input i to inputs[(i * units + u) * stride].
+// `sums` is room for sum_count() numbers.
 void read_inputs(const ProgramScope& scope, const float* features, const std::vector<int>& used,
-                 double* inputs, std::ptrdiff_t stride);
+                 double* sums, double* inputs, std::ptrdiff_t stride);
 
 // From what a program writes, output o of unit u at values[(o * units + u) * stride], to a row of
 // what a Chooser takes: the action space's numbers of reals and logits.

@@ -124,7 +124,10 @@ ProgramScope skdecide_scope(const rddl_simulator& simulator) {
             throw Failure(fmt::format(
                 "programs of scikit-decide act within bounds, and the action '{}' has no two",
                 scope.actions.names[static_cast<std::size_t>(head.column)]));
-    if (scope.actions.picks == 0)
+    const auto is_of_one_value = [](const CategoryHead& head) {
+        return head.group.empty();
+    };
+    if (scope.actions.picks == 0 && std::ranges::all_of(scope.actions.categories, is_of_one_value))
         scope.outputs = scope.actions.names;
     else if (scope.actions.picks == 1 && scope.actions.reals.empty())
         scope.outputs = {"choice"};

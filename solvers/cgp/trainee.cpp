@@ -39,9 +39,11 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
                     const Ranks& ranks) {
     const auto search = std::make_shared<CgpSearch>(simulator, options, ranks);
     // So many at once that to look at what came of them costs nothing, and that the time is looked
-    // at soon enough where episodes are long.
+    // at soon enough where episodes are long or actions large.
     const std::int64_t total = options.generations;
-    const std::int64_t few = std::max<std::int64_t>(1, 400'000 / search->steps_of_generation());
+    const auto units = static_cast<std::int64_t>(search->scope().units.size());
+    const std::int64_t values = search->steps_of_generation() * (1 + units / 16);
+    const std::int64_t few = std::max<std::int64_t>(1, 400'000 / values);
     const std::int64_t some =
         std::clamp<std::int64_t>(total / 200, 1, std::min<std::int64_t>(50, few));
     const auto left = [=] {

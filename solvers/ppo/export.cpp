@@ -197,6 +197,17 @@ std::string value_info(const std::string& name, int columns) {
     return info;
 }
 
+std::string outputs_comment(const CategoryHead& head, const std::vector<std::string>& names) {
+    const auto name = [&](int column) {
+        return names[static_cast<std::size_t>(column)];
+    };
+    if (head.group.empty())
+        return fmt::format("\n//   {}: logits of {} values", name(head.column), head.count);
+    return fmt::format("\n//   {}{} to {}: logits of which one changes",
+                       head.first_value == 0 ? "none, or one of " : "", name(head.group.front()),
+                       name(head.group.back()));
+}
+
 }  // namespace
 
 std::string ppo_policy_cpp(const PpoModel& model) {
@@ -214,8 +225,7 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         text += fmt::format("\n//   {}: a number in the learner's scale",
                             model.actions.names[static_cast<std::size_t>(head.column)]);
     for (const CategoryHead& head : model.actions.categories)
-        text += fmt::format("\n//   {}: logits of {} values",
-                            model.actions.names[static_cast<std::size_t>(head.column)], head.count);
+        text += outputs_comment(head, model.actions.names);
     for (const Choice& choice : model.actions.choices)
         text += choice.column < 0
                     ? "\n//   logit of stopping"

@@ -75,6 +75,8 @@ Activation activation_of(const Json& json) {
 }
 
 int version_of(const PpoModel& model) {
+    for (const CategoryHead& head : model.actions.categories)
+        if (!head.group.empty()) return 4;
     if (model.activation != Activation::Tanh) return 3;
     return model.recurrent > 0 ? 2 : 1;
 }
@@ -87,8 +89,12 @@ std::string text_of(const ActionSpace& space) {
             head.centre, head.rounds);
     });
     const std::string categories = array_of(space.categories, [](const CategoryHead& head) {
-        return fmt::format(R"({{"column":{},"first_logit":{},"count":{},"first_value":{}}})",
-                           head.column, head.first_logit, head.count, head.first_value);
+        const std::string group =
+            head.group.empty()
+                ? ""
+                : R"(,"group":)" + array_of(head.group, [](int c) { return std::to_string(c); });
+        return fmt::format(R"({{"column":{},"first_logit":{},"count":{},"first_value":{}{}}})",
+                           head.column, head.first_logit, head.count, head.first_value, group);
     });
     const std::string choices = array_of(space.choices, [](const Choice& choice) {
         return fmt::format(R"({{"column":{},"value":{},"real":{}}})", choice.column, choice.value,

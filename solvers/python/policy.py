@@ -19,8 +19,8 @@ class Policy:
             self.file = json.load(file)
         if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
             raise ValueError(f"{path} is no policy of PPO")
-        if self.file["version"] > 3:
-            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 3")
+        if self.file["version"] > 4:
+            raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 4")
         name = self.file.get("activation", "tanh")
         if name not in ACTIVATIONS:
             raise ValueError(f"the activation of {path} is unknown: '{name}'")
@@ -96,8 +96,12 @@ class Policy:
                 values[head["column"]] = self._real(head, x)
             for head in action["categories"]:
                 first = head["first_logit"]
-                values[head["column"]] = (likeliest(range(first, first + head["count"])) - first
-                                          + head["first_value"])
+                value = likeliest(range(first, first + head["count"])) - first + head["first_value"]
+                if "group" not in head:
+                    values[head["column"]] = value
+                elif value > 0:  # it says which bool of the group changes
+                    changed = head["group"][value - 1]
+                    values[changed] = 1 - values[changed]
         changed = set()
         for _ in range(action["picks"]):
             pick = likeliest([c for c, choice in enumerate(action["choices"])

@@ -1,8 +1,8 @@
 #include "solvers/spaces/actions.hpp"
 
 #include "solvers/batches/batch.hpp"
-#include "solvers/policies/random_policy.hpp"
 #include "solvers/spaces/observations.hpp"
+#include "solvers/spaces/preconditions.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -177,44 +177,26 @@ void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator
     }
 }
 
-// Whether any of some random actions, reals among them of the size that a learner begins with,
-// violates a precondition in the states that they lead to.
-bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
-                        const ActionRecords& records) {
-    constexpr std::int64_t environments = 16, steps = 40;
-    const rddl_problem& problem = *simulator.problem;
-    if (problem.precondition_count == 0) return false;
-    rddl_batch_options options{};
-    options.environment_count = environments;
-    options.thread_count = 1;
-    options.autoreset = RDDL_AUTORESET_SAME_STEP;
-    const Batch batch = create_batch(simulator, options);
-    RandomPolicy policy(problem, 0);
-    std::vector<std::byte> actions(environments * records.record_size());
-    std::vector<float> values(static_cast<std::size_t>(space.column_count));
-    std::vector<std::int32_t> violated(environments);
-    for (std::int64_t step = 0; step < steps; ++step) {
-        for (std::int64_t e = 0; e < environments; ++e) {
-            std::byte* const action =
-                actions.data() + static_cast<std::size_t>(e) * records.record_size();
-            policy.act(e, step, action);
-            records.read(action, values.data());
-            double number = -2 + 4 * static_cast<double>((e * 7 + step * 3) % 16) / 15;
-            for (const RealHead& head : space.reals) {
-                values[static_cast<std::size_t>(head.column)] =
-                    static_cast<float>(real_value(head, number));
-                number = -number + 0.1;
-            }
-            records.write(values.data(), action);
+// Where the first bool of a group had a category, the group has one; those of its others go.
+void add_groups(ActionSpace& space, const Groups& groups) {
+    std::vector<const std::vector<int>*> group_of(static_cast<std::size_t>(space.column_count));
+    for (const std::vector<int>& group : groups.columns)
+        for (const int column : group) group_of[static_cast<std::size_t>(column)] = &group;
+    std::vector<CategoryHead> categories;
+    space.logit_count = 0;
+    for (CategoryHead& head : space.categories) {
+        const std::vector<int>* const group = group_of[static_cast<std::size_t>(head.column)];
+        if (group && head.column != group->front()) continue;
+        if (group) {
+            head.group = *group;
+            head.first_value = groups.may_be_none ? 0 : 1;
+            head.count = static_cast<int>(group->size()) + (groups.may_be_none ? 1 : 0);
         }
-        require_done(simulator, simulator.violated_preconditions(batch.get(), actions.data(),
-                                                                 violated.data()));
-        if (std::any_of(violated.begin(), violated.end(), [](int v) { return v >= 0; }))
-            return true;
-        rddl_transition unread{};
-        require_done(simulator, simulator.step(batch.get(), actions.data(), &unread));
+        head.first_logit = space.logit_count;
+        space.logit_count += head.count;
+        categories.push_back(std::move(head));
     }
-    return false;
+    space.categories = std::move(categories);
 }
 
 double softplus(double x) {
@@ -243,21 +225,30 @@ ActionSpace action_space(const rddl_simulator& simulator) {
             space.reals.push_back(real_head(simulator, records, space, columns[c], index));
     }
 
-    const bool bites = preconditions_bite(simulator, space, records);
     const std::int64_t limit =
         problem.max_nondef_actions < 0 ? space.column_count : problem.max_nondef_actions;
-    const bool coupled = bites && space.reals.empty() && space.categories.size() > 1;
-    if (limit < space.column_count || coupled)
+    const std::int64_t choices = simulator.action_choice_count(&simulator);
+    const auto fit = [&](std::int64_t picks) {
+        return choices * picks <= most_mask_bytes;
+    };
+    const bool bites = preconditions_bite(simulator, space, records);
+    if (limit < space.column_count) {
+        if (!fit(limit))
+            throw Failure(
+                fmt::format("this problem has too many choices for the learners: {} "
+                            "picks in a step, among {} each",
+                            limit, choices));
         add_picks(space, simulator, columns, limit);
-    else if (bites && !space.categories.empty())
+    } else if (const auto groups =
+                   bites ? find_groups(simulator, columns, space, records) : std::nullopt) {
+        add_groups(space, *groups);
+    } else if (bites && space.reals.empty() && space.categories.size() > 1 && fit(limit)) {
+        add_picks(space, simulator, columns, limit);
+    } else if (bites && !space.categories.empty() && fit(1)) {
         add_masks_of_categories(space, simulator, columns);
+    }
     space.masked = space.picks > 0 || !space.logit_of_mask.empty();
     space.may_be_illegal = bites;
-    if (space.masked &&
-        std::int64_t{space.logit_count} * std::max(space.picks, 1) > most_mask_bytes)
-        throw Failure(fmt::format(
-            "this problem has too many choices for the learners: {} picks in a step, among {} each",
-            std::max(space.picks, 1), space.logit_count));
     if (space.output_count() == 0 || space.logit_count == 1)
         throw Failure(
             "there is nothing to choose in this problem: it has no action but the default");
@@ -322,9 +313,16 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
         return;
     }
     for (std::size_t r = 0; r < space.reals.size(); ++r) set_real(r);
-    for (std::size_t h = 0; h < space.categories.size(); ++h)
-        values[space.categories[h].column] =
-            static_cast<float>(space.categories[h].first_value + indices[h]);
+    for (std::size_t h = 0; h < space.categories.size(); ++h) {
+        const CategoryHead& head = space.categories[h];
+        const std::int64_t value = head.first_value + indices[h];
+        if (head.group.empty()) {
+            values[head.column] = static_cast<float>(value);
+        } else if (value > 0) {
+            float& changed = values[head.group[static_cast<std::size_t>(value - 1)]];
+            changed = 1 - changed;
+        }
+    }
 }
 
 ActionRecords::ActionRecords(const rddl_simulator& simulator)

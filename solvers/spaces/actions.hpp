@@ -1,10 +1,13 @@
 // How a learner acts: what it chooses from, and which action that makes.
 //
 // Reals are numbers of their own scale, in which noise of deviation 1 is a lot and 0 a middle
-// value; bools, objects and ints of few values are categories. Either each value is chosen by
-// itself, or the learner picks one change of the default action after the other until it picks to
-// stop: where max-nondef-actions allows few changes, or preconditions couple them. Then each pick
-// knows, from the simulator, which changes are legal after those that were made.
+// value; bools, objects and ints of few values are categories. Where preconditions allow bools to
+// change one at a time, such as one item for each consumer, one category says which
+// (preconditions.hpp).
+// Either each category is chosen by itself, or the learner picks one change of the default action
+// after the other until it picks to stop: where max-nondef-actions allows few changes, or
+// preconditions couple them in another way. Then each pick knows, from the simulator, which changes
+// are legal after those that were made.
 #pragma once
 
 #include <rddl/simulator.h>
@@ -28,12 +31,13 @@ struct RealHead {
     int choice = -1;    // with picks: the choice that sets it
 };
 
-// The values of a bool, an object or an int, each by itself.
+// The values of a bool, an object or an int; or which bool of a group changes.
 struct CategoryHead {
-    int column = 0;
+    int column = 0;  // of a group: its first one
     int first_logit = 0;
     int count = 0;
     std::int64_t first_value = 0;
+    std::vector<int> group{};  // columns of bools: 0 changes none of them, k changes group[k - 1]
 };
 
 // One change of the default action.
@@ -51,7 +55,7 @@ struct ActionSpace {
     std::vector<RealHead> reals;
     std::vector<CategoryHead> categories;  // empty with picks
     std::vector<Choice> choices;           // of picks; the first one stops
-    int picks = 0;                         // at most; 0: each value by itself
+    int picks = 0;                         // at most; 0: each category by itself
     int logit_count = 0;
     bool masked = false;             // the simulator is asked which logits are allowed
     bool may_be_illegal = false;     // what is chosen may violate a precondition, and is mended

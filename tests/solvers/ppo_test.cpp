@@ -339,7 +339,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     EXPECT_EQ(read("{}"), "it is no policy of PPO");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
-    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 3");
+    EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 4");
     EXPECT_NE(complaint([&] {
                   read_ppo_policy(*rddl_simulator_reservoir_reservoir_1(), text);
               }).find("it is of the problem mountain_car_1"),

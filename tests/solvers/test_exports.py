@@ -103,6 +103,25 @@ def check_network(rddl, folder, cxx, *options):
     return len(steps)
 
 
+def check_choices(rddl, folder):
+    """Of PPO where one bool of a group changes at a time. Returns the number of steps that agree with the reader."""
+    rddl("train", "ppo", "--engine", "interpreter", "--steps", "4000", "--envs", "16", "--rollout", "32", "--minibatch",
+         "128", "--quiet", "--out", str(folder / "run"))
+    rddl("run", "--engine", "interpreter", "--policy", str(folder / "run"), "--trace", str(folder / "trace.jsonl"),
+         "--quiet")
+    policy = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "run/policy.json")
+    assert policy.file["version"] == 4 and any("group" in head for head in policy.file["action"]["categories"])
+    steps = [json.loads(line) for line in (folder / "trace.jsonl").read_text().splitlines()[1:]]
+    in_traces = lambda name: name.replace("(", "___").replace(", ", "__").replace(")", "")
+    seen = [column["name"] for column in policy.file["observation"]["space"]["columns"]]
+    for step in steps:
+        action = policy.act({name: step["state"][in_traces(name)] for name in seen}, step["step"])
+        assert {in_traces(name) for name, value in action.items() if value} == set(step["action"]), (step, action)
+    changed = {name for step in steps for name in step["action"]}
+    assert changed, steps
+    return len(steps)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--rddl", required=True)
@@ -110,24 +129,27 @@ def main():
     parser.add_argument("--cxx", required=True)
     parser.add_argument("--cache", required=True)
     arguments = parser.parse_args()
-    problem = [str(arguments.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
     environment = {**os.environ, "XDG_CACHE_HOME": arguments.cache}
 
-    def rddl(*words):
-        return subprocess.run([arguments.rddl, words[0], *words[1:2], *problem, *words[2:]] if words[0] == "train"
-                              else [arguments.rddl, words[0], *problem, *words[1:]],
-                              check=True, capture_output=True, text=True, env=environment).stdout
+    def in_folder(problem, check, *more):
+        files = [str(problem / f"{name}.rddl") for name in ("domain", "instance")]
 
-    def in_folder(check, *more):
+        def rddl(*words):
+            command = [*words[:2], *files, *words[2:]] if words[0] == "train" else [words[0], *files, *words[1:]]
+            return subprocess.run([arguments.rddl, *command], check=True, capture_output=True, text=True,
+                                  env=environment).stdout
+
         with tempfile.TemporaryDirectory() as name:
             return check(rddl, Path(name), *more)
 
-    formula = in_folder(check_formula)
-    networks = [in_folder(check_network, arguments.cxx, *options)
+    car = arguments.examples / "mountain_car"
+    formula = in_folder(car, check_formula)
+    networks = [in_folder(car, check_network, arguments.cxx, *options)
                 for options in ((), ("--squash", "on"), ("--recurrent", "11"), ("--activation", "relu"),
                                 ("--activation", "relu", "--squash", "on", "--recurrent", "11"))]
     assert all(formula + steps > 100 for steps in networks), (formula, networks)
-    steps = formula + sum(networks)
+    choices = [in_folder(Path(__file__).parent / "problems" / name, check_choices) for name in ("shop", "museum")]
+    steps = formula + sum(networks) + sum(choices)
     print(f"{steps} steps agree")
     return 0
 

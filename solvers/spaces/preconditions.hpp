@@ -1,0 +1,32 @@
+// What preconditions forbid, found out by trying: a simulator says whether an action is legal, not
+// which other ones are.
+#pragma once
+
+#include "solvers/spaces/actions.hpp"
+
+#include <rddl/simulator.h>
+
+#include <optional>
+#include <vector>
+
+namespace rddlc::solvers {
+
+// Whether any of some random actions, reals among them of the size that a learner begins with,
+// violates a precondition in the states that they lead to.
+bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
+                        const ActionRecords& records);
+
+// Bools of which one may change at a time, such as one item for each consumer.
+struct Groups {
+    std::vector<std::vector<int>> columns;  // of each group at least two, in ascending order
+    bool may_be_none = true;                // false: one bool of each group has to change
+};
+
+// Tries the groups that the parameters of the action-fluents suggest: the changes that concern the
+// same object. They are taken if, in the states of some random episodes, random actions with one
+// change in each group are legal, and are not with one more. Nothing if no such groups are found.
+std::optional<Groups> find_groups(const rddl_simulator& simulator,
+                                  const std::vector<rddl_column>& columns, const ActionSpace& space,
+                                  const ActionRecords& records);
+
+}  // namespace rddlc::solvers

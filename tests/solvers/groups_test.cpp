@@ -1,0 +1,159 @@
+// Bools that preconditions allow to change one at a time.
+#include "simulators.hpp"
+#include "solver_museum.h"
+#include "solver_shop.h"
+#include "solvers/batches/batch.hpp"
+#include "solvers/cgp/scope.hpp"
+#include "solvers/cgp/skdecide.hpp"
+#include "solvers/choosing/choosing.hpp"
+#include "solvers/spaces/actions.hpp"
+#include "support/failure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace rddlc::solvers {
+namespace {
+
+const rddl_simulator& shop() {
+    return *rddl_simulator_shop_shop_1();
+}
+const rddl_simulator& museum() {
+    return *rddl_simulator_museum_museum_1();
+}
+
+std::set<std::string> names_of(const ActionSpace& space, const CategoryHead& head) {
+    std::set<std::string> names;
+    for (const int column : head.group) names.insert(space.names[static_cast<std::size_t>(column)]);
+    return names;
+}
+
+std::vector<float> action_of(const ActionSpace& space, const std::vector<std::int32_t>& indices) {
+    std::vector<float> values(static_cast<std::size_t>(space.column_count));
+    write_action(space, nullptr, indices.data(), values.data());
+    return values;
+}
+
+TEST(Groups, AtMostOneOfThoseOfAnObject) {
+    const ActionSpace space = action_space(shop());
+    EXPECT_EQ(space.picks, 0);
+    EXPECT_FALSE(space.masked);
+    ASSERT_EQ(space.categories.size(), 3u);
+    EXPECT_EQ(space.logit_count, 3 * 5);
+    for (int c = 0; c < 3; ++c) {
+        const CategoryHead& head = space.categories[static_cast<std::size_t>(c)];
+        EXPECT_EQ(head.count, 5);
+        EXPECT_EQ(head.first_value, 0);
+        EXPECT_EQ(head.first_logit, 5 * c);
+        const std::string customer = "recommend(c" + std::to_string(c + 1);
+        EXPECT_EQ(names_of(space, head),
+                  (std::set<std::string>{customer + ", i1)", customer + ", i2)", customer + ", i3)",
+                                         customer + ", i4)"}));
+    }
+    std::vector<float> expected(12, 0.0f);
+    expected[4 + 0] = 1;  // c2, i1
+    expected[8 + 3] = 1;  // c3, i4
+    EXPECT_EQ(action_of(space, {0, 1, 4}), expected);
+}
+
+// Of several fluents; lamps are chosen by themselves.
+TEST(Groups, ExactlyOneOfThoseOfAnObject) {
+    const ActionSpace space = action_space(museum());
+    EXPECT_EQ(space.picks, 0);
+    ASSERT_EQ(space.categories.size(), 2u + 3u);
+    std::size_t lamps = 0, guards = 0;
+    for (const CategoryHead& head : space.categories) {
+        if (head.group.empty()) {
+            EXPECT_EQ(head.count, 2);
+            ++lamps;
+            continue;
+        }
+        const std::string guard = "g" + std::to_string(++guards);
+        EXPECT_EQ(head.count, 4);
+        EXPECT_EQ(head.first_value, 1);
+        EXPECT_EQ(
+            names_of(space, head),
+            (std::set<std::string>{"watch(hall, " + guard + ")", "watch(attic, " + guard + ")",
+                                   "watch(cellar, " + guard + ")", "rest(" + guard + ")"}));
+    }
+    EXPECT_EQ(lamps, 3u);
+    EXPECT_EQ(guards, 2u);
+    const std::vector<float> action = action_of(space, {0, 3, 0, 1, 0});
+    EXPECT_EQ(std::count(action.begin(), action.end(), 1.0f), 3);
+}
+
+// Where preconditions say something else, one change is picked after the other, as before.
+TEST(Groups, AreNotSeenWhereThereAreNone) {
+    for (const rddl_simulator* const simulator : simulators())
+        for (const CategoryHead& head : action_space(*simulator).categories)
+            EXPECT_TRUE(head.group.empty()) << simulator->problem->instance;
+}
+
+// Random choices satisfy the preconditions, so nothing has to be mended.
+TEST(Groups, MakeLegalActions) {
+    for (const rddl_simulator* const simulator : {&shop(), &museum()}) {
+        const ActionSpace space = action_space(*simulator);
+        constexpr std::int64_t environments = 8, steps = 50;
+        rddl_batch_options options{};
+        options.environment_count = environments;
+        options.autoreset = RDDL_AUTORESET_SAME_STEP;
+        const Batch batch = create_batch(*simulator, options);
+        Chooser chooser(*simulator, space, Noise::White, 0, environments);
+        const auto logits = static_cast<std::size_t>(space.logit_count);
+        const auto columns = static_cast<std::size_t>(space.column_count);
+        std::vector<float> outputs(environments * logits), actions(environments * columns),
+            spreads(environments), log_probabilities(environments);
+        std::vector<std::int32_t> indices(environments *
+                                          static_cast<std::size_t>(space.index_count()));
+        const ActionRecords records(*simulator);
+        std::vector<std::byte> bytes(environments * records.record_size());
+        std::set<std::int32_t> chosen;
+        const float no_deviation = 0;
+        for (std::int64_t t = 0; t < steps; ++t) {
+            chooser.choose(
+                batch.get(), outputs.data(), space.logit_count, Deviations{&no_deviation},
+                [&](std::int64_t e) {
+                    return ChoiceKey{5, static_cast<std::uint64_t>(e),
+                                     static_cast<std::uint64_t>(t)};
+                },
+                {nullptr, nullptr, spreads.data(), indices.data(), nullptr,
+                 log_probabilities.data()},
+                actions.data());
+            chosen.insert(indices.begin(), indices.end());
+            for (std::int64_t e = 0; e < environments; ++e)
+                records.write(actions.data() + static_cast<std::size_t>(e) * columns,
+                              bytes.data() + static_cast<std::size_t>(e) * records.record_size());
+            rddl_transition unread{};
+            ASSERT_EQ(simulator->step(batch.get(), bytes.data(), &unread), RDDL_OK);
+        }
+        EXPECT_EQ(chooser.mended(), 0) << simulator->problem->instance;
+        EXPECT_GE(chosen.size(), 4u);  // all of a group
+    }
+}
+
+// A program writes a number for each bool; the greatest above 0 of a group says which one changes.
+TEST(Groups, ProgramsChooseTheGreatest) {
+    const ProgramScope scope = program_scope(shop(), Lifting::On, false, 1);
+    ASSERT_EQ(scope.units.size(), 12u);
+    const std::vector<double> values = {-1, 2, 3, 1, -1, -2, -3, -4, 0.5, 0, 0, 0};
+    std::vector<float> logits(15);
+    write_outputs(scope, values.data(), 1, logits.data());
+    const auto greatest = [&](int head) {
+        return std::max_element(logits.begin() + 5 * head, logits.begin() + 5 * head + 5) -
+               (logits.begin() + 5 * head);
+    };
+    EXPECT_EQ(greatest(0), 3);
+    EXPECT_EQ(greatest(1), 0);  // none
+    EXPECT_EQ(greatest(2), 1);
+}
+
+// The programs of scikit-decide make one choice.
+TEST(Groups, AreNotForProgramsOfScikitDecide) {
+    EXPECT_THROW(skdecide_scope(shop()), Failure);
+}
+
+}  // namespace
+}  // namespace rddlc::solvers
