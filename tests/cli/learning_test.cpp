@@ -221,6 +221,7 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses(on_tanks("train ppo", "--recurrent 8 --rollout 1 --minibatch 9"),
             "a recurrent network learns from several steps in a row");
     refuses(on_tanks("train ppo", "--recurrent -1"), "--recurrent");
+    refuses(on_tanks("train ppo", "--hidden ,"), "--hidden: a value is missing in ','");
     refuses(on_tanks("train ppo", "--activation gelu"), "--activation");
     refuses(on_tanks("train ppo", "--recurrent 8 --segment 1"), "--segment");
     refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");

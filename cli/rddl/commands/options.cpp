@@ -33,6 +33,14 @@ void add_problem_arguments(Command& command, ProblemArguments& arguments, bool r
         .kind = OptionKind::Bytes;
 }
 
+void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
+    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
+        throw Failure(
+            "nothing ends an episode of this problem: it has no horizon, no termination "
+            "and no invariant",
+            "give one with --horizon", usage_error);
+}
+
 void add_standard_option(Command& command, Standard& standard) {
     add_option(command, "--std", "STANDARD",
                "RDDL as pyrddlgym accepts it (default), or rddlc: with extensions",

@@ -35,7 +35,7 @@ std::filesystem::path folder_of(const TrainOptions& options, const rddl_problem&
 }
 
 // An episode that nothing ends would never be learned from.
-void require_an_end(const rddl_problem& problem) {
+void require_an_end_to_learn(const rddl_problem& problem) {
     if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
         throw Failure(
             "nothing ends an episode of this problem: it has no horizon, no termination "
@@ -103,7 +103,7 @@ struct TrainPpoOptions : TrainOptions {
 ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
-    require_an_end(*simulator.problem);
+    require_an_end_to_learn(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
     return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks), ranks);
