@@ -28,7 +28,7 @@ void add_problem_arguments(Command& command, ProblemArguments& arguments, bool r
     add_standard_option(command, arguments.standard);
     add_option(
         command, "--memory-limit", "SIZE",
-        "Bytes that simulators may take: 4G (default), 512M, 1e9, ...",
+        "Bytes that simulators and learners may take: 4G (default), 512M, 1e9, ...",
         [&arguments](const std::string& bytes) { arguments.memory_limit = std::stoll(bytes); })
         .kind = OptionKind::Bytes;
 }
