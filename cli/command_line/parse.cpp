@@ -52,7 +52,21 @@ struct Answer {
         if (!option->is_list && words.size() > 1)
             throw UsageError(
                 fmt::format("{} is given twice: '{}' and '{}'", option->names, words[0], words[1]));
-        for (const std::string& word : words) option->take(value_of(*option, word));
+        for (const std::string& word : words) {
+            if (option->has_commas)
+                pass_on_parts(word);
+            else
+                option->take(value_of(*option, word));
+        }
+    }
+
+    void pass_on_parts(const std::string& word) const {
+        for (std::size_t begin = 0; begin <= word.size();) {
+            const std::size_t end = std::min(word.find(',', begin), word.size());
+            if (end == begin) throw no_value_for(*option, word);
+            option->take(value_of(*option, word.substr(begin, end - begin)));
+            begin = end + 1;
+        }
     }
 };
 
@@ -70,7 +84,6 @@ void declare(Declared& declared, const Option& option) {
         is_flag ? declared.app->add_flag(names) : declared.app->add_option(names);
     handle->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     if (option.kind == OptionKind::Argument && option.is_list) handle->expected(-1);
-    if (option.has_commas) handle->delimiter(',');
     declared.answers.push_back({&option, handle});
 }
 

@@ -90,4 +90,10 @@ UsageError no_value_for(const Option& option) {
                                   option.value_name, option.explanation));
 }
 
+UsageError no_value_for(const Option& option, const std::string& list) {
+    if (list.empty()) return no_value_for(option);
+    return UsageError(fmt::format("{0}: a value is missing in '{1}'; expected {0} {2}: {3}",
+                                  option.names, list, option.value_name, option.explanation));
+}
+
 }  // namespace rddlc::cli

@@ -13,5 +13,7 @@ std::string value_of(const Option& option, const std::string& word);
 
 // "--seed is given no value; expected --seed S: Seed of all random numbers (0)"
 UsageError no_value_for(const Option& option);
+// Where one is missing between the commas of a list: "--hidden: a value is missing in '64,,'; ..."
+UsageError no_value_for(const Option& option, const std::string& list);
 
 }  // namespace rddlc::cli

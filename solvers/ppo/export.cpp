@@ -217,8 +217,10 @@ std::string ppo_policy_cpp(const PpoModel& model) {
         "// Features:";
     for (int k = 0; k < model.observations.stack; ++k)
         for (const std::string& feature : model.observations.features)
-            text +=
-                fmt::format("\n//   {}{}", feature, k > 0 ? fmt::format(", {} steps ago", k) : "");
+            text += fmt::format("\n//   {}{}", feature,
+                                k == 0   ? ""
+                                : k == 1 ? ", 1 step ago"
+                                         : fmt::format(", {} steps ago", k));
     if (model.observations.time) text += "\n//   steps made / horizon";
     text += "\n// Outputs:";
     for (const RealHead& head : model.actions.reals)

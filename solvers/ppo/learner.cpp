@@ -13,12 +13,14 @@ namespace rddlc::solvers {
 
 namespace {
 
-// About so many samples sum up their gradients in one place; then these sums are added in their
-// order. So results do not depend on which thread has done which of them.
 constexpr std::size_t chunk = 4 * tile;
 
 std::size_t parts(std::size_t count, std::size_t size) {
     return (count + size - 1) / size;
+}
+
+std::size_t segments_per_chunk(const PpoOptions& options) {
+    return std::max<std::size_t>(chunk / static_cast<std::size_t>(longest_segment(options)), 1);
 }
 
 void gather_rows(std::span<const std::uint32_t> samples, const auto* from, int row, auto* to) {
@@ -28,6 +30,14 @@ void gather_rows(std::span<const std::uint32_t> samples, const auto* from, int r
 }
 
 }  // namespace
+
+std::size_t samples_per_chunk(const PpoOptions& options) {
+    return segments_per_chunk(options) * static_cast<std::size_t>(longest_segment(options));
+}
+
+std::size_t gradient_count(const PpoOptions& options) {
+    return parts(segments_per_minibatch(options), segments_per_chunk(options));
+}
 
 Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, const Ranks& ranks)
     : first_moments(model.parameters.size()),
@@ -41,8 +51,8 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
       value_rows_(model.value.rows),
       memory_rows_(model.memory.rows) {
     const auto longest = static_cast<std::size_t>(longest_segment(options));
-    segments_per_chunk_ = std::max<std::size_t>(chunk / longest, 1);
-    const std::size_t chunks = parts(segments_per_minibatch(options), segments_per_chunk_);
+    segments_per_chunk_ = segments_per_chunk(options);
+    const std::size_t chunks = gradient_count(options);
     gradients_.assign(chunks, std::vector<float>(model.parameters.size()));
     sums_.resize(chunks);
     if (model.noise == Noise::Sde)
@@ -55,7 +65,7 @@ Learner::Learner(PpoModel& model, const PpoOptions& options, rddl::Team& team, c
         if (model.recurrent > 0) workplace.unrolled = Unrolled(model, segments_per_chunk_, longest);
         Tile& place = workplace.tile;
         const auto rows = [](auto& values, int row) {
-            values.resize(static_cast<std::size_t>(tile * row));
+            values.resize(std::size_t{tile} * static_cast<std::size_t>(row));
         };
         rows(place.numbers, model.actions.real_count());
         rows(place.shifts, model.actions.real_count());

@@ -14,6 +14,12 @@
 
 namespace rddlc::solvers {
 
+// About so many samples sum up their gradients in one place; then these sums are added in their
+// order. So results do not depend on which thread has done which of them.
+std::size_t samples_per_chunk(const PpoOptions& options);
+// How many such places a minibatch has.
+std::size_t gradient_count(const PpoOptions& options);
+
 class Learner {
   public:
     // All that is referred to must outlive this. Changes the model's parameters.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace rddlc::solvers {
@@ -31,14 +32,19 @@ class Normals {
 
 // Rows of normal numbers, each made orthogonal to those before it (Gram and Schmidt), with length
 // `gain`: `rows` of them are at most `columns`.
-std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals& normals) {
+std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals& normals,
+                                    const std::function<bool()>& stops) {
     std::vector<double> all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    const auto row_of = [&](int r) {
+        return all.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(columns);
+    };
     for (int r = 0; r < rows; ++r) {
-        double* const row = all.data() + r * columns;
+        if (stops && stops()) return all;
+        double* const row = row_of(r);
         for (int c = 0; c < columns; ++c) row[c] = normals.next();
         for (int twice = 0; twice < 2; ++twice)
             for (int other = 0; other < r; ++other) {
-                const double* const before = all.data() + other * columns;
+                const double* const before = row_of(other);
                 double product = 0;
                 for (int c = 0; c < columns; ++c) product += row[c] * before[c];
                 for (int c = 0; c < columns; ++c) row[c] -= product * before[c];
@@ -51,39 +57,46 @@ std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals&
     return all;
 }
 
-// Weights from inputs to outputs; those of an input to all outputs are a row of `row` numbers.
-void initialise(int inputs, int outputs, int row, double gain, Normals& normals, float* weights) {
-    const bool wide = inputs >= outputs;
-    const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
-    const std::vector<double> orthogonal = orthogonal_rows(rows, columns, gain, normals);
-    for (int o = 0; o < outputs; ++o)
-        for (int i = 0; i < inputs; ++i)
-            weights[i * row + o] = static_cast<float>(
-                orthogonal[static_cast<std::size_t>(wide ? o * columns + i : i * columns + o)]);
-}
+// Weights of any part of the model, one part after the other.
+struct Initialiser {
+    Normals normals;
+    const std::function<bool()>& stops;
 
-void initialise(const Network& network, double last_gain, Normals& normals, float* parameters) {
-    for (const Layer& layer : network.layers)
-        initialise(layer.inputs, layer.outputs, layer.padded_outputs,
-                   &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2, normals,
-                   parameters + layer.weights);
-}
-
-// Each of the three parts by itself.
-void initialise(const Gru& gru, Normals& normals, float* parameters) {
-    const auto parts = gru_parts(gru);
-    for (const GruPart& part : parts) {
-        initialise(gru.inputs, gru.units, gru.weight_row(), 1, normals,
-                   parameters + part.input_weights);
-        initialise(gru.units, gru.units, gru.weight_row(), 1, normals,
-                   parameters + part.state_weights);
+    // From inputs to outputs; the weights of an input to all outputs are a row of `row` numbers.
+    void operator()(int inputs, int outputs, int row, double gain, float* weights) {
+        const bool wide = inputs >= outputs;
+        const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
+        const std::vector<double> orthogonal =
+            orthogonal_rows(rows, columns, gain, normals, stops);
+        const auto place = [](int r, int size, int c) {
+            return static_cast<std::size_t>(r) * static_cast<std::size_t>(size) +
+                   static_cast<std::size_t>(c);
+        };
+        for (int o = 0; o < outputs; ++o)
+            for (int i = 0; i < inputs; ++i)
+                weights[place(i, row, o)] = static_cast<float>(
+                    orthogonal[wide ? place(o, columns, i) : place(i, columns, o)]);
     }
-    std::fill_n(parameters + parts.back().bias, gru.units, 1.0f);
-}
 
-}  // namespace
+    void operator()(const Network& network, double last_gain, float* parameters) {
+        for (const Layer& layer : network.layers)
+            (*this)(layer.inputs, layer.outputs, layer.padded_outputs,
+                    &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2,
+                    parameters + layer.weights);
+    }
 
-void make_networks(PpoModel& model) {
+    // Each of the three parts by itself.
+    void operator()(const Gru& gru, float* parameters) {
+        const auto parts = gru_parts(gru);
+        for (const GruPart& part : parts) {
+            (*this)(gru.inputs, gru.units, gru.weight_row(), 1, parameters + part.input_weights);
+            (*this)(gru.units, gru.units, gru.weight_row(), 1, parameters + part.state_weights);
+        }
+        std::fill_n(parameters + parts.back().bias, gru.units, 1.0f);
+    }
+};
+
+void lay_out_networks(PpoModel& model) {
     const int inputs = model.features() + model.recurrent;
     const auto network_of = [&](int outputs) {
         return make_network(inputs, model.hidden, outputs, model.recurrent, model.activation);
@@ -91,12 +104,26 @@ void make_networks(PpoModel& model) {
     model.policy = network_of(model.actions.output_count());
     model.value = network_of(1);
     if (model.recurrent > 0) model.memory = make_gru(model.features(), model.recurrent);
-    model.parameters.assign(model.memory_begin() + model.memory.parameters, 0.0f);
+}
+
+void make_room(PpoModel& model) {
+    model.parameters.assign(parameter_count(model), 0.0f);
     model.normaliser = Normaliser(model.features());
 }
 
-PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
-                    const PpoOptions& options) {
+}  // namespace
+
+std::size_t parameter_count(const PpoModel& model) {
+    return model.memory_begin() + model.memory.parameters;
+}
+
+void make_networks(PpoModel& model) {
+    lay_out_networks(model);
+    make_room(model);
+}
+
+PpoModel model_without_parameters(const ObservationSpace& observations, const ActionSpace& actions,
+                                  const PpoOptions& options) {
     PpoModel model;
     model.observations = observations;
     model.actions = actions;
@@ -107,16 +134,27 @@ PpoModel make_model(const ObservationSpace& observations, const ActionSpace& act
     model.hidden = options.hidden;
     model.activation = options.activation;
     model.recurrent = options.recurrent;
-    make_networks(model);
-    Normals normals(options.seed);
-    initialise(model.policy, 0.01, normals, model.parameters.data());
-    initialise(model.value, 1, normals, model.parameters.data() + model.value_begin());
+    lay_out_networks(model);
+    return model;
+}
+
+void make_parameters(PpoModel& model, const PpoOptions& options) {
+    make_room(model);
+    Initialiser initialise{Normals(options.seed), options.stops};
+    initialise(model.policy, 0.01, model.parameters.data());
+    initialise(model.value, 1, model.parameters.data() + model.value_begin());
     if (model.recurrent > 0)
-        initialise(model.memory, normals, model.parameters.data() + model.memory_begin());
+        initialise(model.memory, model.parameters.data() + model.memory_begin());
     // Where it is a sum over units, so that the sum has about this deviation.
     const double parts = std::max(model.noisy_units(), 1);
     std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),
                 static_cast<float>(options.log_deviation - 0.5 * std::log(parts)));
+}
+
+PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
+                    const PpoOptions& options) {
+    PpoModel model = model_without_parameters(observations, actions, options);
+    make_parameters(model, options);
     return model;
 }
 

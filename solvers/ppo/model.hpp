@@ -58,6 +58,14 @@ struct PpoModel {
 PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
                     const PpoOptions& options);
 
+// The same in two steps: first what the networks are, which takes no room yet, and then their
+// parameters. These are not all made where options.stops tells so.
+PpoModel model_without_parameters(const ObservationSpace& observations, const ActionSpace& actions,
+                                  const PpoOptions& options);
+void make_parameters(PpoModel& model, const PpoOptions& options);
+// How many there are, or will be.
+std::size_t parameter_count(const PpoModel& model);
+
 // Room for the networks, once the spaces and all that says what they are is there; all parameters
 // are 0.
 void make_networks(PpoModel& model);

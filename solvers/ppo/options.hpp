@@ -5,6 +5,7 @@
 #include "solvers/choosing/choosing.hpp"
 #include "solvers/network/network.hpp"
 #include "solvers/spaces/observations.hpp"
+#include "support/memory.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -59,6 +60,7 @@ struct PpoOptions {
     std::optional<bool> bootstraps;
     std::uint64_t seed = 0;
     int threads = 1;
+    std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
     // Asked by all threads, often: whether an update shall end early. May be empty.
     std::function<bool()> stops;
 };

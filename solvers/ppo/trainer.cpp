@@ -4,6 +4,7 @@
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/collector.hpp"
 #include "solvers/ppo/learner.hpp"
+#include "solvers/ppo/room.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/philox.hpp>
@@ -36,7 +37,10 @@ void require(bool holds, const char* sentence) {
 
 void check(const PpoOptions& options) {
     require(options.environments > 0 && options.rollout > 0, "PPO needs environments and steps");
-    require(options.minibatch <= options.environments * options.rollout,
+    const std::int64_t samples = std::int64_t{options.environments} * options.rollout;
+    require(samples < std::int64_t{1} << 31,
+            "an update learns from less than 2^31 steps: --envs times --rollout is too much");
+    require(options.minibatch <= samples,
             "a minibatch is larger than what is collected for an update: it needs --minibatch at "
             "most --envs times --rollout");
     require(options.observations.stack >= 1, "PPO sees at least one observation");
@@ -65,6 +69,14 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
     }
 }
 
+PpoModel model_that_fits(const rddl_simulator& simulator, const PpoOptions& options) {
+    PpoModel model = model_without_parameters(observation_space(simulator, options.observations),
+                                              action_space(simulator), options);
+    require_room(simulator, model, options);
+    make_parameters(model, options);
+    return model;
+}
+
 }  // namespace
 
 struct PpoTrainer::State {
@@ -73,8 +85,7 @@ struct PpoTrainer::State {
         : simulator(its_simulator),
           options(its_options),
           ranks(its_ranks),
-          model(make_model(observation_space(simulator, options.observations),
-                           action_space(simulator), options)),
+          model(model_that_fits(simulator, options)),
           team(options.threads),
           learner(model, options, team, ranks),
           experience(model, options.environments, options.rollout, longest_segment(options)),

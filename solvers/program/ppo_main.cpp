@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     program.solver = "ppo";
     program.help =
         "  --steps N  --envs N  --rollout T  --epochs E  --minibatch M  --lr RATE  --gamma G\n"
-        "  --stack K  --recurrent UNITS  --activation tanh|relu  --threads T\n";
+        "  --stack K  --recurrent UNITS  --activation tanh|relu  --threads T\n"
+        "  --memory-limit BYTES\n";
     add_number(program.options, "--steps", options.steps);
     add_number(program.options, "--envs", options.environments);
     add_number(program.options, "--rollout", options.rollout);
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
     add_number(program.options, "--stack", options.observations.stack);
     add_number(program.options, "--recurrent", options.recurrent);
     add_number(program.options, "--threads", options.threads);
+    add_number(program.options, "--memory-limit", options.memory_limit);
     program.options["--activation"] = [&](const std::string& word) {
         const auto known = activation_named(word);
         if (!known)

@@ -98,6 +98,9 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
          }}};
     take_words(2, argc, argv, options, [&](const std::string& word) { file = word; });
     if (file.empty()) throw Failure("name the policy to evaluate", {}, usage_error);
+    const rddl_problem& problem = *simulator.problem;
+    if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
+        episodes.horizon = 1000;  // else nothing ends an episode
     const Policy policy = program.read(simulator, read_file(file));
     const Summary summary = summary_of(run_episodes(simulator, policy, episodes, {}));
     const Estimate& returns = summary.undiscounted_return;

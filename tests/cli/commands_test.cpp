@@ -71,6 +71,15 @@ INSTANTIATE_TEST_SUITE_P(
                            "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
                     Misuse{"run domain.rddl instance.rddl --json=maybe",
                            "--json: 'maybe' is not true or false"},
+                    Misuse{"compare domain.rddl instance.rddl --policies ,",
+                           "--policies: a value is missing in ','; expected --policies "
+                           "POLICY,...: "},
+                    Misuse{"compare domain.rddl instance.rddl --policies noop,,random",
+                           "--policies: a value is missing in 'noop,,random'"},
+                    Misuse{"compare domain.rddl instance.rddl --policies noop,",
+                           "--policies: a value is missing in 'noop,'"},
+                    Misuse{"compare domain.rddl instance.rddl --policies ''",
+                           "--policies is given no value; expected --policies POLICY,...: "},
                     Misuse{"run domain.rddl instance.rddl --memory-limit abc",
                            "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
                     Misuse{"run domain.rddl instance.rddl --memory-limit -1",
@@ -475,6 +484,12 @@ TEST_F(Program, RefusesEndlessEpisodes) {
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_NE(outcome.err.find("give one with --horizon"), std::string::npos) << outcome.err;
     EXPECT_EQ(run(std::string("run endless.rddl --horizon 3") + interpreted).status, 0);
+    for (const char* const command : {"evaluate", "compare"}) {
+        const Outcome endless = run(command + std::string(" endless.rddl") + interpreted);
+        EXPECT_EQ(endless.status, 2);
+        expect_part(endless.err, "give one with --horizon");
+        EXPECT_EQ(run(command + std::string(" endless.rddl --horizon 3") + interpreted).status, 0);
+    }
 }
 
 constexpr const char* random_start =

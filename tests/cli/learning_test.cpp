@@ -221,8 +221,18 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses(on_tanks("train ppo", "--recurrent 8 --rollout 1 --minibatch 9"),
             "a recurrent network learns from several steps in a row");
     refuses(on_tanks("train ppo", "--recurrent -1"), "--recurrent");
+    refuses(on_tanks("train ppo", "--hidden ,"), "--hidden: a value is missing in ','");
     refuses(on_tanks("train ppo", "--activation gelu"), "--activation");
     refuses(on_tanks("train ppo", "--recurrent 8 --segment 1"), "--segment");
+    refuses(on_tanks("train ppo", "--envs 1048576"), "PPO would take about ");
+    refuses(on_tanks("train ppo", "--envs 1048576"),
+            "try a smaller --rollout, --envs or --stack, or a larger --memory-limit");
+    refuses(on_tanks("train ppo", "--recurrent 16384"), "try smaller --hidden, --recurrent");
+    refuses(on_tanks("train ppo", "--envs 1048576 --rollout 1048576"), "less than 2^31 steps");
+    // Where nobody asks for so many steps, fewer are made.
+    const Outcome fitting = run(on_tanks("train ppo", "--steps 100 --memory-limit 2M --out f"));
+    EXPECT_EQ(fitting.status, 0) << fitting.err;
+    expect_part(fitting.err, " in place of 128, so that PPO takes no more than 2 MiB");
     refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
     refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");

@@ -2,8 +2,11 @@
 #include "../counted_allocations.hpp"
 #include "simulators.hpp"
 #include "solvers/cgp/evaluator.hpp"
+#include "solvers/ppo/policy_file.hpp"
+#include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainer.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -33,6 +36,43 @@ TEST(Allocations, NoneInUpdatesOfPpo) {
             }
             EXPECT_EQ(allocations, before);
             EXPECT_GT(episodes, 0);
+        }
+}
+
+// What is refused for its size is known before it is taken: each part of it in turn.
+TEST(Allocations, OfPpoAreKnownBefore) {
+    PpoOptions small;
+    small.environments = 16;
+    small.rollout = 40;
+    small.minibatch = 300;
+    small.hidden = {8, 8};
+    std::vector<PpoOptions> all(8, small);
+    all[0].environments = 4000;
+    all[1].rollout = 8000;
+    all[2].hidden = {500, 700};
+    all[3].recurrent = 300;
+    all[4].recurrent = 20;
+    all[4].environments = 3000;
+    all[5].noise = Noise::Sde;
+    all[5].hidden = {8, 300};
+    all[5].environments = 500;
+    all[6].threads = 3;
+    all[6].hidden = {1000, 8};
+    all[7].observations.stack = 50;
+    all[7].rollout = 2000;
+    for (const rddl_simulator* simulator : simulators())
+        for (const PpoOptions& options : all) {
+            SCOPED_TRACE(simulator->problem->domain + fmt::format(", {}", &options - all.data()));
+            const PpoModel model =
+                model_without_parameters(observation_space(*simulator, options.observations),
+                                         action_space(*simulator), options);
+            const PpoRoom room = room_of(*simulator, model, options);
+            const std::int64_t before = live_bytes;
+            const PpoTrainer trainer(*simulator, options);
+            const auto taken = static_cast<double>(live_bytes - before) +
+                               4 * static_cast<double>(parameter_count(model));  // evaluations
+            EXPECT_LT(taken, 1.1 * (room.all() - room.files) + 100'000);
+            EXPECT_GT(taken, 0.9 * (room.all() - room.files) - 100'000);
         }
 }
 

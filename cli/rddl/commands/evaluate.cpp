@@ -144,6 +144,8 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     files.policy = options.policy_block;
     const LoadedProblem problem = load_problem(files, options.load);
     const rddl_simulator& simulator = *problem.simulator;
+    require_an_end(*simulator.problem,
+                   options.episodes.horizon.value_or(simulator.problem->horizon));
     EvaluationOptions chosen = options;
     chosen.episodes.preconditions = Preconditions::Warn;  // so that they are counted
     chosen.episodes.memory_limit = files.memory_limit;

@@ -28,9 +28,17 @@ void add_problem_arguments(Command& command, ProblemArguments& arguments, bool r
     add_standard_option(command, arguments.standard);
     add_option(
         command, "--memory-limit", "SIZE",
-        "Bytes that simulators may take: 4G (default), 512M, 1e9, ...",
+        "Bytes that simulators and learners may take: 4G (default), 512M, 1e9, ...",
         [&arguments](const std::string& bytes) { arguments.memory_limit = std::stoll(bytes); })
         .kind = OptionKind::Bytes;
+}
+
+void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
+    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
+        throw Failure(
+            "nothing ends an episode of this problem: it has no horizon, no termination "
+            "and no invariant",
+            "give one with --horizon", usage_error);
 }
 
 void add_standard_option(Command& command, Standard& standard) {

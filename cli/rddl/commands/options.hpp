@@ -48,6 +48,10 @@ void add_horizon_option(Command& command, Horizon& horizon, const std::string& e
                                     longest_horizon);
 }
 
+// An episode that nothing ends would keep a command that has --horizon busy for ever: throws a
+// Failure then. `horizon` is that of the option, or else the problem's.
+void require_an_end(const rddl_problem& problem, std::int64_t horizon);
+
 // --std
 void add_standard_option(Command& command, Standard& standard);
 

@@ -172,15 +172,6 @@ std::string header_line(const RunOptions& options, const LoadedProblem& problem,
     return trace_header_line(header, *problem.simulator->problem);
 }
 
-// An episode that nothing ends would keep the command busy for ever.
-void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
-    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
-        throw Failure(
-            "nothing ends an episode of this problem: it has no horizon, no termination "
-            "and no invariant",
-            "give one with --horizon", usage_error);
-}
-
 void require_policy_block(const rddl_simulator& simulator) {
     if (!simulator.policy)
         throw Failure("there is no policy block in the files of the problem",

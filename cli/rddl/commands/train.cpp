@@ -3,8 +3,10 @@
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
 #include "solvers/cgp/trainee.hpp"
+#include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
+#include "support/memory.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
@@ -35,7 +37,7 @@ std::filesystem::path folder_of(const TrainOptions& options, const rddl_problem&
 }
 
 // An episode that nothing ends would never be learned from.
-void require_an_end(const rddl_problem& problem) {
+void require_an_end_to_learn(const rddl_problem& problem) {
     if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
         throw Failure(
             "nothing ends an episode of this problem: it has no horizon, no termination "
@@ -98,14 +100,28 @@ void add_common_options(Command& command, TrainOptions& options) {
 
 struct TrainPpoOptions : TrainOptions {
     solvers::PpoOptions ppo;
+    bool names_rollout = false;  // --envs or --rollout is given
 };
+
+// Where nobody has asked for so many steps between two updates, fewer are made than do not fit.
+void choose_rollout(const rddl_simulator& simulator, solvers::PpoOptions& ppo, bool quiet) {
+    const int fitting = solvers::fitting_rollout(simulator, ppo);
+    if (fitting == ppo.rollout) return;
+    if (!quiet)
+        tell("rddl: note: --rollout is {} in place of {}, so that PPO takes no more than {}\n",
+             fitting, ppo.rollout, memory_text(static_cast<double>(ppo.memory_limit)));
+    ppo.rollout = fitting;
+}
 
 ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
-    require_an_end(*simulator.problem);
+    require_an_end_to_learn(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
+    ppo.memory_limit = options.problem.memory_limit;
+    if (!options.names_rollout)
+        choose_rollout(simulator, ppo, options.training.quiet || !ranks.is_first());
     return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks), ranks);
 }
 
@@ -122,8 +138,9 @@ void add_choice_option(Command& command, const std::string& name, const std::str
 }
 
 // The preset comes first, whatever the order of the words.
-void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
+void add_ppo_options(Command& command, TrainPpoOptions& options) {
     using namespace solvers;
+    PpoOptions& ppo = options.ppo;
     add_option(command, "--preset", "PRESET",
                "fast (default), sb3 (as Stable-Baselines3), rllib; options behind it change it",
                [&ppo](const std::string& name) { ppo = *preset(name); })
@@ -133,10 +150,17 @@ void add_ppo_options(Command& command, solvers::PpoOptions& ppo) {
                    ppo.steps =
                        static_cast<std::int64_t>(number_of<double>("--steps", word, 1, 1e15));
                });
-    add_number_option(command, "--envs", "N", "Environments (64), of each rank of MPI",
-                      ppo.environments, 1, 1 << 20);
-    add_number_option(command, "--rollout", "T", "Steps of each between updates (128)", ppo.rollout,
-                      1, 1 << 20);
+    const auto add_size = [&](const char* name, const char* value, const char* explanation,
+                              int& target) {
+        add_option(command, name, value, explanation,
+                   [name, &target, &options](const std::string& word) {
+                       target = number_of<int>(name, word, 1, 1 << 20);
+                       options.names_rollout = true;
+                   });
+    };
+    add_size("--envs", "N", "Environments (64), of each rank of MPI", ppo.environments);
+    add_size("--rollout", "T", "Steps of each between updates (128, or as many as fit into memory)",
+             ppo.rollout);
     add_number_option(command, "--epochs", "E", "Passes over what was collected (4)", ppo.epochs, 1,
                       10000);
     add_number_option(command, "--minibatch", "M",
@@ -238,7 +262,7 @@ Command ppo_command() {
         "  rddl train ppo SkillTeaching_POMDP_ippc2011 1 --recurrent 32\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a --resume";
     add_common_options(command, *options);
-    add_ppo_options(command, options->ppo);
+    add_ppo_options(command, *options);
     command.run = [options] {
         return train_on_ranks(*options, [options](const solvers::Ranks& ranks) {
             return train_ppo(*options, ranks);
