@@ -199,16 +199,47 @@ void add_groups(ActionSpace& space, const Groups& groups) {
     space.categories = std::move(categories);
 }
 
+// Bytes of the masks of one environment in one step: rollouts keep thousands of them.
+constexpr std::int64_t most_mask_bytes = 10'000'000;
+
+bool fit_into_masks(std::int64_t picks, std::int64_t choices) {
+    return choices <= most_mask_bytes / std::max<std::int64_t>(picks, 1);
+}
+
+// How many values may differ from the default.
+std::int64_t limit_of_changes(const rddl_problem& problem, std::int64_t columns) {
+    return problem.max_nondef_actions < 0 ? columns : std::min(columns, problem.max_nondef_actions);
+}
+
+bool has_choice(const rddl_column& column) {
+    if (column.object_count > 0) return column.object_count > 1;
+    if (column.scalar == RDDL_INT) return std::ceil(column.lower) < std::floor(column.upper);
+    return column.scalar == RDDL_BOOL || column.lower < column.upper;
+}
+
 double softplus(double x) {
     return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
 }
 
-// Bytes of the masks of one environment in one step: rollouts keep thousands of them.
-constexpr std::int64_t most_mask_bytes = 10'000'000;
-
 }  // namespace
 
+void require_choices(const rddl_simulator& simulator) {
+    const std::vector<rddl_column> columns = action_columns(simulator);
+    const auto count = static_cast<std::int64_t>(columns.size());
+    const std::int64_t limit = limit_of_changes(*simulator.problem, count);
+    if (limit == 0 || std::ranges::none_of(columns, has_choice))
+        throw Failure(
+            "there is nothing to choose in this problem: it has no action but the default");
+    const std::int64_t choices = simulator.action_choice_count(&simulator);
+    if (limit < count && !fit_into_masks(limit, choices))
+        throw Failure(
+            fmt::format("this problem has too many choices for the learners: {} picks in "
+                        "a step, among {} each",
+                        limit, choices));
+}
+
 ActionSpace action_space(const rddl_simulator& simulator) {
+    require_choices(simulator);
     const rddl_problem& problem = *simulator.problem;
     const std::vector<rddl_column> columns = action_columns(simulator);
     const ActionRecords records(simulator);
@@ -225,33 +256,22 @@ ActionSpace action_space(const rddl_simulator& simulator) {
             space.reals.push_back(real_head(simulator, records, space, columns[c], index));
     }
 
-    const std::int64_t limit =
-        problem.max_nondef_actions < 0 ? space.column_count : problem.max_nondef_actions;
+    const std::int64_t limit = limit_of_changes(problem, space.column_count);
     const std::int64_t choices = simulator.action_choice_count(&simulator);
-    const auto fit = [&](std::int64_t picks) {
-        return choices * picks <= most_mask_bytes;
-    };
     const bool bites = preconditions_bite(simulator, space, records);
     if (limit < space.column_count) {
-        if (!fit(limit))
-            throw Failure(
-                fmt::format("this problem has too many choices for the learners: {} "
-                            "picks in a step, among {} each",
-                            limit, choices));
         add_picks(space, simulator, columns, limit);
     } else if (const auto groups =
                    bites ? find_groups(simulator, columns, space, records) : std::nullopt) {
         add_groups(space, *groups);
-    } else if (bites && space.reals.empty() && space.categories.size() > 1 && fit(limit)) {
+    } else if (bites && space.reals.empty() && space.categories.size() > 1 &&
+               fit_into_masks(limit, choices)) {
         add_picks(space, simulator, columns, limit);
-    } else if (bites && !space.categories.empty() && fit(1)) {
+    } else if (bites && !space.categories.empty() && fit_into_masks(1, choices)) {
         add_masks_of_categories(space, simulator, columns);
     }
     space.masked = space.picks > 0 || !space.logit_of_mask.empty();
     space.may_be_illegal = bites;
-    if (space.output_count() == 0 || space.logit_count == 1)
-        throw Failure(
-            "there is nothing to choose in this problem: it has no action but the default");
     return space;
 }
 

@@ -70,8 +70,12 @@ struct ActionSpace {
     int mask_size() const { return masked ? logit_count * (picks > 0 ? picks : 1) : 0; }
 };
 
-// Looks at the problem, and by a few random steps at what its preconditions forbid. Throws a
-// Failure where the problem has no actions that differ from each other.
+// Throws a Failure where the problem has no actions that differ from each other, or too many
+// choices to pick from. Makes no step.
+void require_choices(const rddl_simulator& simulator);
+
+// Looks at the problem, and by a few random steps at what its preconditions forbid. Throws as
+// require_choices does.
 ActionSpace action_space(const rddl_simulator& simulator);
 
 // Reals with two bounds become squashed.

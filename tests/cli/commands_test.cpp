@@ -41,60 +41,59 @@ TEST_P(MisusedProgram, SaysWhatIsWrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     Program, MisusedProgram,
-    testing::Values(Misuse{"", "name a command, such as 'rddl list'"},
-                    Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
-                    Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
-                    Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
-                    Misuse{"hlep", "no command is called 'hlep'; did you mean 'help'?"},
-                    Misuse{"help rum", "no command is called 'rum'; did you mean 'run'?"},
-                    Misuse{"help nosuch", "no command is called 'nosuch'\n"},
-                    Misuse{"--completions",
-                           "--completions is given no value; expected --completions "},
-                    Misuse{"run", "DOMAIN is required"},
-                    Misuse{"run domain.rddl instance.rddl --episode=3",
-                           "unknown option '--episode'; did you mean '--episodes'?"},
-                    Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
-                    Misuse{"run domain.rddl instance.rddl --episodes 0",
-                           "--episodes: '0' is not an int from 1 to 100000000"},
-                    Misuse{"run domain.rddl instance.rddl --episodes abc",
-                           "--episodes: 'abc' is not an int from 1 to 100000000"},
-                    Misuse{"run domain.rddl instance.rddl --seed -1",
-                           "--seed: '-1' is not an int from 0 on"},
-                    Misuse{"run domain.rddl instance.rddl --seed",
-                           "--seed is given no value; expected --seed S: "},
-                    Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
-                           "--seed is given twice: '1' and '2'"},
-                    Misuse{"run domain.rddl instance.rddl --engine compield",
-                           "--engine: 'compield' is not one of compiled, interpreter; did you "
-                           "mean 'compiled'?"},
-                    Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
-                           "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
-                    Misuse{"run domain.rddl instance.rddl --json=maybe",
-                           "--json: 'maybe' is not true or false"},
-                    Misuse{"compare domain.rddl instance.rddl --policies ,",
-                           "--policies: a value is missing in ','; expected --policies "
-                           "POLICY,...: "},
-                    Misuse{"compare domain.rddl instance.rddl --policies noop,,random",
-                           "--policies: a value is missing in 'noop,,random'"},
-                    Misuse{"compare domain.rddl instance.rddl --policies noop,",
-                           "--policies: a value is missing in 'noop,'"},
-                    Misuse{"compare domain.rddl instance.rddl --policies ''",
-                           "--policies is given no value; expected --policies POLICY,...: "},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit abc",
-                           "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit -1",
-                           "--memory-limit: '-1' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 0",
-                           "--memory-limit: '0' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
-                           "--memory-limit: '4X' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
-                           "--memory-limit: '9999999999999G' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
-                           "--trace is given no value"},
-                    Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
-                    Misuse{"check", "name a problem, or say --all"},
-                    Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+    testing::Values(
+        Misuse{"", "name a command, such as 'rddl list'"},
+        Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
+        Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
+        Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
+        Misuse{"hlep", "no command is called 'hlep'; did you mean 'help'?"},
+        Misuse{"help rum", "no command is called 'rum'; did you mean 'run'?"},
+        Misuse{"help nosuch", "no command is called 'nosuch'\n"},
+        Misuse{"--completions", "--completions is given no value; expected --completions "},
+        Misuse{"run", "DOMAIN is required"},
+        Misuse{"run domain.rddl instance.rddl --episode=3",
+               "unknown option '--episode'; did you mean '--episodes'?"},
+        Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
+        Misuse{"run domain.rddl instance.rddl --episodes 0",
+               "--episodes: '0' is not an int from 1 to 100000000"},
+        Misuse{"run domain.rddl instance.rddl --episodes abc",
+               "--episodes: 'abc' is not an int from 1 to 100000000"},
+        Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: '-1' is not an int from 0 on"},
+        Misuse{"run domain.rddl instance.rddl --seed",
+               "--seed is given no value; expected --seed S: "},
+        Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
+               "--seed is given twice: '1' and '2'"},
+        Misuse{"run domain.rddl instance.rddl --engine compield",
+               "--engine: 'compield' is not one of compiled, interpreter; did you "
+               "mean 'compiled'?"},
+        Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
+               "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
+        Misuse{"run domain.rddl instance.rddl --json=maybe",
+               "--json: 'maybe' is not true or false"},
+        Misuse{"compare domain.rddl instance.rddl --policies ,",
+               "--policies: a value is missing in ','; expected --policies "
+               "POLICY,...: "},
+        Misuse{"compare domain.rddl instance.rddl --policies noop,,random",
+               "--policies: a value is missing in 'noop,,random'"},
+        Misuse{"compare domain.rddl instance.rddl --policies noop,",
+               "--policies: a value is missing in 'noop,'"},
+        Misuse{"compare domain.rddl instance.rddl --policies ''",
+               "--policies is given no value; expected --policies POLICY,...: "},
+        Misuse{"run domain.rddl instance.rddl --memory-limit abc",
+               "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit -1",
+               "--memory-limit: '-1' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 0",
+               "--memory-limit: '0' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
+               "--memory-limit: '4X' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
+               "--memory-limit: '9999999999999G' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
+               "--trace is given no value"},
+        Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
+        Misuse{"check", "name a problem, or say --all"},
+        Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
 
 TEST_F(Program, ExplainsDiagnosticsAsTheCompilerDoes) {
     const auto page = std::filesystem::path(RDDL_EXAMPLES) / "../docs/diagnostics/E0203.md";
@@ -195,8 +194,31 @@ TEST_F(Program, DescribesAProblem) {
          {"tanks_1 (instance.rddl)", "12 steps", "at most 2 of 5 may differ from the default",
           "action choices   5: the default, or 4 changes of one value",
           "stochastic: water', reward", "Exponential, Normal", "mixed, concurrent",
-          "3 action-preconditions", "tank     object            3  t1, t2, t3", "[-2, 1]"})
+          "3 action-preconditions", "train ppo      yes\ntrain cgp      yes\n",
+          "tank     object            3  t1, t2, t3", "[-2, 1]"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
+}
+
+// As training would refuse it, but without a step.
+TEST_F(Program, TellsWhichLearnersTakeAProblem) {
+    write_file(folder_ / "idle.rddl",
+               "domain idle { pvariables { x : { state-fluent, real, default = 1.0 }; };\n"
+               "  cpfs { x' = x; }; reward = x; }");
+    write_file(folder_ / "idle_1.rddl",
+               "instance idle_1 { domain = idle; horizon = 3; discount = 1.0; }");
+    const Outcome outcome = run("info idle.rddl idle_1.rddl");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string reason =
+        "there is nothing to choose in this problem: it has no action but the default";
+    EXPECT_NE(
+        outcome.out.find("train ppo      no: " + reason + "\ntrain cgp      no: " + reason + "\n"),
+        std::string::npos)
+        << outcome.out;
+    const json learners = run_json("info idle.rddl idle_1.rddl --json")["learners"];
+    EXPECT_EQ(learners["ppo"], (json{{"takes", false}, {"reason", reason}}));
+    const Outcome trained = run("train cgp idle.rddl idle_1.rddl --engine interpreter");
+    EXPECT_EQ(trained.status, 1);
+    EXPECT_NE(trained.err.find(reason), std::string::npos) << trained.err;
 }
 
 TEST_F(Program, DescribesAProblemAsJson) {

@@ -28,6 +28,7 @@ ExitStatus info(const InfoOptions& options) {
     description.characteristics = characteristics_of(description.model);
     description.simulator =
         interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
+    description.refusals = solvers::refusals(*description.simulator);
     if (options.json)
         fmt::print("{}", json_document(description_json(description)));
     else
@@ -41,7 +42,8 @@ Command info_command() {
     const auto options = std::make_shared<InfoOptions>();
     Command command;
     command.name = "info";
-    command.summary = "Show fluents, sizes and characteristics of a problem";
+    command.summary =
+        "Show fluents, sizes and characteristics of a problem, and which learners take it";
     command.details =
         "Examples:\n"
         "  rddl info domain.rddl instance.rddl\n"

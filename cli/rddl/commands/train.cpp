@@ -5,6 +5,7 @@
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainee.hpp"
+#include "solvers/spaces/refusals.hpp"
 #include "support/files.hpp"
 #include "support/memory.hpp"
 #include "support/program.hpp"
@@ -34,14 +35,6 @@ std::filesystem::path folder_of(const TrainOptions& options, const rddl_problem&
     if (!options.folder.empty()) return options.folder;
     return std::filesystem::path("runs") /
            fmt::format("{}_{}_{}", problem.instance, solver, options.training.seed);
-}
-
-// An episode that nothing ends would never be learned from.
-void require_an_end_to_learn(const rddl_problem& problem) {
-    if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
-        throw Failure(
-            "nothing ends an episode of this problem: it has no horizon, no termination "
-            "and no invariant");
 }
 
 ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simulator,
@@ -116,7 +109,7 @@ void choose_rollout(const rddl_simulator& simulator, solvers::PpoOptions& ppo, b
 ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
-    require_an_end_to_learn(*simulator.problem);
+    solvers::require_an_end_to_learn(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
     ppo.memory_limit = options.problem.memory_limit;

@@ -106,6 +106,10 @@ Json characteristics_json(const Characteristics& c) {
             {"features", c.features}};
 }
 
+Json learner_json(const std::optional<std::string>& refusal) {
+    return {{"takes", !refusal}, {"reason", refusal ? Json(*refusal) : Json(nullptr)}};
+}
+
 }  // namespace
 
 Json description_json(const ProblemDescription& d) {
@@ -129,6 +133,8 @@ Json description_json(const ProblemDescription& d) {
              problem.max_nondef_actions < 0 ? Json(nullptr) : Json(problem.max_nondef_actions)},
             {"action_choices", d.simulator->action_choice_count(d.simulator.get())},
             {"characteristics", characteristics_json(c)},
+            {"learners",
+             {{"ppo", learner_json(d.refusals.ppo)}, {"cgp", learner_json(d.refusals.cgp)}}},
             {"sizes", sizes},
             {"types", types_json(d.model)},
             {"fluents", fluents},

@@ -186,7 +186,11 @@ std::string actions_text(const Characteristics& c) {
     return kind + (c.concurrent() ? ", concurrent" : ", one at a time");
 }
 
-std::string characteristics_section(const Characteristics& c) {
+std::string learner_text(const std::optional<std::string>& refusal) {
+    return refusal ? "no: " + *refusal : "yes";
+}
+
+std::string characteristics_section(const Characteristics& c, const solvers::Refusals& refusals) {
     Table table({{""}, {""}});
     const auto add = [&](const char* what, const std::string& text) {
         std::string title = what;
@@ -205,14 +209,16 @@ std::string characteristics_section(const Characteristics& c) {
                                   counted(c.invariants, "state-invariant"),
                                   counted(c.terminations, "termination")));
     if (!c.features.empty()) add("language", fmt::format("{}", fmt::join(c.features, ", ")));
+    add("train ppo", learner_text(refusals.ppo));
+    add("train cgp", learner_text(refusals.cgp));
     return '\n' + table.text();
 }
 
 }  // namespace
 
 std::string description_text(const ProblemDescription& d) {
-    return general_section(d) + characteristics_section(d.characteristics) + sizes_section(d) +
-           objects_section(d.model) + fluents_section(d) + policy_section(d);
+    return general_section(d) + characteristics_section(d.characteristics, d.refusals) +
+           sizes_section(d) + objects_section(d.model) + fluents_section(d) + policy_section(d);
 }
 
 }  // namespace rddlc::cli

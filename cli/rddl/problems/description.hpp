@@ -5,6 +5,7 @@
 #include "model/model.hpp"
 #include "problems/characteristics.hpp"
 #include "problems/problem_lookup.hpp"
+#include "solvers/spaces/refusals.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +17,8 @@ struct ProblemDescription {
     ProblemFiles files;
     model::Model model;
     Characteristics characteristics;
-    Simulator simulator;  // for bounds, offsets and sizes
+    Simulator simulator;         // for bounds, offsets and sizes
+    solvers::Refusals refusals;  // of learners
 };
 
 // Tables, at most about 100 columns wide.
