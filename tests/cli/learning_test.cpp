@@ -334,6 +334,9 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
             "try a smaller --rollout, --envs or --stack, or a larger --memory-limit");
     refuses(on_tanks("train ppo", "--recurrent 16384"), "try smaller --hidden, --recurrent");
     refuses(on_tanks("train ppo", "--envs 1048576 --rollout 1048576"), "less than 2^31 steps");
+    refuses(on_tanks("train cgp", "--lambda 65536 --episodes 1000000"),
+            "try a smaller --lambda, --episodes or --islands, or a larger --memory-limit");
+    refuses(on_tanks("train cgp", "--cols 1000000 --lambda 60000"), "CGP would take about ");
     // Where nobody asks for so many steps, fewer are made.
     const Outcome fitting = run(on_tanks("train ppo", "--steps 100 --memory-limit 2M --out f"));
     EXPECT_EQ(fitting.status, 0) << fitting.err;

@@ -298,6 +298,7 @@ ExitStatus train_cgp(const TrainCgpOptions& options, const solvers::Ranks& ranks
     const rddl_simulator& simulator = *problem.simulator;
     solvers::CgpOptions cgp = options.cgp;
     cgp.seed = options.training.seed;
+    cgp.memory_limit = options.problem.memory_limit;
     cgp.stops = stops_of(ranks);
     if (!options.functions.empty()) cgp.functions = solvers::functions_named(options.functions);
     return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp, ranks), ranks);
