@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solvers/cgp/evaluator.hpp"
+#include "solvers/cgp/room.hpp"
 #include "solvers/cgp/search.hpp"
 
 #include <algorithm>
@@ -19,7 +20,21 @@ namespace rddlc::solvers {
 // A program that the record shall be beaten by plays so many more episodes, which are the same for
 // all of them.
 inline constexpr std::int64_t confirmations = 64;
-inline constexpr std::size_t most_remembered = 1 << 20;
+
+// How many programs play how many episodes of the first round, of the others and to confirm a
+// record; the last two where anything is drawn at random.
+struct EvaluatorSize {
+    std::int64_t programs, episodes;
+};
+inline std::vector<EvaluatorSize> evaluator_sizes(const CgpOptions& options) {
+    const std::int64_t few = std::max(1, options.episodes / 4);
+    std::vector<EvaluatorSize> sizes = {{std::int64_t{options.children} + 1, few}};
+    if (options.episodes == 1) return sizes;
+    // A father and a quarter of the children play all episodes.
+    sizes.push_back({1 + std::max(1, options.children / 4), options.episodes - few});
+    sizes.push_back({1, confirmations});
+    return sizes;
+}
 
 inline bool beats(const Fitness& a, const Fitness& b) {
     if (a.value != b.value) return a.value > b.value;
@@ -82,14 +97,15 @@ class Island {
           shape_{scope.input_count(), options.constants, options.nodes,   scope.output_count(),
                  options.levels_back, options.functions, options.skdecide},
           random_(options.seed, static_cast<std::uint64_t>(number)),
-          first_round_(simulator, scope, options.children + 1, std::max(1, options.episodes / 4)),
-          others_(options.episodes > 1
-                      ? std::make_unique<Evaluator>(simulator, scope, kept(),
-                                                    options.episodes - first_round_.episodes())
-                      : nullptr),
-          confirmation_(options.episodes > 1
-                            ? std::make_unique<Evaluator>(simulator, scope, 1, confirmations)
-                            : nullptr) {
+          sizes_(evaluator_sizes(options)),
+          first_round_(simulator, scope, sizes_[0].programs, sizes_[0].episodes),
+          most_remembered_(most_remembered(options)) {
+        if (is_noisy()) {
+            others_ = std::make_unique<Evaluator>(simulator, scope, sizes_[1].programs,
+                                                  sizes_[1].episodes);
+            confirmation_ = std::make_unique<Evaluator>(simulator, scope, sizes_[2].programs,
+                                                        sizes_[2].episodes);
+        }
         father_ = random_genome(shape_, random_);
         record_ = father_;
         if (options.episodes == 1) {
@@ -98,8 +114,7 @@ class Island {
         }
     }
 
-    // A father and a quarter of the children play all episodes.
-    std::int64_t kept() const { return 1 + std::max(1, options_.children / 4); }
+    std::int64_t kept() const { return sizes_[1].programs; }
     bool is_noisy() const { return options_.episodes > 1; }
 
     void generation() {
@@ -182,7 +197,7 @@ class Island {
         first_round_.evaluate(pointers, {&seed, 1}, returns.data(), lengths.data(),
                               is_exploring() ? reach.data() : nullptr);
         episodes_ += static_cast<std::int64_t>(programs.size());
-        if (known_.size() > most_remembered) known_.clear();
+        if (known_.size() >= most_remembered_) known_.clear();
         for (std::size_t p = 0; p < programs.size(); ++p) {
             Fitness& fitness = all[places[p]];
             fitness.value = returns[p];
@@ -354,6 +369,7 @@ class Island {
     const CgpOptions& options_;
     GenomeShape shape_;
     Random random_;
+    std::vector<EvaluatorSize> sizes_;
     Evaluator first_round_;
     std::unique_ptr<Evaluator> others_, confirmation_;
     Genome father_, record_;
@@ -364,6 +380,7 @@ class Island {
     std::uint64_t confirmed_ = 0;
     double start_value_ = std::numeric_limits<double>::infinity(), mean_of_children_ = 0,
            deviation_ = 0.3;
+    std::size_t most_remembered_;
     std::unordered_map<std::uint64_t, Fitness> known_;
 };
 

@@ -1,6 +1,7 @@
 #include "solvers/cgp/search.hpp"
 
 #include "solvers/cgp/island.hpp"
+#include "solvers/cgp/room.hpp"
 #include "solvers/cgp/skdecide.hpp"
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
@@ -65,6 +66,7 @@ struct CgpSearch::State {
                     : program_scope(simulator, options.lifting, options.time, options.seed)),
           share(rddl::share_of(ranks.number, ranks.count, options.islands, 1)),
           team(std::min(options.threads, static_cast<int>(share.end - share.begin))) {
+        require_room(simulator, scope, options, share.end - share.begin);
         for (std::int64_t i = share.begin; i < share.end; ++i)
             islands.push_back(
                 std::make_unique<Island>(simulator, scope, options, static_cast<int>(i)));

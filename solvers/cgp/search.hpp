@@ -12,6 +12,7 @@
 #include "solvers/cgp/genome.hpp"
 #include "solvers/cgp/scope.hpp"
 #include "solvers/ranks/ranks.hpp"
+#include "support/memory.hpp"
 
 #include <rddl/simulator.h>
 
@@ -41,6 +42,7 @@ struct CgpOptions {
     std::int64_t migrate_every = 50;  // generations
     int islands = 0;                  // 0: one for each rank
     int threads = 1;
+    std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
     Lifting lifting = Lifting::Auto;
     bool parsimony = true;  // of programs that are as good, a smaller one is better
     bool time = false;      // programs read how much of the episode is over

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -199,6 +200,8 @@ class EpisodeBatch {
         if (causes_[i] != RDDL_RUNNING) end_episode(i);
         if (causes_[i] & RDDL_TRUNCATED_INVARIANT) note(first_broken_invariant_, i);
         if (causes_[i] & RDDL_FAULTED) return;  // a step that faults is not made
+        if (!std::isfinite(rewards_[i]) && episode.not_finite_step < 0)
+            episode.not_finite_step = episode.length;
         episode.length += 1;
         episode.undiscounted_return += rewards_[i];
         episode.discounted_return += discounts_[i] * rewards_[i];

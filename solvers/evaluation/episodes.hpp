@@ -36,6 +36,7 @@ struct Episode {
     std::int64_t length = 0;  // steps
     std::uint8_t causes = RDDL_RUNNING;
     std::int64_t illegal_actions = 0;  // those that violate a precondition; 0 if nobody looks
+    std::int64_t not_finite_step = -1;  // the first whose reward is inf or nan; -1: none
     bool refused = false;              // ended by such an action, which was not taken
 };
 

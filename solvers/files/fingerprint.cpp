@@ -1,7 +1,6 @@
 #include "solvers/files/fingerprint.hpp"
 
 #include <bit>
-#include <string_view>
 
 namespace rddlc::solvers {
 
@@ -41,6 +40,12 @@ std::uint64_t fingerprint(const rddl_simulator& simulator) {
         hash.add(fluent.name);
         hash.add(fluent.count);
     }
+    return hash.value;
+}
+
+std::uint64_t checksum(std::string_view bytes) {
+    Hash hash;
+    hash.add(bytes);
     return hash.value;
 }
 

@@ -1,13 +1,17 @@
-// A number that tells problems apart.
+// Numbers that tell problems, or files, apart.
 #pragma once
 
 #include <rddl/simulator.h>
 
 #include <cstdint>
+#include <string_view>
 
 namespace rddlc::solvers {
 
 // Of the names of domain, instance and fluents, their sizes, the horizon and the discount.
 std::uint64_t fingerprint(const rddl_simulator& simulator);
+
+// Another one for bytes of which a single one is another. Against bad luck, not bad will.
+std::uint64_t checksum(std::string_view bytes);
 
 }  // namespace rddlc::solvers

@@ -2,6 +2,8 @@
 
 #include <rddl/random.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -184,7 +186,8 @@ void Collector::step(Experience& experience, std::int64_t t) {
         float* const features = features_.data() + e * static_cast<std::size_t>(width);
         const float* const values = observations_.data() + e * static_cast<std::size_t>(columns);
         const bool faulted = causes_[e] & RDDL_FAULTED;  // a step that faults is not made
-        const double reward = faulted || !std::isfinite(rewards_[e]) ? 0 : rewards_[e];
+        const double reward = faulted ? 0 : rewards_[e];
+        if (!std::isfinite(reward)) throw not_finite(e);
         experience.rewards[sample] = static_cast<float>(reward);
         running_returns_[e] = running_returns_[e] * gamma_ + reward;
         return_moments_[e].add(running_returns_[e] - return_origin);
@@ -223,6 +226,14 @@ void Collector::step(Experience& experience, std::int64_t t) {
         seen_.begin_episode(e, features);
         experience.novelties[sample] = 0;
     }
+}
+
+Failure Collector::not_finite(std::size_t e) const {
+    return Failure(
+        fmt::format("PPO learns from finite rewards alone: the reward of step {} of an episode of "
+                    "environment {} is {}",
+                    steps_[e], first_ + static_cast<std::int64_t>(e), rewards_[e]),
+        "'rddl run --policy random --trace' shows what leads to such rewards");
 }
 
 // Of the state that comes next in its episode.

@@ -58,6 +58,7 @@ class Collector {
     void note_memories(Experience& experience, int part);
     float value_of(std::int64_t e, const float* features);
     void count_features(std::size_t e);
+    Failure not_finite(std::size_t e) const;  // of the reward
 
     const rddl_simulator& simulator_;
     const PpoModel& model_;

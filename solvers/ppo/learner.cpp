@@ -216,7 +216,7 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
     const std::size_t chunks = parts(segments.size(), segments_per_chunk_);
     std::atomic<std::size_t> next = 0;
     const auto work = [&](int worker) {
-        for (std::size_t c = next++; c < chunks; c = next++) {
+        for (std::size_t c = next++; c < chunks && !is_stopped(); c = next++) {
             std::vector<float>& gradient = gradients_[c];
             std::fill(gradient.begin(), gradient.end(), 0.0f);
             sums_[c] = {};
@@ -227,6 +227,7 @@ LossSums Learner::learn(const Experience& experience, std::span<const std::uint3
         }
     };
     chunks > 1 ? team_.run(work) : work(0);
+    if (is_stopped()) return {};
 
     LossSums all = sums_[0];
     std::vector<float>& gradient = gradients_[0];

@@ -29,8 +29,8 @@ class Learner {
         double learning_rate, entropy_weight, kl_penalty;
     };
     // One step down the gradient of the mean loss of all ranks' samples, whose advantages have
-    // these moments about 0. Returns sums over all samples; throws a Failure if the gradient is not
-    // finite.
+    // these moments about 0. Returns sums over all samples, or, where options.stops tells so, zeros
+    // of a step that was not made; throws a Failure if the gradient is not finite.
     LossSums learn(const Experience& experience, std::span<const std::uint32_t> segments,
                    const Moments& advantages, const Step& step);
 
@@ -64,6 +64,7 @@ class Learner {
                     const LossWeights& weights, Tile& place, const float* inputs, float* d_memory,
                     float* gradient, LossSums& sums) const;
 
+    bool is_stopped() const { return options_.stops && options_.stops(); }
     // Gradient and sums of all ranks, in one message.
     void add_up(std::vector<float>& gradient, LossSums& sums);
 

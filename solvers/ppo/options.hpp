@@ -61,7 +61,8 @@ struct PpoOptions {
     std::uint64_t seed = 0;
     int threads = 1;
     std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
-    // Asked by all threads, often: whether an update shall end early. May be empty.
+    // Asked by all threads, often: whether an update shall end early. What it has done by then is
+    // no state of a whole run. May be empty.
     std::function<bool()> stops;
 };
 

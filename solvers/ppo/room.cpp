@@ -1,6 +1,7 @@
 #include "solvers/ppo/room.hpp"
 
 #include "solvers/batches/batch.hpp"
+#include "solvers/choosing/room.hpp"
 #include "solvers/ppo/collector.hpp"
 #include "solvers/ppo/learner.hpp"
 #include "support/failure.hpp"
@@ -51,27 +52,21 @@ double networks(const PpoModel& model, const PpoOptions& options) {
 double bytes_of_step(const PpoModel& model, const PpoOptions& options) {
     const ActionSpace& actions = model.actions;
     const double segment = bytes_of(model.memory.padded_units + 1);  // with its place in the order
-    constexpr int numbers = 8;  // rewards, values and the like
-    return bytes_of(model.input_row() + 2 * actions.real_count() + actions.index_count() +
-                    numbers) +
-           actions.mask_size() + 1 + sizeof(FinishedEpisode) + segment / longest_segment(options);
+    constexpr int numbers = 6;  // rewards, values and the like
+    return bytes_of(model.input_row() + numbers) + bytes_of_choice(actions) + 1 +
+           sizeof(FinishedEpisode) + segment / longest_segment(options);
 }
 
 double bytes_of_environment(const rddl_simulator& simulator, const PpoModel& model) {
     const ActionSpace& actions = model.actions;
-    const auto record = static_cast<double>(simulator.problem->action_size);
     const double features = model.features(), columns = model.observations.column_count();
     // As they are, the least and the greatest, and moments.
     double bytes = features * (3 * bytes_of(1) + sizeof(Moments)) + bytes_of(2 * columns);
-    bytes += bytes_of(actions.column_count + model.policy.padded_outputs() + actions.real_count() +
+    bytes += bytes_of(actions.column_count + model.policy.padded_outputs() +
                       model.memory.padded_units);
     if (model.noisy_units() > 0)
         bytes += bytes_of(model.deviation_count() + 2.0 * actions.real_count() + 1);
-    if (actions.masked || actions.may_be_illegal) bytes += record;
-    if (actions.masked) bytes += static_cast<double>(simulator.action_choice_count(&simulator));
-    if (actions.may_be_illegal)
-        bytes += bytes_of(actions.column_count + 1) + sizeof(MendingSearch);
-    bytes += sizeof(ChoiceKey) + sizeof(Moments) + 7 * sizeof(double) + 4;
+    bytes += sizeof(Moments) + 7 * sizeof(double) + 3.0 + bytes_of_chooser(simulator, actions);
     return bytes + static_cast<double>(bytes_per_environment(simulator));
 }
 

@@ -10,12 +10,14 @@ int main(int argc, char** argv) {
     CgpOptions options;
     SolverProgram program;
     program.solver = "cgp";
-    program.help = "  --gens N  --lambda N  --cols N  --islands N  --threads T\n";
+    program.help = "  --gens N  --lambda N  --cols N  --islands N  --threads T\n"
+        "  --memory-limit BYTES\n";
     add_number(program.options, "--gens", options.generations);
     add_number(program.options, "--lambda", options.children);
     add_number(program.options, "--cols", options.nodes);
     add_number(program.options, "--islands", options.islands);
     add_number(program.options, "--threads", options.threads);
+    add_number(program.options, "--memory-limit", options.memory_limit);
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;
         return cgp_trainee(simulator, options, ranks);

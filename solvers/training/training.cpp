@@ -2,6 +2,7 @@
 
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/training/checkpoint_file.hpp"
 #include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
 #include "support/json_text.hpp"
@@ -13,6 +14,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -61,6 +63,20 @@ class RunFolder {
     int descriptor_ = -1;
 };
 
+// The first episode of which the return is not finite, in a sentence.
+std::string what_is_not_finite(const Rollouts& rollouts) {
+    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
+        const Episode& episode = rollouts.episodes[e];
+        if (episode.not_finite_step >= 0)
+            return fmt::format("the reward of step {} of episode {} is not finite",
+                               episode.not_finite_step, e);
+        if (!std::isfinite(episode.undiscounted_return))
+            return fmt::format("the rewards of episode {} add up to {}", e,
+                               episode.undiscounted_return);
+    }
+    return "the returns add up to more than a number holds";
+}
+
 class Training {
   public:
     Training(const rddl_simulator& simulator, const Trainee& trainee,
@@ -71,14 +87,9 @@ class Training {
         open_folder();
         begin_ = last_shown_ = last_saved_ = Clock::now();
         bool stops = false;
-        while (!stops && !trainee_.done()) {
-            trainee_.update();
-            const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
-                                                         static_cast<double>(options_.evaluations);
-            const bool promises = options_.stop_return && trainee_.best_known &&
-                                  trainee_.best_known() >= *options_.stop_return;
-            if (due || promises) evaluate();
-            log();
+        if (owes_evaluation_) finish_update();
+        while (!stops && !trainee_.done() && update()) {
+            finish_update();
             show(false);
             agree();
             stops = result_.interrupted || ends_by_time_ || result_.reached;
@@ -90,8 +101,13 @@ class Training {
         show(true);
         save(before);
         result_.seconds = elapsed();
+        result_.has_best = has_best_;
         result_.best_return = best_return_;
         result_.best_length = best_length_;
+        if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
+            throw Failure(
+                fmt::format("no evaluation has a finite return: {}", result_.not_finite),
+                "'rddl run --trace' shows what leads there");
         return result_;
     }
 
@@ -126,13 +142,47 @@ class Training {
         saves_ = flags[2] > 0;
     }
 
-    // The likeliest actions, on seeds that are the same for all evaluations.
-    void evaluate() {
+    // False where it was interrupted: then all is as it was before, so that a run that goes on is
+    // the same to the byte.
+    bool update() {
+        if (!trainee_.ends_early) {
+            trainee_.update();
+            return true;
+        }
+        const std::string before = trainee_.save();
+        trainee_.update();
+        result_.interrupted = options_.stops && options_.stops();
+        if (result_.interrupted) trainee_.load(before);
+        return !result_.interrupted;
+    }
+
+    // What is to be done after it. A run that was interrupted meanwhile does it when it goes on.
+    void finish_update() {
+        const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
+                                                     static_cast<double>(options_.evaluations);
+        const bool promises = options_.stop_return && trainee_.best_known &&
+                              trainee_.best_known() >= *options_.stop_return;
+        owes_evaluation_ = (due || promises) && !evaluate();
+        if (!owes_evaluation_) log();
+    }
+
+    // The likeliest actions, on seeds that are the same for all evaluations. False, and nothing is
+    // known of them, where an interrupt came and they take long.
+    bool evaluate() {
         EpisodeOptions episodes;
         episodes.episodes = simulator_.problem->stochastic ? options_.evaluation_episodes : 1;
         episodes.seed = options_.seed + 0x65766131;
         if (simulator_.problem->horizon == 0) episodes.horizon = 1000;
-        const Rollouts rollouts = run_episodes(simulator_, trainee_.policy(), episodes, {});
+        const Clock::time_point begin = Clock::now();
+        Watch watch;
+        watch.stops = [&] {
+            return options_.stops && options_.stops() && seconds_between(begin, Clock::now()) > 1;
+        };
+        const Rollouts rollouts = run_episodes(simulator_, trainee_.policy(), episodes, watch);
+        const auto is_finished = [](const Episode& episode) {
+            return episode.finished;
+        };
+        if (options_.ranks.any(!std::ranges::all_of(rollouts.episodes, is_finished))) return false;
         const Summary summary = summary_of(rollouts);
         evaluated_ = true;
         evaluated_at_ = trainee_.steps();
@@ -144,16 +194,20 @@ class Training {
         result_.faulted = summary.faulted;
         if (rollouts.first_fault) result_.first_fault = rollouts.first_fault->message;
         // Of episodes with the same return, those that reach their end sooner are better.
+        const bool is_finite = std::isfinite(last_return_);
+        result_.not_finite = is_finite ? "" : what_is_not_finite(rollouts);
         const bool better =
-            !has_best_ || std::isnan(best_return_) || last_return_ > best_return_ ||
+            !has_best_ || last_return_ > best_return_ ||
             (last_return_ == best_return_ && summary.terminated > 0 && last_length_ < best_length_);
-        if (better) {
+        if (is_finite && better) {
             has_best_ = true;
             best_return_ = last_return_;
             best_length_ = last_length_;
             best_policy_ = trainee_.policy_text();
         }
-        if (options_.stop_return && last_return_ >= *options_.stop_return) result_.reached = true;
+        if (options_.stop_return && is_finite && last_return_ >= *options_.stop_return)
+            result_.reached = true;
+        return true;
     }
 
     void log() {
@@ -177,7 +231,7 @@ class Training {
         const std::string begin = fmt::format("{} {} {:3.0f} %  ", trainee_.solver,
                                               simulator_.problem->instance, 100 * part);
         std::string end;
-        if (evaluated_) end += fmt::format("  best {:.6g}", best_return_);
+        if (has_best_) end += fmt::format("  best {:.6g}", best_return_);
         if (last)
             end += fmt::format("  in {}", time_text(seconds));
         else if (part > 0)
@@ -230,26 +284,63 @@ class Training {
         SavingArchive archive;
         archive.append(state);
         archive(learner);
-        write("checkpoint", archive.bytes());
+        write("checkpoint", sealed(archive.bytes()));
     }
 
     void load() {
         const std::filesystem::path path = file("checkpoint");
         const Ranks& ranks = options_.ranks;
-        const std::string bytes = ranks.gather(ranks.is_first() ? read_file(path) : "").front();
+        if (ranks.is_first() && !is_there(path)) read_file(path);  // says so
         try {
+            const std::string bytes =
+                ranks.gather(ranks.is_first() ? read_sealed(path, options_.memory_limit) : "")
+                    .front();
             LoadingArchive archive(bytes);
             archive_all(archive);
             std::string learner;
             archive(learner);
             trainee_.load(learner);
         } catch (const Failure& failure) {
-            throw Failure(fmt::format("cannot go on from '{}': {}", path.string(), failure.what()));
+            throw Failure(fmt::format("cannot go on from '{}': {}", path.string(), failure.what()),
+                          failure.hint);
         }
+    }
+
+    // All that has to be as it was.
+    Settings settings() const {
+        Settings all = {{"--seed", std::to_string(options_.seed)},
+                        {"--evaluations", std::to_string(options_.evaluations)},
+                        {"--evaluation-episodes", std::to_string(options_.evaluation_episodes)}};
+        for (const Settings* const some : {&options_.settings, &trainee_.settings})
+            all.insert(all.end(), some->begin(), some->end());
+        return all;
+    }
+
+    void archive_settings(SavingArchive& archive) const {
+        std::string text;
+        for (const auto& [name, value] : settings()) text += name + "=" + value + "\n";
+        archive(text);
+    }
+    void archive_settings(LoadingArchive& archive) const {
+        std::string text, others;
+        archive(text);
+        for (const auto& [name, value] : settings()) {
+            const std::size_t at = ("\n" + text).find("\n" + name + "=");
+            if (at == std::string::npos) continue;  // of another solver, which its bytes tell
+            const std::size_t begin = at + name.size() + 1;
+            const std::string was = text.substr(begin, text.find('\n', begin) - begin);
+            if (was != value)
+                others += fmt::format("{}{} was {} and is {}", others.empty() ? "" : ", ", name,
+                                      was, value);
+        }
+        if (!others.empty())
+            throw Failure("it is of a run with other options: " + others,
+                          "go on with the options of that run, or begin one with another --out");
     }
 
     template <class Archive>
     void archive_all(Archive& archive) {
+        archive_settings(archive);
         double seconds = elapsed();
         archive(seconds);
         if constexpr (Archive::is_loading) seconds_before_ = seconds;
@@ -262,6 +353,7 @@ class Training {
         archive(best_return_);
         archive(best_length_);
         archive(best_policy_);
+        archive(owes_evaluation_);
         log_.archive(archive);
     }
 
@@ -274,7 +366,7 @@ class Training {
     RunLog log_;
     Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;
     double seconds_before_ = 0;  // of runs that this one goes on with
-    bool evaluated_ = false, has_best_ = false;
+    bool evaluated_ = false, has_best_ = false, owes_evaluation_ = false;
     std::int64_t evaluated_at_ = 0, evaluations_ = 0;
     double last_return_ = 0, last_length_ = 0, best_return_ = 0, best_length_ = 0;
     std::string best_policy_;

@@ -3,6 +3,7 @@
 
 #include "solvers/policies/policy.hpp"
 #include "solvers/ranks/ranks.hpp"
+#include "support/memory.hpp"
 
 #include <rddl/simulator.h>
 
@@ -19,9 +20,14 @@ namespace rddlc::solvers {
 // What is known after an update, under the names that Stable-Baselines3 has for it.
 using Row = std::vector<std::pair<std::string, double>>;
 
+// Options that change what is learned, as they are given: "--lr", "0.0003".
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 // A solver at work, as the training sees it.
 struct Trainee {
     std::string solver;                   // "ppo"
+    Settings settings;                    // a run goes on with the same
+    bool ends_early = false;              // update() does where TrainingOptions::stops says so
     std::function<void()> update;         // a little more work
     std::function<bool()> done;           // all that was asked for
     std::function<std::int64_t()> steps;  // made, or whatever progress is measured in
@@ -44,6 +50,8 @@ struct TrainingOptions {
     std::int64_t evaluations = 20;      // in all; the best policy of them is kept
     std::int64_t evaluation_episodes = 20;
     std::uint64_t seed = 0;
+    Settings settings = {};  // of the simulator, as those of the trainee
+    std::int64_t memory_limit = default_memory_limit;  // bytes of a checkpoint that is read
     bool quiet = false;
     std::function<bool()> stops;  // Ctrl-C; may be empty
     Ranks ranks;                  // which train together; the first one writes and tells
@@ -53,9 +61,11 @@ struct TrainingResult {
     bool interrupted = false;
     bool reached = false;  // stop_return
     double seconds = 0;
+    bool has_best = false;  // false where an interrupt came before the first evaluation
     double best_return = 0, best_length = 0;  // mean of the best evaluation
     std::int64_t episodes = 0, faulted = 0;   // of the last evaluation
     std::string first_fault;                  // of all of them; its message
+    std::string not_finite;  // where the last evaluation's return is not: what has made it so
 };
 
 // How many digits people read: "1.5 M", "812".
@@ -64,7 +74,8 @@ std::string count_text(double count);
 // Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
 // events.out.tfevents.rddl, run.json (the solver, the problem and the seed), checkpoint. All are
 // written whole or not at all. Throws a Failure where the folder holds another run, nothing to
-// resume, or a run that goes on in another process.
+// resume, or a run that goes on in another process; and at its end where no evaluation had a finite
+// return.
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 

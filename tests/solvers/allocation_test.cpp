@@ -2,6 +2,7 @@
 #include "../counted_allocations.hpp"
 #include "simulators.hpp"
 #include "solvers/cgp/evaluator.hpp"
+#include "solvers/cgp/room.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainer.hpp"
@@ -73,6 +74,35 @@ TEST(Allocations, OfPpoAreKnownBefore) {
                                4 * static_cast<double>(parameter_count(model));  // evaluations
             EXPECT_LT(taken, 1.1 * (room.all() - room.files) + 100'000);
             EXPECT_GT(taken, 0.9 * (room.all() - room.files) - 100'000);
+        }
+}
+
+TEST(Allocations, OfCgpAreKnownBefore) {
+    CgpOptions small;
+    small.generations = 10;
+    small.children = 4;
+    small.nodes = 20;
+    small.islands = 1;
+    std::vector<CgpOptions> all(5, small);
+    all[0].episodes = 1000;
+    all[1].children = 600;
+    all[2].nodes = 30'000;
+    all[3].islands = 200;
+    all[4].skdecide = true;
+    all[4].children = 400;
+    for (const rddl_simulator* simulator : simulators())
+        for (CgpOptions& options : all) {
+            SCOPED_TRACE(simulator->problem->domain + fmt::format(", {}", &options - all.data()));
+            if (options.skdecide && simulator != simulators().front()) continue;
+            if (options.episodes == 0) options.episodes = simulator->problem->stochastic ? 16 : 1;
+            const std::int64_t before = live_bytes;
+            CgpSearch search(*simulator, options);
+            search.run(1);
+            const double all_of_it =
+                room_of(*simulator, search.scope(), options, options.islands).all();
+            const auto taken = static_cast<double>(live_bytes - before);
+            EXPECT_LT(taken, 1.1 * all_of_it + 200'000);
+            EXPECT_GT(taken, 0.25 * all_of_it - 200'000);
         }
 }
 

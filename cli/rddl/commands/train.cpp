@@ -37,22 +37,36 @@ std::filesystem::path folder_of(const TrainOptions& options, const rddl_problem&
            fmt::format("{}_{}_{}", problem.instance, solver, options.training.seed);
 }
 
+// Whether an update may end before it is done: ranks that work together end between updates, where
+// they decide alike.
+std::function<bool()> stops_of(const solvers::Ranks& ranks) {
+    if (ranks.count > 1) return {};
+    return is_interrupted;
+}
+
 ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simulator,
                         const solvers::Trainee& trainee, const solvers::Ranks& ranks) {
     solvers::TrainingOptions training = options.training;
     training.ranks = ranks;
     training.quiet |= !ranks.is_first();
+    training.memory_limit = options.problem.memory_limit;
+    training.settings = {{"--real", options.load.real == RealType::Float ? "float" : "double"},
+                         {"--fast-math", options.load.passes.fast_math ? "true" : "false"}};
     training.stops = is_interrupted;
+    give_up_if_interrupted("making the learner");
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
     const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
-    if (!training.quiet)
+    if (!training.quiet && result.has_best)
         fmt::print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
                    number_text(result.best_length), duration_text(result.seconds),
                    training.folder.string());
-    if (!training.quiet && trainee.summary) fmt::print("{}", trainee.summary());
+    if (!training.quiet && result.has_best && trainee.summary) fmt::print("{}", trainee.summary());
     if (!training.quiet && result.faulted > 0)
         tell("rddl: warning: {} of {} episodes of the last evaluation ended by a fault: {}\n",
              result.faulted, result.episodes, result.first_fault);
+    if (!training.quiet && !result.not_finite.empty())
+        tell("rddl: warning: the return of the last evaluation is not finite: {}\n",
+             result.not_finite);
     if (!result.interrupted) return success;
     if (!ranks.is_first()) return interrupted_status();
     tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,
@@ -112,6 +126,7 @@ ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks
     solvers::require_an_end_to_learn(*simulator.problem);
     solvers::PpoOptions ppo = options.ppo;
     ppo.seed = options.training.seed;
+    ppo.stops = stops_of(ranks);
     ppo.memory_limit = options.problem.memory_limit;
     if (!options.names_rollout)
         choose_rollout(simulator, ppo, options.training.quiet || !ranks.is_first());
@@ -276,6 +291,8 @@ ExitStatus train_cgp(const TrainCgpOptions& options, const solvers::Ranks& ranks
     const rddl_simulator& simulator = *problem.simulator;
     solvers::CgpOptions cgp = options.cgp;
     cgp.seed = options.training.seed;
+    cgp.memory_limit = options.problem.memory_limit;
+    cgp.stops = stops_of(ranks);
     if (!options.functions.empty()) cgp.functions = solvers::functions_named(options.functions);
     return run_training(options, simulator, solvers::cgp_trainee(simulator, cgp, ranks), ranks);
 }

@@ -1,0 +1,25 @@
+// What choosing takes in memory, in bytes.
+#pragma once
+
+#include "solvers/choosing/choosing.hpp"
+
+namespace rddlc::solvers {
+
+// Of a Chooser, for each environment.
+inline double bytes_of_chooser(const rddl_simulator& simulator, const ActionSpace& space) {
+    double bytes = sizeof(ChoiceKey) + 1.0 + sizeof(float) * 1.0 * space.real_count();
+    if (space.masked || space.may_be_illegal)
+        bytes += static_cast<double>(simulator.problem->action_size);
+    if (space.masked) bytes += static_cast<double>(simulator.action_choice_count(&simulator));
+    if (space.may_be_illegal)
+        bytes += sizeof(float) * (space.column_count + 1.0) + sizeof(MendingSearch);
+    return bytes;
+}
+
+// Of what is chosen, a row of each array of Chosen.
+inline double bytes_of_choice(const ActionSpace& space) {
+    return sizeof(float) * (2.0 * space.real_count() + 2) +
+           sizeof(std::int32_t) * 1.0 * space.index_count() + space.mask_size();
+}
+
+}  // namespace rddlc::solvers
