@@ -51,32 +51,29 @@ std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals&
     return all;
 }
 
-// Weights from inputs to outputs; those of an input to all outputs are a row of `row` numbers.
-void initialise(int inputs, int outputs, int row, double gain, Normals& normals, float* weights) {
+void initialise(const Weights<float>& weights, double gain, Normals& normals) {
+    const int inputs = weights.inputs, outputs = weights.outputs;
     const bool wide = inputs >= outputs;
     const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
     const std::vector<double> orthogonal = orthogonal_rows(rows, columns, gain, normals);
     for (int o = 0; o < outputs; ++o)
         for (int i = 0; i < inputs; ++i)
-            weights[i * row + o] = static_cast<float>(
+            weights(i, o) = static_cast<float>(
                 orthogonal[static_cast<std::size_t>(wide ? o * columns + i : i * columns + o)]);
 }
 
 void initialise(const Network& network, double last_gain, Normals& normals, float* parameters) {
     for (const Layer& layer : network.layers)
-        initialise(layer.inputs, layer.outputs, layer.padded_outputs,
-                   &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2, normals,
-                   parameters + layer.weights);
+        initialise(layer.weights_in(parameters),
+                   &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2, normals);
 }
 
 // Each of the three parts by itself.
 void initialise(const Gru& gru, Normals& normals, float* parameters) {
     const auto parts = gru_parts(gru);
     for (const GruPart& part : parts) {
-        initialise(gru.inputs, gru.units, gru.weight_row(), 1, normals,
-                   parameters + part.input_weights);
-        initialise(gru.units, gru.units, gru.weight_row(), 1, normals,
-                   parameters + part.state_weights);
+        initialise(input_weights(gru, part, parameters), 1, normals);
+        initialise(state_weights(gru, part, parameters), 1, normals);
     }
     std::fill_n(parameters + parts.back().bias, gru.units, 1.0f);
 }
