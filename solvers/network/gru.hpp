@@ -49,6 +49,16 @@ inline std::array<GruPart, 3> gru_parts(const Gru& gru) {
     return {part("candidate", 0, 2), part("reset", 1, 0), part("update", 2, 1)};
 }
 
+// Of a part, those from the inputs and those from the old state.
+template <class Real>
+Weights<Real> input_weights(const Gru& gru, const GruPart& part, Real* parameters) {
+    return {parameters + part.input_weights, gru.inputs, gru.units, gru.weight_row(), 1};
+}
+template <class Real>
+Weights<Real> state_weights(const Gru& gru, const GruPart& part, Real* parameters) {
+    return {parameters + part.state_weights, gru.units, gru.units, gru.weight_row(), 1};
+}
+
 Gru make_gru(int inputs, int units);
 
 // Steps of several samples side by side, in the order of the steps. Row r of a step goes on with

@@ -14,10 +14,10 @@ void gru_step(const Gru& gru, const Real* parameters, int count, const Real* x, 
     for (int s = 0; s < count; ++s)
         for (int v = 0; v < row; v += VectorOf<Real>::width)
             store(values + s * row + v, load(bias + v));
-    product<true>(count, 3 * units, gru.inputs, Strided<Real>{x, x_row, 1},
-                  parameters + gru.input_weights, 3 * units, values, row);
-    product<true>(count, 3 * units, gru.units, Strided<Real>{before, units, 1},
-                  parameters + gru.state_weights, 3 * units, values + units, row);
+    product(count, 3 * units, gru.inputs, Strided<Real>{x, x_row, 1},
+            parameters + gru.input_weights, 3 * units, Added<Real>{values, row});
+    product(count, 3 * units, gru.units, Strided<Real>{before, units, 1},
+            parameters + gru.state_weights, 3 * units, Added<Real>{values + units, row});
     for (int s = 0; s < count; ++s)
         for (int u = 0; u < units; u += VectorOf<Real>::width) {
             Real* const part = values + s * row + u;
@@ -79,8 +79,8 @@ void gru_step_back(const Gru& gru, const Real* rows, int count, const Real* befo
             store(part + 3 * units, d_candidate * reset);
             store(d_before + s * units + u, d * update);
         }
-    product<true>(count, units, 3 * units, Strided<Real>{values + units, row, 1}, rows, units,
-                  d_before, units);
+    product(count, units, 3 * units, Strided<Real>{values + units, row, 1}, rows, units,
+            Added<Real>{d_before, units});
 }
 
 template <class Real>
@@ -102,10 +102,10 @@ void gru_backward(const Gru& gru, const Real* rows, const Sequence& sequence, co
             if (!sequence.begins[first + s])
                 add_rows(1, units, scratch + s * units, d_last + s * units);
     }
-    product<true>(gru.inputs, 3 * units, all, Strided<Real>{x, 1, x_row}, values, row,
-                  gradient + gru.input_weights, 3 * units);
-    product<true>(gru.units, 3 * units, all, Strided<Real>{before, 1, units}, values + units, row,
-                  gradient + gru.state_weights, 3 * units);
+    product(gru.inputs, 3 * units, all, Strided<Real>{x, 1, x_row}, values, row,
+            Added<Real>{gradient + gru.input_weights, 3 * units});
+    product(gru.units, 3 * units, all, Strided<Real>{before, 1, units}, values + units, row,
+            Added<Real>{gradient + gru.state_weights, 3 * units});
     add_rows(all, row, values, gradient + gru.bias);
 }
 

@@ -22,7 +22,7 @@ inline Vector<Real, bytes> load(const Real* from) {
     return *reinterpret_cast<const Vector<Real, bytes>*>(from);
 }
 template <int bytes = RDDL_VECTOR_BYTES, class Real>
-inline void store(Real* to, const Vector<Real, bytes>& values) {
+inline void store(Real* to, Vector<Real, bytes> values) {
     *reinterpret_cast<Vector<Real, bytes>*>(to) = values;
 }
 
@@ -33,64 +33,114 @@ struct Strided {
     std::ptrdiff_t row, step;
 };
 
-// `rows` x `vectors` vectors of the result stay in registers.
-template <int rows, int vectors, bool adds, int bytes, class Real>
-inline void product_block(int depth, Strided<Real> a, const Real* b, std::ptrdiff_t b_row, Real* c,
-                          std::ptrdiff_t c_row) {
+// Where the sums of a product go: each begins with begin(r, c), and end(r, c, sum) takes it, while
+// they are in registers. Here they are added to a matrix.
+template <class Real>
+struct Added {
+    Real* to;
+    std::ptrdiff_t row;
+
+    template <int bytes>
+    Vector<Real, bytes> begin(int r, int c) const {
+        return load<bytes>(to + r * row + c);
+    }
+    template <int bytes>
+    void end(int r, int c, Vector<Real, bytes> sum) const {
+        store<bytes>(to + r * row + c, sum);
+    }
+};
+
+// From row r and column c on, `rows` x `vectors` vectors of sums stay in registers. To call it
+// would take a tenth of its time.
+template <int rows, int vectors, int bytes, class Real, class Sums>
+[[gnu::always_inline]] inline void product_block(int r, int c, int depth, Strided<Real> a,
+                                                 const Real* b, std::ptrdiff_t b_row,
+                                                 const Sums& sums) {
     constexpr int width = VectorOf<Real, bytes>::width;
-    Vector<Real, bytes> sums[rows][vectors];
+    a.data += r * a.row;
+    b += c;
+    Vector<Real, bytes> block[rows][vectors];
 #pragma GCC unroll 16
-    for (int r = 0; r < rows; ++r)
+    for (int i = 0; i < rows; ++i)
 #pragma GCC unroll 4
         for (int v = 0; v < vectors; ++v)
-            sums[r][v] = adds ? load<bytes>(c + r * c_row + v * width) : Vector<Real, bytes>{};
+            block[i][v] = sums.template begin<bytes>(r + i, c + v * width);
     for (int k = 0; k < depth; ++k) {
         Vector<Real, bytes> factors[vectors];
 #pragma GCC unroll 4
         for (int v = 0; v < vectors; ++v) factors[v] = load<bytes>(b + k * b_row + v * width);
 #pragma GCC unroll 16
-        for (int r = 0; r < rows; ++r) {
-            const Real factor = a.data[r * a.row + k * a.step];
+        for (int i = 0; i < rows; ++i) {
+            const Real factor = a.data[i * a.row + k * a.step];
 #pragma GCC unroll 4
-            for (int v = 0; v < vectors; ++v) sums[r][v] += factor * factors[v];
+            for (int v = 0; v < vectors; ++v) block[i][v] += factor * factors[v];
         }
     }
 #pragma GCC unroll 16
-    for (int r = 0; r < rows; ++r)
+    for (int i = 0; i < rows; ++i)
 #pragma GCC unroll 4
-        for (int v = 0; v < vectors; ++v) store<bytes>(c + r * c_row + v * width, sums[r][v]);
+        for (int v = 0; v < vectors; ++v)
+            sums.template end<bytes>(r + i, c + v * width, block[i][v]);
 }
 
-template <int vectors, bool adds, int bytes, class Real>
-inline void product_columns(int rows, int depth, Strided<Real> a, const Real* b,
-                            std::ptrdiff_t b_row, Real* c, std::ptrdiff_t c_row) {
+// As many sums at a time as hide how long each multiply-add takes, and leave registers for factors.
+template <int vectors, int bytes, class Real, class Sums>
+inline void product_columns(int rows, int c, int depth, Strided<Real> a, const Real* b,
+                            std::ptrdiff_t b_row, const Sums& sums) {
+    constexpr int most = vectors == 4 ? 4 : 6;
     int r = 0;
-    const auto at = [&](int row) {
-        return Strided<Real>{a.data + row * a.row, a.row, a.step};
-    };
-    for (; r + 6 <= rows; r += 6)
-        product_block<6, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
-    for (; r + 4 <= rows; r += 4)
-        product_block<4, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
-    for (; r + 2 <= rows; r += 2)
-        product_block<2, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
-    if (r < rows)
-        product_block<1, vectors, adds, bytes>(depth, at(r), b, b_row, c + r * c_row, c_row);
+    for (; r + most <= rows; r += most)
+        product_block<most, vectors, bytes>(r, c, depth, a, b, b_row, sums);
+    if constexpr (most > 4)
+        for (; r + 4 <= rows; r += 4)
+            product_block<4, vectors, bytes>(r, c, depth, a, b, b_row, sums);
+    for (; r + 2 <= rows; r += 2) product_block<2, vectors, bytes>(r, c, depth, a, b, b_row, sums);
+    if (r < rows) product_block<1, vectors, bytes>(r, c, depth, a, b, b_row, sums);
 }
 
-// c (+)= a b, where a is rows x depth and b depth x columns.
-template <bool adds, class Real>
+// a b, where a is rows x depth and b depth x columns.
+template <class Real, class Sums>
 inline void product(int rows, int columns, int depth, Strided<Real> a, const Real* b,
-                    std::ptrdiff_t b_row, Real* c, std::ptrdiff_t c_row) {
+                    std::ptrdiff_t b_row, const Sums& sums) {
     constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
-    int j = 0;
-    for (; j + 2 * wide <= columns; j += 2 * wide)
-        product_columns<2, adds, RDDL_WIDE_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
-    if constexpr (wide > width)
-        for (; j + 2 * width <= columns; j += 2 * width)
-            product_columns<2, adds, RDDL_VECTOR_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
-    for (; j < columns; j += width)
-        product_columns<1, adds, RDDL_VECTOR_BYTES>(rows, depth, a, b + j, b_row, c + j, c_row);
+    int c = 0;
+    if constexpr (wide > width) {  // there are twice as many registers, too
+        for (; c + 4 * wide <= columns; c += 4 * wide)
+            product_columns<4, RDDL_WIDE_BYTES>(rows, c, depth, a, b, b_row, sums);
+        for (; c + 2 * wide <= columns; c += 2 * wide)
+            product_columns<2, RDDL_WIDE_BYTES>(rows, c, depth, a, b, b_row, sums);
+    }
+    for (; c + 2 * width <= columns; c += 2 * width)
+        product_columns<2, RDDL_VECTOR_BYTES>(rows, c, depth, a, b, b_row, sums);
+    for (; c < columns; c += width)
+        product_columns<1, RDDL_VECTOR_BYTES>(rows, c, depth, a, b, b_row, sums);
+}
+
+// a b + bias for few columns, of which column o of b is the row o here. Rows of a and b have a
+// multiple of `padding` numbers; what pads rows of the result becomes 0.
+template <class Real>
+inline void dot_products(int rows, int columns, int depth, const Real* a, const Real* b,
+                         const Real* bias, Real* to, int row) {
+    constexpr int width = VectorOf<Real>::width;
+    for (int r = 0; r < rows; ++r, a += depth, to += row)
+        for (int o = 0; o < row; ++o) {
+            Real all = 0;
+            if (o < columns) {
+                Vector<Real> sums{};
+                for (int k = 0; k < depth; k += width)
+                    sums += load(a + k) * load(b + o * depth + k);
+                for (int i = 0; i < width; ++i) all += sums[i];
+                all += bias[o];
+            }
+            to[o] = all;
+        }
+}
+
+// sums += the rows of x.
+template <class Real>
+inline void add_rows(int rows, int columns, const Real* x, Real* sums) {
+    constexpr Real one = 1;
+    product(1, columns, rows, Strided<Real>{&one, 0, 0}, x, columns, Added<Real>{sums, 0});
 }
 
 template <int bytes = RDDL_VECTOR_BYTES>
@@ -132,8 +182,8 @@ struct Tanh {
     static Vector<Real, bytes> value(Vector<Real, bytes> sum) {
         return tanh_of<bytes>(sum);
     }
-    template <class Real>
-    static Vector<Real> derivative(Vector<Real> h, Vector<Real> d) {
+    template <class Real, int bytes>
+    static Vector<Real, bytes> derivative(Vector<Real, bytes> h, Vector<Real, bytes> d) {
         return d * (Real(1) - h * h);
     }
 };
@@ -142,40 +192,43 @@ struct Relu {
     static Vector<Real, bytes> value(Vector<Real, bytes> sum) {
         return sum < Real(0) ? Vector<Real, bytes>{} : sum;
     }
-    template <class Real>
-    static Vector<Real> derivative(Vector<Real> h, Vector<Real> d) {
-        return h > Real(0) ? d : Vector<Real>{};
+    template <class Real, int bytes>
+    static Vector<Real, bytes> derivative(Vector<Real, bytes> h, Vector<Real, bytes> d) {
+        return h > Real(0) ? d : Vector<Real, bytes>{};
     }
 };
 
-template <class End, int bytes, class Real>
-inline void add_bias_at(int c, const Real* bias, Real* x) {
-    const Vector<Real, bytes> sum = load<bytes>(x + c) + load<bytes>(bias + c);
-    store<bytes>(x + c, End::template value<Real, bytes>(sum));
-}
-
-// Rows of `columns` numbers: x = End::value(x + bias).
+// Sums of a layer's inputs become its results.
 template <class End, class Real>
-inline void add_bias(int rows, int columns, const Real* bias, Real* x) {
-    constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
-    for (int r = 0; r < rows; ++r, x += columns) {
-        int c = 0;
-        for (; c + wide <= columns; c += wide) add_bias_at<End, RDDL_WIDE_BYTES>(c, bias, x);
-        if constexpr (wide > width)
-            for (; c < columns; c += width) add_bias_at<End, RDDL_VECTOR_BYTES>(c, bias, x);
+struct Results {
+    const Real* bias;
+    Real* to;
+    std::ptrdiff_t row;
+
+    template <int bytes>
+    Vector<Real, bytes> begin(int, int c) const {
+        return load<bytes>(bias + c);
     }
-}
+    template <int bytes>
+    void end(int r, int c, Vector<Real, bytes> sum) const {
+        store<bytes>(to + r * row + c, End::template value<Real, bytes>(sum));
+    }
+};
 
-// d *= the derivative of h = End::value.
+// Derivatives by a layer's results h become those by the sums that they were made of.
 template <class End, class Real>
-inline void times_derivative(int count, const Real* h, Real* d) {
-    for (int i = 0; i < count; i += VectorOf<Real>::width)
-        store(d + i, End::template derivative<Real>(load(h + i), load(d + i)));
-}
+struct Derivatives {
+    const Real* h;
+    Real* to;
+    std::ptrdiff_t row;  // of both
 
-template <class Real>
-inline void add_rows(int rows, int columns, const Real* x, Real* sums) {
-    for (int r = 0; r < rows; ++r, x += columns)
-        for (int c = 0; c < columns; c += VectorOf<Real>::width)
-            store(sums + c, load(sums + c) + load(x + c));
-}
+    template <int bytes>
+    Vector<Real, bytes> begin(int, int) const {
+        return Vector<Real, bytes>{};
+    }
+    template <int bytes>
+    void end(int r, int c, Vector<Real, bytes> d) const {
+        const std::ptrdiff_t at = r * row + c;
+        store<bytes>(to + at, End::template derivative<Real, bytes>(load<bytes>(h + at), d));
+    }
+};

@@ -94,12 +94,16 @@ Network make_network(int inputs, const std::vector<int>& hidden, int outputs, in
         layer.outputs = width;
         layer.padded_inputs = padded(inputs);
         layer.padded_outputs = padded(width);
+        const bool is_first = network.layers.empty();
+        const bool is_last = network.layers.size() == hidden.size();
+        layer.by_outputs = is_last && !is_first && width <= padding / 2;
         layer.weights = network.parameters;
-        layer.bias = layer.weights + static_cast<std::size_t>(inputs) *
-                                         static_cast<std::size_t>(layer.padded_outputs);
+        layer.bias = layer.weights + static_cast<std::size_t>(layer.by_outputs
+                                                                  ? width * layer.padded_inputs
+                                                                  : inputs * layer.padded_outputs);
         network.parameters = layer.bias + static_cast<std::size_t>(layer.padded_outputs);
         layer.rows = network.rows;
-        const int row = network.layers.empty() ? padded(inner) : layer.padded_inputs;
+        const int row = is_first ? padded(inner) : layer.padded_inputs;
         network.rows += static_cast<std::size_t>(width) * static_cast<std::size_t>(row);
         layer.values = network.activations;
         network.activations += static_cast<std::size_t>(layer.padded_outputs);

@@ -1,8 +1,9 @@
 // Networks of tanh or relu layers, of any width and depth, on rows of samples.
 //
-// Parameters of a network are one array of numbers, in the order of the layers: the transposed
-// weights, a row of padded_outputs numbers for each input, and then the bias. What pads rows is 0
-// and stays so.
+// Parameters of a network are one array of numbers, in the order of the layers: the weights and
+// then the bias. The weights are a row of padded_outputs numbers for each input. If the last layer
+// has few outputs, most of these would be padding: then they are a row of padded_inputs numbers for
+// each output. What pads rows is 0 and stays so.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +19,29 @@ constexpr int padded(int count) {
     return (count + padding - 1) / padding * padding;
 }
 
+// A layer's weights: (i, o) is that from input i to output o.
+template <class Real>
+struct Weights {
+    Real* data;
+    int inputs, outputs;
+    int input_step, output_step;
+    Real& operator()(int i, int o) const { return data[i * input_step + o * output_step]; }
+};
+
 struct Layer {
     int inputs = 0, outputs = 0;
     int padded_inputs = 0, padded_outputs = 0;
+    bool by_outputs = false;            // weights have a row for each output
     std::size_t weights = 0, bias = 0;  // where they begin in the array of parameters
     std::size_t rows = 0;               // where the weights' rows begin in that of rows
     std::size_t values = 0;             // where its results begin in a sample's activations
+
+    // Those in the array of the network's parameters.
+    template <class Real>
+    Weights<Real> weights_in(Real* parameters) const {
+        return {parameters + weights, inputs, outputs, by_outputs ? 1 : padded_outputs,
+                by_outputs ? padded_inputs : 1};
+    }
 };
 
 enum class Activation { Tanh, Relu };  // Relu: max(0, x)

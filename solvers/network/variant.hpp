@@ -3,39 +3,35 @@
 
 #include "solvers/network/kernels.hpp"
 
-// Of hidden layers.
-template <class Real>
-inline void end_layer(Activation activation, int rows, int columns, const Real* bias, Real* x) {
+// visit() the end of hidden layers.
+template <class Visit>
+inline void with_end(Activation activation, Visit&& visit) {
     if (activation == Activation::Relu)
-        add_bias<Relu>(rows, columns, bias, x);
+        visit(Relu{});
     else
-        add_bias<Tanh>(rows, columns, bias, x);
-}
-template <class Real>
-inline void end_layer_back(Activation activation, int count, const Real* h, Real* d) {
-    if (activation == Activation::Relu)
-        times_derivative<Relu>(count, h, d);
-    else
-        times_derivative<Tanh>(count, h, d);
+        visit(Tanh{});
 }
 
 template <class Real>
 void forward(const Network& network, const Real* parameters, int count, const Real* x, int x_row,
              Real* activations) {
-    const std::size_t layers = network.layers.size();
-    for (std::size_t l = 0; l < layers; ++l) {
-        const Layer& layer = network.layers[l];
-        Real* const values = activations + layer.values * static_cast<std::size_t>(count);
-        product<false>(count, layer.padded_outputs, layer.inputs, Strided<Real>{x, x_row, 1},
-                       parameters + layer.weights, layer.padded_outputs, values,
-                       layer.padded_outputs);
+    for (const Layer& layer : network.layers) {
+        const int row = layer.padded_outputs;
+        const Real* const weights = parameters + layer.weights;
         const Real* const bias = parameters + layer.bias;
-        if (l + 1 < layers)
-            end_layer(network.activation, count, layer.padded_outputs, bias, values);
+        Real* const values = activations + layer.values * static_cast<std::size_t>(count);
+        const auto end_with = [&]<class End>(End) {
+            product(count, row, layer.inputs, Strided<Real>{x, x_row, 1}, weights, row,
+                    Results<End, Real>{bias, values, row});
+        };
+        if (layer.by_outputs)
+            dot_products(count, layer.outputs, x_row, x, weights, bias, values, row);
+        else if (&layer == &network.layers.back())
+            end_with(Linear{});
         else
-            add_bias<Linear>(count, layer.padded_outputs, bias, values);
+            with_end(network.activation, end_with);
         x = values;
-        x_row = layer.padded_outputs;
+        x_row = row;
     }
 }
 
@@ -43,29 +39,33 @@ template <class Real>
 void backward(const Network& network, const Real* rows, int count, const Real* x, int x_row,
               const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient,
               Real* d_inner) {
-    const auto values_of = [&](std::size_t l) {
-        return activations + network.layers[l].values * static_cast<std::size_t>(count);
+    const auto values_of = [&](auto* all, std::size_t l) {
+        return all + network.layers[l].values * static_cast<std::size_t>(count);
     };
     const Real* d = d_outputs;
     for (std::size_t l = network.layers.size(); l-- > 0;) {
         const Layer& layer = network.layers[l];
-        const Real* const input = l > 0 ? values_of(l - 1) : x;
-        const int input_row = l > 0 ? layer.padded_inputs : x_row;
-        product<true>(layer.inputs, layer.padded_outputs, count, Strided<Real>{input, 1, input_row},
-                      d, layer.padded_outputs, gradient + layer.weights, layer.padded_outputs);
-        add_rows(count, layer.padded_outputs, d, gradient + layer.bias);
+        const Real* const input = l > 0 ? values_of(activations, l - 1) : x;
+        const int input_row = l > 0 ? layer.padded_inputs : x_row, d_row = layer.padded_outputs;
+        if (layer.by_outputs)
+            product(layer.outputs, input_row, count, Strided<Real>{d, 1, d_row}, input, input_row,
+                    Added<Real>{gradient + layer.weights, input_row});
+        else
+            product(layer.inputs, d_row, count, Strided<Real>{input, 1, input_row}, d, d_row,
+                    Added<Real>{gradient + layer.weights, d_row});
+        add_rows(count, d_row, d, gradient + layer.bias);
+        const Strided<Real> by_outputs{d, d_row, 1};
         if (l == 0) {
             const int inner = padded(network.inner);
-            product<true>(count, inner, layer.outputs, Strided<Real>{d, layer.padded_outputs, 1},
-                          rows + layer.rows, inner, d_inner, inner);
+            product(count, inner, layer.outputs, by_outputs, rows + layer.rows, inner,
+                    Added<Real>{d_inner, inner});
             return;
         }
-        Real* const d_input =
-            scratch + network.layers[l - 1].values * static_cast<std::size_t>(count);
-        product<false>(count, layer.padded_inputs, layer.outputs,
-                       Strided<Real>{d, layer.padded_outputs, 1}, rows + layer.rows,
-                       layer.padded_inputs, d_input, layer.padded_inputs);
-        end_layer_back(network.activation, count * layer.padded_inputs, input, d_input);
+        Real* const d_input = values_of(scratch, l - 1);
+        with_end(network.activation, [&]<class End>(End) {
+            product(count, input_row, layer.outputs, by_outputs, rows + layer.rows, input_row,
+                    Derivatives<End, Real>{input, d_input, input_row});
+        });
         d = d_input;
     }
 }
@@ -76,11 +76,10 @@ void transpose(const Network& network, const Real* parameters, Real* rows) {
         const Layer& layer = network.layers[l];
         const int first = l == 0 ? layer.inputs - network.inner : 0;
         const int row = padded(layer.inputs - first);
-        const Real* const from = parameters + layer.weights;
+        const Weights<const Real> weights = layer.weights_in(parameters);
         Real* const to = rows + layer.rows;
         for (int o = 0; o < layer.outputs; ++o)
-            for (int i = first; i < layer.inputs; ++i)
-                to[o * row + i - first] = from[i * layer.padded_outputs + o];
+            for (int i = first; i < layer.inputs; ++i) to[o * row + i - first] = weights(i, o);
     }
 }
 
@@ -117,13 +116,14 @@ template <class Real>
 void adam(std::size_t count, const Real* gradient, Real factor, Real rate, Real root, Real epsilon,
           Real* first, Real* second, Real* parameters) {
     constexpr Real beta1 = Real(0.9), beta2 = Real(0.999);
+    const Real by_root = 1 / root;
     for (std::size_t i = 0; i < count; i += VectorOf<Real>::width) {
         const Vector<Real> g = load(gradient + i) * factor;
         const Vector<Real> m = load(first + i) * beta1 + g * (1 - beta1);
         const Vector<Real> v = load(second + i) * beta2 + g * g * (1 - beta2);
         store(first + i, m);
         store(second + i, v);
-        store(parameters + i, load(parameters + i) - rate * m / (root_of(v) / root + epsilon));
+        store(parameters + i, load(parameters + i) - rate * m / (root_of(v) * by_root + epsilon));
     }
 }
 

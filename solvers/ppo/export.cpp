@@ -21,16 +21,15 @@ std::string array_text(const std::string& name, const std::vector<float>& values
     return text + "};\n";
 }
 
-// Outputs times inputs, row by row; in the array those of an input are a row of `row` numbers.
-std::vector<float> transposed(int outputs, int inputs, int row, const float* parameters) {
-    std::vector<float> weights;
-    for (int o = 0; o < outputs; ++o)
-        for (int i = 0; i < inputs; ++i) weights.push_back(parameters[i * row + o]);
-    return weights;
+// Outputs times inputs, row by row.
+std::vector<float> rows_of(const Weights<const float>& weights) {
+    std::vector<float> rows;
+    for (int o = 0; o < weights.outputs; ++o)
+        for (int i = 0; i < weights.inputs; ++i) rows.push_back(weights(i, o));
+    return rows;
 }
 std::vector<float> weights_of(const Layer& layer, const float* parameters) {
-    return transposed(layer.outputs, layer.inputs, layer.padded_outputs,
-                      parameters + layer.weights);
+    return rows_of(layer.weights_in(parameters));
 }
 std::vector<float> bias_of(const Layer& layer, const float* parameters) {
     const float* const bias = parameters + layer.bias;
@@ -72,10 +71,8 @@ GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
     };
     for (const int p : order) {
         const GruPart& part = parts[static_cast<std::size_t>(p)];
-        append(arrays.input, transposed(gru.units, gru.inputs, gru.weight_row(),
-                                        parameters + part.input_weights));
-        append(arrays.state,
-               transposed(gru.units, gru.units, gru.weight_row(), parameters + part.state_weights));
+        append(arrays.input, rows_of(input_weights(gru, part, parameters)));
+        append(arrays.state, rows_of(state_weights(gru, part, parameters)));
         append(arrays.bias, {parameters + part.bias, parameters + part.bias + gru.units});
     }
     // Only the candidate has one for what it reads of the state.

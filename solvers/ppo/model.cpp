@@ -62,35 +62,32 @@ struct Initialiser {
     Normals normals;
     const std::function<bool()>& stops;
 
-    // From inputs to outputs; the weights of an input to all outputs are a row of `row` numbers.
-    void operator()(int inputs, int outputs, int row, double gain, float* weights) {
+    void operator()(const Weights<float>& weights, double gain) {
+        const int inputs = weights.inputs, outputs = weights.outputs;
         const bool wide = inputs >= outputs;
         const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
-        const std::vector<double> orthogonal =
-            orthogonal_rows(rows, columns, gain, normals, stops);
-        const auto place = [](int r, int size, int c) {
-            return static_cast<std::size_t>(r) * static_cast<std::size_t>(size) +
+        const std::vector<double> orthogonal = orthogonal_rows(rows, columns, gain, normals, stops);
+        const auto place = [columns](int r, int c) {
+            return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
                    static_cast<std::size_t>(c);
         };
         for (int o = 0; o < outputs; ++o)
             for (int i = 0; i < inputs; ++i)
-                weights[place(i, row, o)] = static_cast<float>(
-                    orthogonal[wide ? place(o, columns, i) : place(i, columns, o)]);
+                weights(i, o) = static_cast<float>(orthogonal[wide ? place(o, i) : place(i, o)]);
     }
 
     void operator()(const Network& network, double last_gain, float* parameters) {
         for (const Layer& layer : network.layers)
-            (*this)(layer.inputs, layer.outputs, layer.padded_outputs,
-                    &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2,
-                    parameters + layer.weights);
+            (*this)(layer.weights_in(parameters),
+                    &layer == &network.layers.back() ? last_gain : std::numbers::sqrt2);
     }
 
     // Each of the three parts by itself.
     void operator()(const Gru& gru, float* parameters) {
         const auto parts = gru_parts(gru);
         for (const GruPart& part : parts) {
-            (*this)(gru.inputs, gru.units, gru.weight_row(), 1, parameters + part.input_weights);
-            (*this)(gru.units, gru.units, gru.weight_row(), 1, parameters + part.state_weights);
+            (*this)(input_weights(gru, part, parameters), 1);
+            (*this)(state_weights(gru, part, parameters), 1);
         }
         std::fill_n(parameters + parts.back().bias, gru.units, 1.0f);
     }

@@ -114,26 +114,26 @@ std::string text_of(const ObservationSpace& space) {
                        space.stack, space.time, space.horizon);
 }
 
-// In files [output][input]; in the array those of an input to all outputs are a row of `row`.
-std::string weights_text(int outputs, int inputs, int row, const float* weights) {
+// In files [output][input].
+std::string weights_text(const Weights<const float>& weights) {
     std::string text;
-    std::vector<float> of_output(static_cast<std::size_t>(inputs));
-    for (int o = 0; o < outputs; ++o) {
-        for (int i = 0; i < inputs; ++i)
-            of_output[static_cast<std::size_t>(i)] = weights[i * row + o];
+    std::vector<float> of_output(static_cast<std::size_t>(weights.inputs));
+    for (int o = 0; o < weights.outputs; ++o) {
+        for (int i = 0; i < weights.inputs; ++i)
+            of_output[static_cast<std::size_t>(i)] = weights(i, o);
         text += (o > 0 ? "," : "") + array(of_output.data(), of_output.size());
     }
     return "[" + text + "]";
 }
-void read_weights(const Json& json, int outputs, int inputs, int row, float* weights) {
+void read_weights(const Json& json, const Weights<float>& weights) {
+    const int inputs = weights.inputs, outputs = weights.outputs;
     const auto all = json.get<std::vector<std::vector<float>>>();
     if (all.size() != static_cast<std::size_t>(outputs)) throw Failure("its layers do not fit");
     for (int o = 0; o < outputs; ++o) {
         const std::vector<float>& of_output = all[static_cast<std::size_t>(o)];
         if (of_output.size() != static_cast<std::size_t>(inputs))
             throw Failure("its layers do not fit");
-        for (int i = 0; i < inputs; ++i)
-            weights[i * row + o] = of_output[static_cast<std::size_t>(i)];
+        for (int i = 0; i < inputs; ++i) weights(i, o) = of_output[static_cast<std::size_t>(i)];
     }
 }
 void read_bias(const Json& json, int outputs, float* bias) {
@@ -145,8 +145,7 @@ void read_bias(const Json& json, int outputs, float* bias) {
 std::string text_of(const Network& network, const float* parameters) {
     return array_of(network.layers, [parameters](const Layer& layer) {
         return fmt::format(R"({{"weights":{},"bias":{}}})",
-                           weights_text(layer.outputs, layer.inputs, layer.padded_outputs,
-                                        parameters + layer.weights),
+                           weights_text(layer.weights_in(parameters)),
                            array(parameters + layer.bias, static_cast<std::size_t>(layer.outputs)));
     });
 }
@@ -155,8 +154,7 @@ void read_layers(const Json& layers, const Network& network, float* parameters) 
     if (layers.size() != network.layers.size()) throw Failure("its layers do not fit");
     for (std::size_t l = 0; l < layers.size(); ++l) {
         const Layer& layer = network.layers[l];
-        read_weights(layers[l].at("weights"), layer.outputs, layer.inputs, layer.padded_outputs,
-                     parameters + layer.weights);
+        read_weights(layers[l].at("weights"), layer.weights_in(parameters));
         read_bias(layers[l].at("bias"), layer.outputs, parameters + layer.bias);
     }
 }
@@ -165,21 +163,18 @@ std::string text_of(const Gru& gru, const float* parameters) {
     const auto units = static_cast<std::size_t>(gru.units);
     std::string text = fmt::format(R"({{"units":{})", gru.units);
     for (const GruPart& part : gru_parts(gru))
-        text += fmt::format(
-            R"(,"{}":{{"input":{},"state":{},"bias":{}}})", part.name,
-            weights_text(gru.units, gru.inputs, gru.weight_row(), parameters + part.input_weights),
-            weights_text(gru.units, gru.units, gru.weight_row(), parameters + part.state_weights),
-            array(parameters + part.bias, units));
+        text += fmt::format(R"(,"{}":{{"input":{},"state":{},"bias":{}}})", part.name,
+                            weights_text(input_weights(gru, part, parameters)),
+                            weights_text(state_weights(gru, part, parameters)),
+                            array(parameters + part.bias, units));
     return text + fmt::format(R"(,"state_bias":{}}})", array(parameters + gru.state_bias(), units));
 }
 
 void read_gru(const Json& json, const Gru& gru, float* parameters) {
     for (const GruPart& part : gru_parts(gru)) {
         const Json& its = json.at(part.name);
-        read_weights(its.at("input"), gru.units, gru.inputs, gru.weight_row(),
-                     parameters + part.input_weights);
-        read_weights(its.at("state"), gru.units, gru.units, gru.weight_row(),
-                     parameters + part.state_weights);
+        read_weights(its.at("input"), input_weights(gru, part, parameters));
+        read_weights(its.at("state"), state_weights(gru, part, parameters));
         read_bias(its.at("bias"), gru.units, parameters + part.bias);
     }
     read_bias(json.at("state_bias"), gru.units, parameters + gru.state_bias());

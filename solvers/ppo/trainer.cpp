@@ -22,7 +22,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 4};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 5};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <random>
 
@@ -46,14 +47,24 @@ double derivative(double& number, const auto& loss) {
     return (more - less) / (2 * step);
 }
 
+// Where the weights and the bias are in the array of parameters.
+std::vector<std::size_t> places_of(const Network& network, const Layer& layer) {
+    std::vector<std::size_t> all(network.parameters), places;
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (int o = 0; o < layer.outputs; ++o) {
+        for (int i = 0; i < layer.inputs; ++i) places.push_back(layer.weights_in(all.data())(i, o));
+        places.push_back(layer.bias + static_cast<std::size_t>(o));
+    }
+    return places;
+}
+
 // Parameters whose padding is 0.
 template <class Real>
 std::vector<Real> parameters_of(const Network& network, unsigned seed) {
-    std::vector<Real> all = numbers<Real>(network.parameters, seed, 0.5);
+    const std::vector<Real> random = numbers<Real>(network.parameters, seed, 0.5);
+    std::vector<Real> all(network.parameters);
     for (const Layer& layer : network.layers)
-        for (int r = 0; r <= layer.inputs; ++r)  // the last row is the bias
-            for (int o = layer.outputs; o < layer.padded_outputs; ++o)
-                all[layer.weights + static_cast<std::size_t>(r * layer.padded_outputs + o)] = 0;
+        for (const std::size_t p : places_of(network, layer)) all[p] = random[p];
     return all;
 }
 
@@ -64,9 +75,7 @@ std::vector<double> plain_outputs(const Network& network, const std::vector<doub
         for (int o = 0; o < layer.outputs; ++o) {
             double sum = parameters[layer.bias + static_cast<std::size_t>(o)];
             for (int i = 0; i < layer.inputs; ++i)
-                sum += parameters[layer.weights +
-                                  static_cast<std::size_t>(i * layer.padded_outputs + o)] *
-                       x[static_cast<std::size_t>(i)];
+                sum += layer.weights_in(parameters.data())(i, o) * x[static_cast<std::size_t>(i)];
             const bool last = &layer == &network.layers.back();
             const bool relu = network.activation == Activation::Relu;
             next[static_cast<std::size_t>(o)] = last   ? sum
@@ -89,7 +98,9 @@ std::vector<Network> networks_of(int inputs, const std::vector<std::vector<int>>
 }
 
 TEST(Network, ComputesWhatAPlainLoopDoes) {
-    for (const Network& network : networks_of(3, {{}, {5}, {64, 64}, {13, 7, 9}}, 5)) {
+    std::vector<Network> networks = networks_of(3, {{}, {5}, {64, 64}, {13, 7, 9}}, 5);
+    std::ranges::copy(networks_of(3, {{}, {64, 64}, {13, 70}}, 2), std::back_inserter(networks));
+    for (const Network& network : networks) {
         const auto parameters = parameters_of<double>(network, 1);
         const std::vector<float> floats(parameters.begin(), parameters.end());
         for (const int count : {1, 2, 5, 6, 7, 64}) {
@@ -114,22 +125,24 @@ TEST(Network, ComputesWhatAPlainLoopDoes) {
 
 // Whatever else is computed with it.
 TEST(Network, GivesASampleTheSameBitsInEveryBatch) {
-    const Network network = make_network(4, {64, 32}, 3);
-    const auto parameters = parameters_of<float>(network, 3);
-    const auto x = numbers<float>(64 * 4, 4);
-    const auto outputs = [&](int first, int count) {
-        std::vector<float> activations(network.activations * static_cast<std::size_t>(count));
-        network_functions().forward(network, parameters.data(), count, x.data() + first * 4, 4,
-                                    activations.data());
-        const auto begin =
-            activations.begin() + static_cast<std::ptrdiff_t>(network.layers.back().values) * count;
-        return std::vector<float>(begin, begin + count * network.padded_outputs());
-    };
-    const auto all = outputs(0, 64);
-    for (const auto& [first, count] : {std::pair{0, 1}, {7, 1}, {7, 2}, {40, 24}}) {
-        const auto some = outputs(first, count);
-        for (std::size_t i = 0; i < some.size(); ++i)
-            EXPECT_EQ(some[i], all[i + static_cast<std::size_t>(first * network.padded_outputs())]);
+    for (const Network& network : {make_network(4, {64, 32}, 3), make_network(4, {96, 70}, 5)}) {
+        const auto parameters = parameters_of<float>(network, 3);
+        const auto x = numbers<float>(64 * 4, 4);
+        const int row = network.padded_outputs();
+        const auto outputs = [&](int first, int count) {
+            std::vector<float> activations(network.activations * static_cast<std::size_t>(count));
+            network_functions().forward(network, parameters.data(), count, x.data() + first * 4, 4,
+                                        activations.data());
+            const auto begin = activations.begin() +
+                               static_cast<std::ptrdiff_t>(network.layers.back().values) * count;
+            return std::vector<float>(begin, begin + count * row);
+        };
+        const auto all = outputs(0, 64);
+        for (const auto& [first, count] : {std::pair{0, 1}, {7, 1}, {7, 2}, {40, 24}}) {
+            const auto some = outputs(first, count);
+            for (std::size_t i = 0; i < some.size(); ++i)
+                EXPECT_EQ(some[i], all[i + static_cast<std::size_t>(first * row)]);
+        }
     }
 }
 
@@ -183,12 +196,8 @@ TEST(Network, GradientAgreesWithFiniteDifferences) {
         functions.backward(network, rows.data(), count, x.data(), 3, activations.data(),
                            weights.data(), scratch.data(), gradient.data(), nullptr);
         for (const Layer& layer : network.layers)
-            for (int r = 0; r <= layer.inputs; ++r)
-                for (int o = 0; o < layer.outputs; ++o) {
-                    const auto p =
-                        layer.weights + static_cast<std::size_t>(r * layer.padded_outputs + o);
-                    EXPECT_NEAR(gradient[p], derivative(parameters[p], loss), 1e-6);
-                }
+            for (const std::size_t p : places_of(network, layer))
+                EXPECT_NEAR(gradient[p], derivative(parameters[p], loss), 1e-6);
     }
 }
 

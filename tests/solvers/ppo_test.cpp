@@ -69,9 +69,10 @@ TEST(Advantages, AgreeWithTheSum) {
 void set_layers(const nlohmann::json& layers, const Network& network, float* parameters) {
     for (std::size_t l = 0; l < network.layers.size(); ++l) {
         const Layer& layer = network.layers[l];
+        const Weights<float> weights = layer.weights_in(parameters);
         for (int o = 0; o < layer.outputs; ++o) {
             for (int i = 0; i < layer.inputs; ++i)
-                parameters[layer.weights + static_cast<std::size_t>(i * layer.padded_outputs + o)] =
+                weights(i, o) =
                     layers[l]["weights"][static_cast<std::size_t>(o)][static_cast<std::size_t>(i)];
             parameters[layer.bias + static_cast<std::size_t>(o)] =
                 layers[l]["bias"][static_cast<std::size_t>(o)];
