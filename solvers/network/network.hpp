@@ -24,7 +24,7 @@ template <class Real>
 struct Weights {
     Real* data;
     int inputs, outputs;
-    int input_step, output_step;
+    std::ptrdiff_t input_step, output_step;
     Real& operator()(int i, int o) const { return data[i * input_step + o * output_step]; }
 };
 

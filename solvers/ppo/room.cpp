@@ -39,11 +39,10 @@ double networks(const PpoModel& model, const PpoOptions& options) {
     double inputs = tile * bytes_of(model.input_row());
     if (model.recurrent > 0) {
         const auto samples = static_cast<double>(samples_per_chunk(options));
-        inputs =
-            samples * (bytes_of(model.input_row() + model.memory.values() +
-                                2.0 * model.memory.padded_units + 1) +
-                       1) +
-            2 * samples / longest_segment(options) * bytes_of(model.memory.padded_units);
+        inputs = samples * (bytes_of(model.input_row() + model.memory.values() +
+                                     2.0 * model.memory.padded_units + 1) +
+                            1) +
+                 2 * samples / longest_segment(options) * bytes_of(model.memory.padded_units);
     }
     return bytes_of(parameters * copies + rows) +
            options.threads * (tile * (sample + acting) + inputs);
@@ -52,7 +51,7 @@ double networks(const PpoModel& model, const PpoOptions& options) {
 double bytes_of_step(const PpoModel& model, const PpoOptions& options) {
     const ActionSpace& actions = model.actions;
     const double segment = bytes_of(model.memory.padded_units + 1);  // with its place in the order
-    constexpr int numbers = 6;  // rewards, values and the like
+    constexpr int numbers = 6;                                       // rewards, values and the like
     return bytes_of(model.input_row() + numbers) + bytes_of_choice(actions) + 1 +
            sizeof(FinishedEpisode) + segment / longest_segment(options);
 }
@@ -62,8 +61,8 @@ double bytes_of_environment(const rddl_simulator& simulator, const PpoModel& mod
     const double features = model.features(), columns = model.observations.column_count();
     // As they are, the least and the greatest, and moments.
     double bytes = features * (3 * bytes_of(1) + sizeof(Moments)) + bytes_of(2 * columns);
-    bytes += bytes_of(actions.column_count + model.policy.padded_outputs() +
-                      model.memory.padded_units);
+    bytes +=
+        bytes_of(actions.column_count + model.policy.padded_outputs() + model.memory.padded_units);
     if (model.noisy_units() > 0)
         bytes += bytes_of(model.deviation_count() + 2.0 * actions.real_count() + 1);
     bytes += sizeof(Moments) + 7 * sizeof(double) + 3.0 + bytes_of_chooser(simulator, actions);
@@ -115,11 +114,18 @@ int fitting_rollout(const rddl_simulator& simulator, const PpoOptions& options) 
         return room_of(simulator, model, fitting).all() <=
                static_cast<double>(options.memory_limit);
     };
+    // An update of more, samples times weights, takes the better part of a minute.
+    constexpr double most_work = 0x1p34;
+    const auto is_quick = [&] {
+        return double{1} * fitting.environments * fitting.rollout *
+                   static_cast<double>(parameter_count(model)) <=
+               most_work;
+    };
     const auto may_be_halved = [&] {
         return fitting.rollout >= 4 &&
                std::int64_t{fitting.environments} * (fitting.rollout / 2) >= fitting.minibatch;
     };
-    while (!fits() && may_be_halved()) fitting.rollout /= 2;
+    while (!(fits() && is_quick()) && may_be_halved()) fitting.rollout /= 2;
     return fits() ? fitting.rollout : options.rollout;
 }
 

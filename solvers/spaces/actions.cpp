@@ -168,12 +168,14 @@ void add_picks(ActionSpace& space, const rddl_simulator& simulator,
 
 void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator,
                              const std::vector<rddl_column>& columns) {
+    std::vector<const CategoryHead*> head_of(columns.size());
+    for (const CategoryHead& head : space.categories)
+        head_of[static_cast<std::size_t>(head.column)] = &head;
     for (const Choice& choice : simulator_choices(simulator, columns)) {
-        int logit = -1;
-        for (const CategoryHead& head : space.categories)
-            if (head.column == choice.column)
-                logit = head.first_logit + static_cast<int>(choice.value - head.first_value);
-        space.logit_of_mask.push_back(logit);
+        const CategoryHead* const head =
+            choice.column < 0 ? nullptr : head_of[static_cast<std::size_t>(choice.column)];
+        space.logit_of_mask.push_back(
+            head ? head->first_logit + static_cast<int>(choice.value - head->first_value) : -1);
     }
 }
 
