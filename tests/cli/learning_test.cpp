@@ -161,6 +161,8 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     refuses("it is no checkpoint, nor a file");
     std::filesystem::remove(file);
     write_file(file, whole);
+    const Outcome ppo = run(on_tanks("train ppo", "--resume --out c"));
+    expect_part(ppo.err, "it is of a run of cgp, and this is one of ppo");
     // Options that change what is learned have to stay; how long it takes may change.
     refuses("it is of a run with other options: --evaluation-episodes was 20 and is 7",
             "--evaluation-episodes 7");
