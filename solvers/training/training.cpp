@@ -86,8 +86,8 @@ class Training {
     TrainingResult run() {
         open_folder();
         begin_ = last_shown_ = last_saved_ = Clock::now();
-        bool stops = false;
         if (owes_evaluation_) finish_update();
+        bool stops = result_.reached;
         while (!stops && !trainee_.done() && update()) {
             finish_update();
             show(false);
