@@ -11,17 +11,6 @@ namespace {
 
 using Term = Formula::Term;
 
-// How a language writes things.
-struct Language {
-    // Of the input as the program reads it, from its number.
-    std::function<std::string(int)> input;
-    std::function<std::string(double)> constant;
-    // Of a function and its arguments, which are bracketed where they need it.
-    std::function<std::string(Function, const std::string&, const std::string&, const std::string&)>
-        call;
-    std::string shared = "v{}";  // names of parts that occur several times
-};
-
 std::string number(double value) {
     return fmt::format("{:.6g}", value);
 }
@@ -30,26 +19,75 @@ bool is_atom(const Term& term) {
     return term.kind != Term::Kind::Function || info_of(term.function).arity == 0;
 }
 
-// Written in several words, which need brackets as an argument, as their arguments do.
-bool is_infix(Function function) {
+// How tightly a text holds together, from a choice to a name: where something tighter is needed, it
+// gets brackets.
+enum Tightness : int {
+    choice,
+    either,
+    both,
+    negation,
+    comparison,
+    sum,
+    product,
+    sign,
+    power,
+    name
+};
+
+// Of what a function and its arguments become, and what that needs of the arguments: (a + b) + c is
+// "a + b + c", and a + (b + c) keeps its brackets, as rounding is another.
+struct Binding {
+    Tightness own = name;
+    std::array<Tightness, 3> needed{choice, choice, choice};
+};
+
+Binding binding_for_people(Function function) {
     switch (function) {
         case Function::Add:
         case Function::Subtract:
+            return {sum, {sum, product}};
         case Function::Multiply:
         case Function::Divide:
-        case Function::Greater:
-        case Function::And:
-        case Function::Or:
-        case Function::Negate:
-        case Function::Not:
-        case Function::Square:
+            return {product, {product, sign}};
         case Function::Half:
+            return {product, {product}};
+        case Function::Negate:
+            return {sign, {power}};
+        case Function::Square:
+            return {power, {name}};
+        case Function::Greater:
+            return {comparison, {sum, sum}};
+        case Function::Not:
+            return {negation, {name}};
+        case Function::And:
+            return {both, {both, both}};
+        case Function::Or:
+            return {either, {either, either}};
         case Function::If:
-            return true;
+            return {choice, {sum, either, choice}};
         default:
-            return false;
+            return {};
     }
 }
+
+struct Text {
+    std::string words;
+    Tightness tightness = name;
+};
+
+// How a language writes things.
+struct Language {
+    // Of the input as the program reads it, from its number.
+    std::function<Text(int)> input;
+    std::function<std::string(double)> constant;
+    // Of a function and its arguments, which are bracketed where they need it.
+    std::function<std::string(Function, const std::string&, const std::string&, const std::string&)>
+        call;
+    std::function<Binding(Function)> binding = [](Function) {
+        return Binding{};
+    };
+    std::string shared = "v{}";  // names of parts that occur several times
+};
 
 struct Written {
     std::vector<std::pair<std::string, std::string>> parts;  // name, text
@@ -64,51 +102,54 @@ Written write(const Formula& formula, const Language& language) {
     for (const int output : formula.outputs) uses[static_cast<std::size_t>(output)] += 1;
 
     Written written;
-    std::vector<std::string> texts;
-    std::vector<bool> needs_brackets;
+    std::vector<Text> texts;
     for (std::size_t t = 0; t < formula.terms.size(); ++t) {
         const Term& term = formula.terms[t];
-        std::string text;
-        bool brackets = false;
+        Text text;
         if (term.kind == Term::Kind::Input) {
             text = language.input(term.input);
-            brackets = text.find(' ') != std::string::npos && text.back() != ')';
         } else if (term.kind == Term::Kind::Constant) {
-            text = language.constant(term.constant);
-            brackets = term.constant < 0;
+            text = {language.constant(term.constant), term.constant < 0 ? sign : name};
         } else {
-            const bool infix = is_infix(term.function);
+            const Binding binding = language.binding(term.function);
             const auto argument = [&](std::size_t k) -> std::string {
                 if (term.arguments[k] < 0) return "";
-                const auto at = static_cast<std::size_t>(term.arguments[k]);
-                return infix && needs_brackets[at] ? "(" + texts[at] + ")" : texts[at];
+                const Text& its = texts[static_cast<std::size_t>(term.arguments[k])];
+                return its.tightness < binding.needed[k] ? "(" + its.words + ")" : its.words;
             };
-            text = language.call(term.function, argument(0), argument(1), argument(2));
-            brackets = infix;
+            text = {language.call(term.function, argument(0), argument(1), argument(2)),
+                    binding.own};
         }
         if (uses[t] > 1 && !is_atom(term)) {
-            const std::string name =
+            const std::string shared =
                 fmt::format(fmt::runtime(language.shared), written.parts.size() + 1);
-            written.parts.emplace_back(name, text);
-            text = name;
-            brackets = false;
+            written.parts.emplace_back(shared, text.words);
+            text = {shared, name};
         }
         texts.push_back(text);
-        needs_brackets.push_back(brackets);
     }
     for (const int output : formula.outputs)
-        written.outputs.push_back(texts[static_cast<std::size_t>(output)]);
+        written.outputs.push_back(texts[static_cast<std::size_t>(output)].words);
     return written;
 }
 
 // (x - shift) * scale, without what changes nothing.
-std::string scaled(const ProgramInput& input, const std::string& name) {
-    std::string text = name;
-    if (input.shift > 0) text = fmt::format("{} - {}", name, number(input.shift));
-    if (input.shift < 0) text = fmt::format("{} + {}", name, number(-input.shift));
-    if (input.scale == 1) return input.shift == 0 ? text : "(" + text + ")";
-    if (input.shift != 0) text = "(" + text + ")";
-    return fmt::format("({} * {})", text, number(input.scale));
+Text scaled(const ProgramInput& input, const std::string& variable) {
+    // Names of several words, such as sums over objects, that no bracket ends.
+    const bool is_long = variable.find(' ') != std::string::npos && variable.back() != ')';
+    Text text{variable, is_long ? choice : name};
+    if (input.shift > 0) text = {fmt::format("{} - {}", variable, number(input.shift)), sum};
+    if (input.shift < 0) text = {fmt::format("{} + {}", variable, number(-input.shift)), sum};
+    if (input.scale == 1) return text;
+    if (input.shift != 0) text.words = "(" + text.words + ")";
+    return {fmt::format("{} * {}", text.words, number(input.scale)), product};
+}
+
+// A plus or minus b, where b may be a negative number, or -x, itself.
+std::string added(const std::string& a, char plus_or_minus, const std::string& b) {
+    const bool is_negative = b.starts_with('-') && b.find(' ') == std::string::npos;
+    if (!is_negative) return fmt::format("{} {} {}", a, plus_or_minus, b);
+    return fmt::format("{} {} {}", a, plus_or_minus == '+' ? '-' : '+', b.substr(1));
 }
 
 Language for_people(const ProgramScope& scope) {
@@ -118,13 +159,14 @@ Language for_people(const ProgramScope& scope) {
         return scaled(input, input.name);
     };
     language.constant = number;
+    language.binding = binding_for_people;
     language.call = [](Function function, const std::string& a, const std::string& b,
                        const std::string& c) -> std::string {
         switch (function) {
             case Function::Add:
-                return a + " + " + b;
+                return added(a, '+', b);
             case Function::Subtract:
-                return a + " - " + b;
+                return added(a, '-', b);
             case Function::Multiply:
                 return a + " * " + b;
             case Function::Divide:
@@ -225,7 +267,7 @@ std::string identifier(const std::string& name) {
 Language for_cpp() {
     Language language;
     language.input = [](int i) {
-        return fmt::format("x[{}]", i);
+        return Text{fmt::format("x[{}]", i)};
     };
     language.constant = [](double value) {
         return fmt::format("{:.17g}", value) +
@@ -408,6 +450,19 @@ std::string formula_latex(const Formula& formula, const ProgramScope& scope) {
     language.input = [&](int i) {
         const ProgramInput& input = scope.inputs[static_cast<std::size_t>(i)];
         return scaled(input, escaped(input.name));
+    };
+    // Fractions, roots and the like hold together what is in them.
+    language.binding = [](Function function) -> Binding {
+        switch (function) {
+            case Function::Divide:
+                return {power};
+            case Function::Greater:
+                return {name, {sum, sum}};
+            case Function::If:
+                return {choice, {sum}};
+            default:
+                return binding_for_people(function);
+        }
     };
     const auto people = language.call;
     language.call = [people](Function function, const std::string& a, const std::string& b,

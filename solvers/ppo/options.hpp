@@ -24,6 +24,7 @@ struct PpoOptions {
     std::int64_t steps = 1'000'000;  // of all environments together
     int environments = 64;
     int rollout = 128;  // steps of each environment between updates
+    bool shortens_rollout = false;  // where it does not fit into memory_limit
     int epochs = 4;
     int minibatch = 1024;  // samples
     double learning_rate = 3e-4;

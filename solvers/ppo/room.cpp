@@ -106,9 +106,8 @@ void require_room(const rddl_simulator& simulator, const PpoModel& model,
         advice(room));
 }
 
-int fitting_rollout(const rddl_simulator& simulator, const PpoOptions& options) {
-    const PpoModel model = model_without_parameters(
-        observation_space(simulator, options.observations), action_space(simulator), options);
+int fitting_rollout(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options) {
     PpoOptions fitting = options;
     const auto fits = [&] {
         return room_of(simulator, model, fitting).all() <=

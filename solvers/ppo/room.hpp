@@ -26,7 +26,8 @@ void require_room(const rddl_simulator& simulator, const PpoModel& model,
                   const PpoOptions& options);
 
 // The options' rollout, halved as often as it takes to fit; never so often that less than a
-// minibatch is left. Depends on the problem and the options alone.
-int fitting_rollout(const rddl_simulator& simulator, const PpoOptions& options);
+// minibatch is left. As it was where that does not suffice.
+int fitting_rollout(const rddl_simulator& simulator, const PpoModel& model,
+                    const PpoOptions& options);
 
 }  // namespace rddlc::solvers

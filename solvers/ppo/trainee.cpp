@@ -114,7 +114,11 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
     const auto total = static_cast<double>(options.steps);
     Trainee trainee;
     trainee.solver = "ppo";
-    trainee.settings = ppo_settings(options);
+    trainee.settings = ppo_settings(trainer->options());
+    if (const int rollout = trainer->options().rollout; rollout != options.rollout)
+        trainee.note =
+            fmt::format("--rollout is {} in place of {}, so that PPO takes no more than {}", rollout,
+                        options.rollout, memory_text(static_cast<double>(options.memory_limit)));
     trainee.ends_early = static_cast<bool>(options.stops);
     trainee.update = [=] {
         trainer->update();

@@ -69,9 +69,11 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
     }
 }
 
-PpoModel model_that_fits(const rddl_simulator& simulator, const PpoOptions& options) {
+// Shortens the rollout where it may.
+PpoModel model_that_fits(const rddl_simulator& simulator, PpoOptions& options) {
     PpoModel model = model_without_parameters(observation_space(simulator, options.observations),
                                               action_space(simulator), options);
+    if (options.shortens_rollout) options.rollout = fitting_rollout(simulator, model, options);
     require_room(simulator, model, options);
     make_parameters(model, options);
     return model;

@@ -86,8 +86,8 @@ class Training {
     TrainingResult run() {
         open_folder();
         begin_ = last_shown_ = last_saved_ = Clock::now();
-        bool stops = false;
         if (owes_evaluation_) finish_update();
+        bool stops = result_.reached;
         while (!stops && !trainee_.done() && update()) {
             finish_update();
             show(false);
@@ -317,16 +317,21 @@ class Training {
     }
 
     void archive_settings(SavingArchive& archive) const {
+        archive(trainee_.solver);
         std::string text;
         for (const auto& [name, value] : settings()) text += name + "=" + value + "\n";
         archive(text);
     }
     void archive_settings(LoadingArchive& archive) const {
-        std::string text, others;
+        std::string solver, text, others;
+        archive(solver);
+        if (solver != trainee_.solver)
+            throw Failure(
+                fmt::format("it is of a run of {}, and this is one of {}", solver, trainee_.solver));
         archive(text);
         for (const auto& [name, value] : settings()) {
             const std::size_t at = ("\n" + text).find("\n" + name + "=");
-            if (at == std::string::npos) continue;  // of another solver, which its bytes tell
+            if (at == std::string::npos) continue;
             const std::size_t begin = at + name.size() + 1;
             const std::string was = text.substr(begin, text.find('\n', begin) - begin);
             if (was != value)

@@ -27,6 +27,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 struct Trainee {
     std::string solver;                   // "ppo"
     Settings settings;                    // a run goes on with the same
+    std::string note;                     // what it has chosen that users may not expect, or ""
     bool ends_early = false;              // update() does where TrainingOptions::stops says so
     std::function<void()> update;         // a little more work
     std::function<bool()> done;           // all that was asked for

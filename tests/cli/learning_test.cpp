@@ -161,6 +161,8 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     refuses("it is no checkpoint, nor a file");
     std::filesystem::remove(file);
     write_file(file, whole);
+    const Outcome ppo = run(on_tanks("train ppo", "--resume --out c"));
+    expect_part(ppo.err, "it is of a run of cgp, and this is one of ppo");
     // Options that change what is learned have to stay; how long it takes may change.
     refuses("it is of a run with other options: --evaluation-episodes was 20 and is 7",
             "--evaluation-episodes 7");
@@ -308,6 +310,15 @@ TEST_F(LearningProgram, ExportsWhatItLearned) {
                   read_file(folder_ / fmt::format("{}/policy.json", policy)));
     }
     EXPECT_GT(read_file(folder_ / "out.onnx").size(), 500u);
+    // Where acting at random earned much more while it learned, evaluations say so.
+    for (const auto& [returns, is_told] :
+         {std::pair{"1000000", true}, {"-1000000", false}, {"x", false}}) {
+        write_file(folder_ / "p/progress.csv", fmt::format("rollout/ep_rew_mean\n{}\n", returns));
+        const Outcome likeliest = run(on_tanks("evaluate", "--policy p"));
+        EXPECT_EQ(likeliest.err.find("as --stochastic takes them") != std::string::npos, is_told);
+        const Outcome random = run(on_tanks("evaluate", "--policy p --stochastic"));
+        EXPECT_EQ(random.err.find("--stochastic"), std::string::npos) << random.err;
+    }
     const Outcome wrong = run(on_tanks("export", "--policy p --as dot"));
     EXPECT_EQ(wrong.status, 2);
     EXPECT_NE(wrong.err.find("json, cpp and onnx are"), std::string::npos) << wrong.err;

@@ -9,14 +9,21 @@
 #include "solvers/evaluation/summary.hpp"
 #include "support/failure.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <random>
+#include <sstream>
+#include <string>
 #include <thread>
 
 namespace rddlc::solvers {
@@ -106,6 +113,188 @@ TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
     formula.outputs = {3};
     EXPECT_NE(formula_text(formula, scope).find("= (if 2 > 0 then 3 else 2) / 2"),
               std::string::npos);
+}
+
+// Reads what people read: its value, and a text that tells how it was understood.
+class FormulaReader {
+  public:
+    struct Part {
+        double value;
+        std::string tree;
+    };
+    FormulaReader(std::string text, std::map<std::string, double> names)
+        : text_(std::move(text)), names_(std::move(names)) {}
+
+    // Nothing where it is no formula.
+    std::optional<Part> read() {
+        at_ = 0;
+        good_ = true;
+        const Part all = choice();
+        return good_ && at_ == text_.size() ? std::optional(all) : std::nullopt;
+    }
+
+  private:
+    bool take(const std::string& word) {
+        if (!text_.substr(at_).starts_with(word)) return false;
+        at_ += word.size();
+        return true;
+    }
+    void need(const std::string& word) { good_ = good_ && take(word); }
+
+    static Part call(Function function, const Part& a, const Part& b = {}, const Part& c = {}) {
+        return {apply(function, a.value, b.value, c.value),
+                fmt::format("{}[{};{};{}]", info_of(function).name, a.tree, b.tree, c.tree)};
+    }
+    // Arguments of and, or may be understood in any order.
+    Part row(const std::string& word, Function function, Part (FormulaReader::*next)()) {
+        Part all = (this->*next)();
+        while (take(word)) all = call(function, all, (this->*next)());
+        return all;
+    }
+
+    Part choice() {
+        if (!take("if ")) return either();
+        const Part condition = sum();
+        need(" > 0 then ");
+        const Part yes = either();
+        need(" else ");
+        return call(Function::If, condition, yes, choice());
+    }
+    Part either() { return row(" or ", Function::Or, &FormulaReader::both); }
+    Part both() { return row(" and ", Function::And, &FormulaReader::negation); }
+    Part negation() { return take("not ") ? call(Function::Not, atom()) : comparison(); }
+    Part comparison() {
+        const Part a = sum();
+        return text_.substr(at_).starts_with(" > 0 then ") || !take(" > ")
+                   ? a
+                   : call(Function::Greater, a, sum());
+    }
+    Part sum() {
+        Part all = product();
+        for (;;) {
+            if (take(" + "))
+                all = call(Function::Add, all, product());
+            else if (take(" - "))
+                all = call(Function::Subtract, all, product());
+            else
+                return all;
+        }
+    }
+    Part product() {
+        Part all = signed_power();
+        for (;;) {
+            if (take(" * "))
+                all = call(Function::Multiply, all, signed_power());
+            else if (take(" / "))
+                all = call(Function::Divide, all, signed_power());
+            else
+                return all;
+        }
+    }
+    Part signed_power() { return take("-") ? call(Function::Negate, power()) : power(); }
+    Part power() {
+        const Part base = atom();
+        return take("^2") ? call(Function::Square, base) : base;
+    }
+    Part atom() {
+        if (take("(")) {
+            const Part part = choice();
+            need(")");
+            return part;
+        }
+        std::size_t end = at_;
+        while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) ||
+                                      text_[end] == '.' || text_[end] == '_'))
+            ++end;
+        const std::string word = text_.substr(at_, end - at_);
+        good_ = good_ && !word.empty();
+        at_ = end;
+        if (take("(")) return called(word);
+        if (const auto known = names_.find(word); known != names_.end())
+            return {known->second, word};
+        good_ = good_ && !word.empty() && std::isdigit(static_cast<unsigned char>(word[0]));
+        return {good_ ? std::stod(word) : 0, word};
+    }
+    Part called(const std::string& word) {
+        const auto function = function_named(word);
+        good_ = good_ && function;
+        if (!good_) return {};
+        if (take(")")) return call(*function, {});
+        const Part a = choice();
+        const Part b = take(", ") ? choice() : Part{};
+        need(")");
+        return call(*function, a, b);
+    }
+
+    std::string text_;
+    std::map<std::string, double> names_;
+    std::size_t at_ = 0;
+    bool good_ = true;
+};
+
+// Without one pair of brackets, those of a function's arguments left out, it is another formula.
+void expect_no_bracket_too_many(const std::string& text,
+                                const std::map<std::string, double>& names) {
+    const std::string tree = FormulaReader(text, names).read()->tree;
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '(') open.push_back(i);
+        if (text[i] != ')') continue;
+        const std::size_t begin = open.back();
+        open.pop_back();
+        if (begin > 0 && std::isalnum(static_cast<unsigned char>(text[begin - 1]))) continue;
+        std::string without = text;
+        without.erase(i, 1).erase(begin, 1);
+        const auto read = FormulaReader(without, names).read();
+        EXPECT_FALSE(read && read->tree == tree) << text << "\n" << without;
+    }
+}
+
+TEST(Cgp, PeopleReadInFormulasWhatTheyCompute) {
+    ProgramScope scope;
+    for (const auto& [shift, scale] : {std::pair{0.0, 1.0}, {0.5, 1.0}, {-2.0, 0.25}, {0.0, 4.0}}) {
+        ProgramInput& input = scope.inputs.emplace_back();
+        input.name = fmt::format("x{}", scope.inputs.size());
+        input.shift = shift;
+        input.scale = scale;
+    }
+    scope.outputs = {"a", "b"};
+    const GenomeShape shape{4, 3, 25, 2, 0, default_functions()};
+    Random random(11, 0);
+    int brackets = 0;
+    for (int g = 0; g < 3000; ++g) {
+        Genome genome = random_genome(shape, random);
+        for (double& constant : genome.constants)  // of few digits
+            constant = std::round(constant * 8) / 8;
+        const Formula formula = simplified(genome);
+        std::map<std::string, double> names;
+        std::vector<double> inputs;
+        for (const ProgramInput& input : scope.inputs) {
+            const double value = std::round(random.normal() * 16) / 16;
+            names[input.name] = value;
+            inputs.push_back((value - input.shift) * input.scale);
+        }
+        const std::vector<double> values = formula.evaluate(inputs);
+        std::istringstream lines(formula_text(formula, scope));
+        std::size_t output = 0;
+        for (std::string line; std::getline(lines, line);) {
+            const std::size_t equals = line.find(" = ");
+            const std::string text = line.substr(equals + 3, line.find("   [") - equals - 3);
+            const auto read = FormulaReader(text, names).read();
+            ASSERT_TRUE(read) << line;
+            expect_no_bracket_too_many(text, names);
+            brackets += static_cast<int>(std::ranges::count(text, '('));
+            const std::string name = line.substr(0, equals);
+            if (name.starts_with("v"))
+                names[name] = read->value;
+            else
+                EXPECT_NEAR(read->value, values[output++],
+                            1e-4 * std::max(1.0, std::abs(read->value)))
+                    << line;
+        }
+        EXPECT_EQ(output, 2u);
+    }
+    EXPECT_GT(brackets, 1000);
 }
 
 // The levels of all first states are the same: only steps show how far they spread.

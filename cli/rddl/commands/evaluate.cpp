@@ -5,6 +5,7 @@
 #include "formats/records_json.hpp"
 #include "formats/table.hpp"
 #include "learning/learned_policy.hpp"
+#include "learning/learning_curves.hpp"
 #include "pictures/charts.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/json_text.hpp"
@@ -16,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace rddlc::cli {
@@ -138,6 +140,35 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
     write_chart(chart, options.chart);
 }
 
+// What the last episodes earned while PPO learned, which acts at random then; nothing where the
+// policy is no run that tells it.
+std::optional<double> learned_return(const std::string& policy) {
+    RunProgress run;
+    try {
+        run = read_progress(policy);
+    } catch (const Failure&) {
+        return std::nullopt;
+    }
+    const auto column = std::ranges::find(run.columns, "rollout/ep_rew_mean");
+    if (column == run.columns.end()) return std::nullopt;
+    const std::vector<double>& returns =
+        run.values[static_cast<std::size_t>(column - run.columns.begin())];
+    if (returns.empty() || !std::isfinite(returns.back())) return std::nullopt;
+    return returns.back();
+}
+
+// Where the likeliest actions earn much less than chance did.
+void hint_at_chance(const Evaluation& one) {
+    const std::optional<double> learned = learned_return(one.policy);
+    if (!learned) return;
+    const solvers::Estimate& earned = one.summary.undiscounted_return;
+    const double size = std::max(std::abs(*learned), std::abs(earned.mean));
+    if (*learned - earned.mean > std::max(size / 2, 3 * earned.half_width))
+        tell("rddl: note: while '{}' learned, its last episodes earned {} by actions at random, as "
+             "--stochastic takes them\n",
+             one.policy, number_text(*learned));
+}
+
 ExitStatus evaluate_all(const EvaluationOptions& options) {
     if (options.chart.any()) require_writable_chart(options.chart);
     ProblemFiles files = options.problem.files();
@@ -154,6 +185,8 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
         if (!is_interrupted()) all.push_back(evaluate(simulator, name, chosen));
     options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
+    for (const Evaluation& one : all)
+        if (!options.random && !is_interrupted()) hint_at_chance(one);
     if (!is_interrupted()) return success;
     tell("rddl: interrupted before all was evaluated\n");
     return interrupted_status();

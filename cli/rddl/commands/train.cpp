@@ -3,11 +3,9 @@
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
 #include "solvers/cgp/trainee.hpp"
-#include "solvers/ppo/room.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "solvers/spaces/refusals.hpp"
 #include "support/files.hpp"
-#include "support/memory.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
@@ -54,6 +52,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
                          {"--fast-math", options.load.passes.fast_math ? "true" : "false"}};
     training.stops = is_interrupted;
     give_up_if_interrupted("making the learner");
+    if (!training.quiet && !trainee.note.empty()) tell("rddl: note: {}\n", trainee.note);
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
     const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
     if (!training.quiet && result.has_best)
@@ -110,16 +109,6 @@ struct TrainPpoOptions : TrainOptions {
     bool names_rollout = false;  // --envs or --rollout is given
 };
 
-// Where nobody has asked for so many steps between two updates, fewer are made than do not fit.
-void choose_rollout(const rddl_simulator& simulator, solvers::PpoOptions& ppo, bool quiet) {
-    const int fitting = solvers::fitting_rollout(simulator, ppo);
-    if (fitting == ppo.rollout) return;
-    if (!quiet)
-        tell("rddl: note: --rollout is {} in place of {}, so that PPO takes no more than {}\n",
-             fitting, ppo.rollout, memory_text(static_cast<double>(ppo.memory_limit)));
-    ppo.rollout = fitting;
-}
-
 ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks) {
     const LoadedProblem problem = load_problem(options.problem.files(), options.load);
     const rddl_simulator& simulator = *problem.simulator;
@@ -128,8 +117,7 @@ ExitStatus train_ppo(const TrainPpoOptions& options, const solvers::Ranks& ranks
     ppo.seed = options.training.seed;
     ppo.stops = stops_of(ranks);
     ppo.memory_limit = options.problem.memory_limit;
-    if (!options.names_rollout)
-        choose_rollout(simulator, ppo, options.training.quiet || !ranks.is_first());
+    ppo.shortens_rollout = !options.names_rollout;
     return run_training(options, simulator, solvers::ppo_trainee(simulator, ppo, ranks), ranks);
 }
 
