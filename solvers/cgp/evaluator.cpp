@@ -9,8 +9,6 @@ namespace {
 
 // Where a problem has no horizon.
 constexpr std::int64_t longest_episode = 1000;
-// Numbers that stay near the processor: programs run for so many units of episodes at a time.
-constexpr std::int64_t most_lanes = 4096;
 
 rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t count) {
     rddl_batch_options options{};
@@ -21,6 +19,13 @@ rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t c
 }
 
 }  // namespace
+
+std::int64_t episodes_at_once(const ProgramScope& scope, std::int64_t episodes) {
+    constexpr std::int64_t most_lanes = 4096;
+    if (scope.skdecide) return episodes;  // its programs remember all of them
+    const auto units = static_cast<std::int64_t>(scope.units.size());
+    return std::clamp<std::int64_t>(most_lanes / units, 1, episodes);
+}
 
 ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& scope,
                            std::int64_t programs, std::int64_t episodes)
@@ -40,10 +45,8 @@ ProgramActor::ProgramActor(const rddl_simulator& simulator, const ProgramScope& 
     log_probabilities_.resize(environments);
     indices_.resize(rows(scope.actions.index_count()));
     masks_.resize(rows(scope.actions.mask_size()));
-    const auto units = static_cast<std::int64_t>(scope.units.size());
-    together_ =
-        scope.skdecide ? episodes : std::clamp<std::int64_t>(most_lanes / units, 1, episodes);
-    const auto lanes = static_cast<std::size_t>(units * together_);
+    together_ = episodes_at_once(scope, episodes);
+    const std::size_t lanes = scope.units.size() * static_cast<std::size_t>(together_);
     sums_.resize(static_cast<std::size_t>(scope.sum_count()));
     inputs_.resize(scope.inputs.size() * lanes);
     results_.resize(scope.outputs.size() * lanes);

@@ -12,6 +12,10 @@
 
 namespace rddlc::solvers {
 
+// Episodes that a program is run for at once, of so many: those whose numbers stay near the
+// processor.
+std::int64_t episodes_at_once(const ProgramScope& scope, std::int64_t episodes);
+
 // The programs' actions for batches in which each has `episodes` environments, one behind the
 // other.
 class ProgramActor {
@@ -34,7 +38,7 @@ class ProgramActor {
 
     const ProgramScope& scope_;
     std::int64_t programs_, episodes_;
-    std::int64_t together_;  // episodes that a program is run for at once
+    std::int64_t together_;  // episodes_at_once
     Chooser chooser_;
     std::vector<float> features_, outputs_, numbers_, shifts_, spreads_, log_probabilities_;
     std::vector<std::int32_t> indices_;

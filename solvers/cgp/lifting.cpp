@@ -96,21 +96,21 @@ std::vector<std::int64_t> objects_of(const rddl_problem& problem, const rddl_flu
 }
 
 // Parameters of a source that those of an action tell, as (source's, action's).
-using Binding = std::vector<std::pair<std::int32_t, std::int32_t>>;
+using SharedParameters = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 // The k-th of a type by the k-th of that type.
-Binding binding_of(const rddl_fluent& source, const rddl_fluent& action) {
-    Binding binding;
+SharedParameters parameters_shared_by(const rddl_fluent& source, const rddl_fluent& action) {
+    SharedParameters shared;
     std::vector<bool> taken(static_cast<std::size_t>(action.rank));
     for (std::int32_t p = 0; p < source.rank; ++p)
         for (std::int32_t q = 0; q < action.rank; ++q)
             if (!taken[static_cast<std::size_t>(q)] &&
                 source.parameter_types[p] == action.parameter_types[q]) {
-                binding.emplace_back(p, q);
+                shared.emplace_back(p, q);
                 taken[static_cast<std::size_t>(q)] = true;
                 break;
             }
-    return binding;
+    return shared;
 }
 
 class Lifter {
@@ -129,12 +129,12 @@ class Lifter {
         add_units();
         for (const Source& source : sources_)
             add_input(text_of(*source.fluent), source, [&](const rddl_fluent& action) {
-                return binding_of(*source.fluent, action);
+                return parameters_shared_by(*source.fluent, action);
             });
         for (const Source& source : sources_)
             if (source.first_feature >= 0 && source.fluent->rank > 0)
                 add_input("mean(" + source.name + ")", source,
-                          [](const rddl_fluent&) { return Binding{}; });
+                          [](const rddl_fluent&) { return SharedParameters{}; });
         for (const Source& relation : sources_) {
             const rddl_fluent& r = *relation.fluent;
             if (relation.first_feature >= 0 || r.scalar != RDDL_BOOL || r.rank != 2) continue;
@@ -171,13 +171,13 @@ class Lifter {
         input.name = std::move(name);
         scale_by_bounds(input, source.lower, source.upper);
         scope_.inputs.push_back(std::move(input));
-        std::map<Binding, std::int64_t> first_sums;
+        std::map<SharedParameters, std::int64_t> first_sums;
         for_each_unit([&](const rddl_fluent& action, const std::vector<std::int64_t>& objects) {
-            const Binding binding = bind(action);
-            const auto [first, is_new] = first_sums.try_emplace(binding, scope_.sum_count());
-            if (is_new) add_means(source, binding);
+            const SharedParameters shared = bind(action);
+            const auto [first, is_new] = first_sums.try_emplace(shared, scope_.sum_count());
+            if (is_new) add_means(source, shared);
             std::int64_t number = 0;
-            for (const auto& [p, q] : binding)
+            for (const auto& [p, q] : shared)
                 number = number * objects_of_parameter(problem_, *source.fluent, p) +
                          objects[static_cast<std::size_t>(q)];
             return first->second + number;
@@ -196,15 +196,15 @@ class Lifter {
     }
 
     // A mean for each choice of objects for the parameters that are bound.
-    void add_means(const Source& source, const Binding& binding) {
+    void add_means(const Source& source, const SharedParameters& shared) {
         std::int64_t count = 1;
-        for (const auto& [p, q] : binding)
+        for (const auto& [p, q] : shared)
             count *= objects_of_parameter(problem_, *source.fluent, p);
         std::vector<std::vector<std::int64_t>> groundings(static_cast<std::size_t>(count));
         for (std::int64_t g = 0; g < source.fluent->count; ++g) {
             const std::vector<std::int64_t> objects = objects_of(problem_, *source.fluent, g);
             std::int64_t number = 0;
-            for (const auto& [p, q] : binding)
+            for (const auto& [p, q] : shared)
                 number = number * objects_of_parameter(problem_, *source.fluent, p) +
                          objects[static_cast<std::size_t>(p)];
             groundings[static_cast<std::size_t>(number)].push_back(g);

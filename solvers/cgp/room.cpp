@@ -46,8 +46,8 @@ CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
         const auto programs = static_cast<double>(size.programs),
                    episodes = static_cast<double>(size.episodes);
         environments += programs * episodes;
-        lanes += episodes * static_cast<double>(scope.units.size()) *
-                 (options.skdecide ? 2 * programs : 1);
+        lanes += static_cast<double>(episodes_at_once(scope, size.episodes)) *
+                 static_cast<double>(scope.units.size()) * (options.skdecide ? 2 * programs : 1);
     };
     for (const EvaluatorSize& size : evaluator_sizes(options)) add(size);
     const double candidates = 2.0 + options.children;  // with the father, and the record
@@ -55,9 +55,9 @@ CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
                           sizeof(double) * 1.0 * options.constants + sizeof(Genome);
     const double made = static_cast<double>(options.generations) * candidates;
     CgpRoom room;
-    room.environments = static_cast<double>(islands) *
-                        (environments * bytes_of_environment(simulator, scope) +
-                         lanes * bytes_of_lane(scope, options));
+    room.environments =
+        static_cast<double>(islands) * (environments * bytes_of_environment(simulator, scope) +
+                                        lanes * bytes_of_lane(scope, options));
     // As genomes, and as programs that are ready to run, which the search for constants has twice.
     room.programs =
         static_cast<double>(islands) *
