@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """PPO beside RLtools, and beside the matrix products alone: steps a second of processor time, in turn in one run.
 
     benchmarks/solvers/rltools.py --packages SITE-PACKAGES [--rddl build/bin/rddl] [--repetitions 5]

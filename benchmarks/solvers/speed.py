@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """How fast the solvers are, in steps a second of one core: processor time counts, so that a busy machine says much the same.
 
     benchmarks/solvers/speed.py [--rddl PROGRAM] [--repetitions 3] [--only "64 x 128"]

@@ -3,11 +3,11 @@
 // each number is computed in the same way, so it has the same bits.
 //
 // All matrices are row-major. Rows of results have a multiple of `padding` numbers, so that no loop
-// has a rest. Each sum is made in the order of its terms, whatever the number of rows: so a
-// sample's outputs do not depend on which others are computed with it.
+// has a rest. The order of a sum's terms is the same whatever the number of rows: so a sample's
+// outputs do not depend on which others are computed with it.
 //
 // This file is included once for each instruction set, within a namespace of its own
-// (variants.hpp): it includes nothing itself.
+// (variant.hpp): it includes nothing itself.
 
 template <class Real, int bytes = RDDL_VECTOR_BYTES>
 struct VectorOf {
@@ -33,8 +33,8 @@ struct Strided {
     std::ptrdiff_t row, step;
 };
 
-// Where the sums of a product go: each begins with begin(r, c), and end(r, c, sum) takes it, while
-// they are in registers. Here they are added to a matrix.
+// Where the sums of a product go: the sum at row r and column c begins with begin(r, c), and
+// end(r, c, sum) stores it, or what is made of it, from the register. Here it is added to a matrix.
 template <class Real>
 struct Added {
     Real* to;
@@ -50,8 +50,8 @@ struct Added {
     }
 };
 
-// From row r and column c on, `rows` x `vectors` vectors of sums stay in registers. To call it
-// would take a tenth of its time.
+// From row r and column c on, `rows` x `vectors` vectors of sums stay in registers. As a call of a
+// function it would take a tenth longer.
 template <int rows, int vectors, int bytes, class Real, class Sums>
 [[gnu::always_inline]] inline void product_block(int r, int c, int depth, Strided<Real> a,
                                                  const Real* b, std::ptrdiff_t b_row,
@@ -83,7 +83,8 @@ template <int rows, int vectors, int bytes, class Real, class Sums>
             sums.template end<bytes>(r + i, c + v * width, block[i][v]);
 }
 
-// As many sums at a time as hide how long each multiply-add takes, and leave registers for factors.
+// A multiply-add begins before the last one has ended, but not the one that adds to the same sum.
+// So many sums at a time keep the processor busy, and leave registers for the factors.
 template <int vectors, int bytes, class Real, class Sums>
 inline void product_columns(int rows, int c, int depth, Strided<Real> a, const Real* b,
                             std::ptrdiff_t b_row, const Sums& sums) {
@@ -116,24 +117,24 @@ inline void product(int rows, int columns, int depth, Strided<Real> a, const Rea
         product_columns<1, RDDL_VECTOR_BYTES>(rows, c, depth, a, b, b_row, sums);
 }
 
-// a b + bias for few columns, of which column o of b is the row o here. Rows of a and b have a
-// multiple of `padding` numbers; what pads rows of the result becomes 0.
+// The sum of a[k] b[k]; `count` is a multiple of the padding.
 template <class Real>
-inline void dot_products(int rows, int columns, int depth, const Real* a, const Real* b,
-                         const Real* bias, Real* to, int row) {
-    constexpr int width = VectorOf<Real>::width;
-    for (int r = 0; r < rows; ++r, a += depth, to += row)
-        for (int o = 0; o < row; ++o) {
-            Real all = 0;
-            if (o < columns) {
-                Vector<Real> sums{};
-                for (int k = 0; k < depth; k += width)
-                    sums += load(a + k) * load(b + o * depth + k);
-                for (int i = 0; i < width; ++i) all += sums[i];
-                all += bias[o];
-            }
-            to[o] = all;
-        }
+inline Real dot_product(int count, const Real* a, const Real* b) {
+    Vector<Real> sums{};
+    for (int k = 0; k < count; k += VectorOf<Real>::width) sums += load(a + k) * load(b + k);
+    Real all = 0;
+    for (int i = 0; i < VectorOf<Real>::width; ++i) all += sums[i];
+    return all;
+}
+
+// The results of a layer of few outputs: x w + bias, where w has a row of `inputs` numbers for each
+// output. What pads rows of results becomes 0.
+template <class Real>
+inline void few_results(int count, int inputs, int outputs, const Real* x, const Real* w,
+                        const Real* bias, Real* to, int row) {
+    for (int s = 0; s < count; ++s, x += inputs, to += row)
+        for (int o = 0; o < row; ++o)
+            to[o] = o < outputs ? dot_product(inputs, x, w + o * inputs) + bias[o] : Real(0);
 }
 
 // sums += the rows of x.

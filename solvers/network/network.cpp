@@ -98,9 +98,10 @@ Network make_network(int inputs, const std::vector<int>& hidden, int outputs, in
         const bool is_last = network.layers.size() == hidden.size();
         layer.by_outputs = is_last && !is_first && width <= padding / 2;
         layer.weights = network.parameters;
-        layer.bias = layer.weights + static_cast<std::size_t>(layer.by_outputs
-                                                                  ? width * layer.padded_inputs
-                                                                  : inputs * layer.padded_outputs);
+        const int weight_rows = layer.by_outputs ? width : inputs;
+        const int weight_row = layer.by_outputs ? layer.padded_inputs : layer.padded_outputs;
+        layer.bias = layer.weights +
+                     static_cast<std::size_t>(weight_rows) * static_cast<std::size_t>(weight_row);
         network.parameters = layer.bias + static_cast<std::size_t>(layer.padded_outputs);
         layer.rows = network.rows;
         const int row = is_first ? padded(inner) : layer.padded_inputs;

@@ -25,7 +25,7 @@ void forward(const Network& network, const Real* parameters, int count, const Re
                     Results<End, Real>{bias, values, row});
         };
         if (layer.by_outputs)
-            dot_products(count, layer.outputs, x_row, x, weights, bias, values, row);
+            few_results(count, x_row, layer.outputs, x, weights, bias, values, row);
         else if (&layer == &network.layers.back())
             end_with(Linear{});
         else
@@ -54,16 +54,16 @@ void backward(const Network& network, const Real* rows, int count, const Real* x
             product(layer.inputs, d_row, count, Strided<Real>{input, 1, input_row}, d, d_row,
                     Added<Real>{gradient + layer.weights, d_row});
         add_rows(count, d_row, d, gradient + layer.bias);
-        const Strided<Real> by_outputs{d, d_row, 1};
+        const Strided<Real> d_rows{d, d_row, 1};
         if (l == 0) {
             const int inner = padded(network.inner);
-            product(count, inner, layer.outputs, by_outputs, rows + layer.rows, inner,
+            product(count, inner, layer.outputs, d_rows, rows + layer.rows, inner,
                     Added<Real>{d_inner, inner});
             return;
         }
         Real* const d_input = values_of(scratch, l - 1);
         with_end(network.activation, [&]<class End>(End) {
-            product(count, input_row, layer.outputs, by_outputs, rows + layer.rows, input_row,
+            product(count, input_row, layer.outputs, d_rows, rows + layer.rows, input_row,
                     Derivatives<End, Real>{input, d_input, input_row});
         });
         d = d_input;
