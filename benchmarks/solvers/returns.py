@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Returns that solvers reach on problems whose best returns are known, with several seeds.
 
     benchmarks/solvers/returns.py --out returns.jsonl [--seeds 5] [--only MountainCar]

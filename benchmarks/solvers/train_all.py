@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Trains PPO and CGP on the problems of rddlrepository and compares them with no-op and random actions.
 
     benchmarks/solvers/train_all.py --out results.jsonl                     all problems, smallest instance

@@ -116,8 +116,8 @@ int fitting_rollout(const rddl_simulator& simulator, const PpoModel& model,
     // An update of more, samples times weights, takes the better part of a minute.
     constexpr double most_work = 0x1p34;
     const auto is_quick = [&] {
-        return double{1} * fitting.environments * fitting.rollout *
-                   static_cast<double>(parameter_count(model)) <=
+        return static_cast<double>(parameter_count(model)) * fitting.environments *
+                   fitting.rollout <=
                most_work;
     };
     const auto may_be_halved = [&] {

@@ -25,8 +25,8 @@ PpoRoom room_of(const rddl_simulator& simulator, const PpoModel& model, const Pp
 void require_room(const rddl_simulator& simulator, const PpoModel& model,
                   const PpoOptions& options);
 
-// The options' rollout, halved as often as it takes to fit; never so often that less than a
-// minibatch is left. As it was where that does not suffice.
+// The options' rollout, halved as often as it takes to fit, and so that no update takes minutes;
+// never so often that less than a minibatch is left. As it was where that does not suffice to fit.
 int fitting_rollout(const rddl_simulator& simulator, const PpoModel& model,
                     const PpoOptions& options);
 

@@ -116,9 +116,8 @@ Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
     trainee.solver = "ppo";
     trainee.settings = ppo_settings(trainer->options());
     if (const int rollout = trainer->options().rollout; rollout != options.rollout)
-        trainee.note =
-            fmt::format("--rollout is {} in place of {}, so that PPO takes no more than {}", rollout,
-                        options.rollout, memory_text(static_cast<double>(options.memory_limit)));
+        trainee.note = fmt::format("--rollout is {} in place of {}, since this problem is large",
+                                   rollout, options.rollout);
     trainee.ends_early = static_cast<bool>(options.stops);
     trainee.update = [=] {
         trainer->update();

@@ -351,7 +351,7 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     // Where nobody asks for so many steps, fewer are made.
     const Outcome fitting = run(on_tanks("train ppo", "--steps 100 --memory-limit 2M --out f"));
     EXPECT_EQ(fitting.status, 0) << fitting.err;
-    expect_part(fitting.err, " in place of 128, so that PPO takes no more than 2 MiB");
+    expect_part(fitting.err, " in place of 128, since this problem is large");
     refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
     refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");
