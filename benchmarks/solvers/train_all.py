@@ -33,7 +33,7 @@ def run(words, seconds):
 def train(rddl, problem, instance, solver, folder, arguments):
     begin = time.time()
     run([rddl, "train", solver, problem, instance, "--out", folder / solver, "--seed", arguments.seed,
-         "--time", arguments.seconds, "--quiet", *(["--steps", "1e12"] if arguments.long and solver == "ppo" else []),
+         "--time", arguments.seconds, "--memory-limit", arguments.memory_limit, "--quiet", *(["--steps", "1e12"] if arguments.long and solver == "ppo" else []),
          *(["--gens", "100000000"] if solver == "cgp" else [])], 10 * arguments.seconds + 600)
     return time.time() - begin
 
@@ -50,7 +50,7 @@ def solve(rddl, problem, instance, arguments):
                 result[solver + "_failure"] = str(failure)
         compared = json.loads(run([rddl, "compare", problem, instance, "--json", "--policies",
                                    ",".join(map(str, policies)), "--seed", arguments.seed + 1000,
-                                   "--episodes", arguments.episodes], 600))
+                                   "--episodes", arguments.episodes], 3600))
         for policy in compared["policies"]:
             key = Path(policy["policy"]).name
             result[key] = [policy["return"]["mean"], policy["return"]["half_width_95"], policy["length"]["mean"]]
@@ -119,6 +119,7 @@ def main():
     parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is none of the competition's")
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--episodes", type=int, default=50)
+    parser.add_argument("--memory-limit", default="8G", help="what a learner may take")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=1, help="problems at the same time")
     parser.add_argument("--long", action="store_true", help="PPO uses all of the time, with a constant plan")
