@@ -11,7 +11,7 @@ namespace rddlc::solvers {
 // Of the names of domain, instance and fluents, their sizes, the horizon and the discount.
 std::uint64_t fingerprint(const rddl_simulator& simulator);
 
-// Another one for bytes of which a single one is another. Against bad luck, not bad will.
+// Changes with any single byte. Against bad luck, not bad will.
 std::uint64_t checksum(std::string_view bytes);
 
 }  // namespace rddlc::solvers
