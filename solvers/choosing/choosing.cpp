@@ -224,8 +224,12 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
                              actions + i * static_cast<std::size_t>(space_.column_count));
             write_records(actions);
         }
-        require_done(simulator_, simulator_.action_mask(batch, p > 0 ? actions_.data() : nullptr,
-                                                        choice_masks_.data()));
+        if (space_.asks)
+            require_done(simulator_,
+                         simulator_.action_mask(batch, p > 0 ? actions_.data() : nullptr,
+                                                choice_masks_.data()));
+        else
+            std::fill(choice_masks_.begin(), choice_masks_.end(), std::uint8_t{1});
         picking = false;
         for (std::size_t i = 0; i < keys_.size(); ++i) {
             std::int32_t* const index = chosen.indices + i * picks;

@@ -208,6 +208,12 @@ bool fit_into_masks(std::int64_t picks, std::int64_t choices) {
     return choices <= most_mask_bytes / std::max<std::int64_t>(picks, 1);
 }
 
+// The simulator tries each choice for a mask, and looks at all of the action each time.
+bool may_ask_for_masks(const rddl_problem& problem, std::int64_t columns, std::int64_t choices) {
+    constexpr std::int64_t most_values = 4'000'000;
+    return problem.precondition_count == 0 || choices <= most_values / columns;
+}
+
 // How many values may differ from the default.
 std::int64_t limit_of_changes(const rddl_problem& problem, std::int64_t columns) {
     return problem.max_nondef_actions < 0 ? columns : std::min(columns, problem.max_nondef_actions);
@@ -261,15 +267,16 @@ ActionSpace action_space(const rddl_simulator& simulator) {
     const std::int64_t limit = limit_of_changes(problem, space.column_count);
     const std::int64_t choices = simulator.action_choice_count(&simulator);
     const bool bites = preconditions_bite(simulator, space, records);
+    space.asks = may_ask_for_masks(problem, space.column_count, choices);
     if (limit < space.column_count) {
         add_picks(space, simulator, columns, limit);
     } else if (const auto groups =
                    bites ? find_groups(simulator, columns, space, records) : std::nullopt) {
         add_groups(space, *groups);
-    } else if (bites && space.reals.empty() && space.categories.size() > 1 &&
+    } else if (bites && space.asks && space.reals.empty() && space.categories.size() > 1 &&
                fit_into_masks(limit, choices)) {
         add_picks(space, simulator, columns, limit);
-    } else if (bites && !space.categories.empty() && fit_into_masks(1, choices)) {
+    } else if (bites && space.asks && !space.categories.empty() && fit_into_masks(1, choices)) {
         add_masks_of_categories(space, simulator, columns);
     }
     space.masked = space.picks > 0 || !space.logit_of_mask.empty();

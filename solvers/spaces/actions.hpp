@@ -57,7 +57,8 @@ struct ActionSpace {
     std::vector<Choice> choices;           // of picks; the first one stops
     int picks = 0;                         // at most; 0: each category by itself
     int logit_count = 0;
-    bool masked = false;             // the simulator is asked which logits are allowed
+    bool masked = false;             // a mask tells which logits are allowed
+    bool asks = true;                // the simulator makes it, unless that would take too long
     bool may_be_illegal = false;     // what is chosen may violate a precondition, and is mended
     std::vector<int> logit_of_mask;  // of categories, by the simulator's choices: a logit, or -1
 

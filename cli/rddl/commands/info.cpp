@@ -42,8 +42,7 @@ Command info_command() {
     const auto options = std::make_shared<InfoOptions>();
     Command command;
     command.name = "info";
-    command.summary =
-        "Show fluents, sizes and characteristics of a problem, and which learners take it";
+    command.summary = "Show what a problem consists of, and which learners take it";
     command.details =
         "Examples:\n"
         "  rddl info domain.rddl instance.rddl\n"
