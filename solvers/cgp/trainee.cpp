@@ -119,8 +119,9 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
     trainee.best_known = [=] {
         return search->progress().best.value;
     };
-    trainee.summary = [=] {
-        return program_formula(search->scope(), search->best());
+    trainee.summary = [&simulator](std::string_view text) {
+        const auto found = read_program(simulator, text);
+        return program_formula(found->scope, found->genome);
     };
     trainee.policy = [=, &simulator] {
         const auto found =

@@ -268,11 +268,15 @@ ActionSpace action_space(const rddl_simulator& simulator) {
     const std::int64_t choices = simulator.action_choice_count(&simulator);
     const bool bites = preconditions_bite(simulator, space, records);
     space.asks = may_ask_for_masks(problem, space.column_count, choices);
-    if (limit < space.column_count) {
-        add_picks(space, simulator, columns, limit);
-    } else if (const auto groups =
-                   bites ? find_groups(simulator, columns, space, records) : std::nullopt) {
+    const bool is_limited = limit < space.column_count;
+    const auto groups =
+        bites && limit > 1 ? find_groups(simulator, columns, space, records) : std::nullopt;
+    // Picks keep to limits, too, and know what is legal; but from the default they do not find to
+    // actions where one bool of each group has to change.
+    if (groups && !(is_limited && groups->may_be_none)) {
         add_groups(space, *groups);
+    } else if (is_limited) {
+        add_picks(space, simulator, columns, limit);
     } else if (bites && space.asks && space.reals.empty() && space.categories.size() > 1 &&
                fit_into_masks(limit, choices)) {
         add_picks(space, simulator, columns, limit);

@@ -13,13 +13,25 @@ using Search = MendingSearch;
 
 // How often a real is halved before it takes its default.
 constexpr int most_halves = 3;
-// How many values are mended one by one; after that all others take their default.
-constexpr int most_values = 16;
+// How many values are mended one by one; after that all others take their default. Fewer of large
+// actions, of which each question takes its time.
+int most_mended(int columns) {
+    return std::clamp(16'000 / columns, 1, 16);
+}
 
 class Mending {
   public:
-    Mending(const ActionSpace& space, const std::vector<std::uint8_t>& is_real)
-        : space_(space), is_real_(is_real) {}
+    Mending(const ActionSpace& space, const MendingRoom& room)
+        : space_(space),
+          is_number_(room.is_number),
+          is_real_(room.is_real),
+          most_mended_(most_mended(space.column_count)) {}
+
+    // The values from `begin` on fall back.
+    void fall_back(const Search& search, int begin, float* row) const {
+        for (auto c = static_cast<std::size_t>(begin); c < space_.defaults.size(); ++c)
+            if (!search.keeps_categories || is_number_[c]) row[c] = space_.defaults[c];
+    }
 
     void start(Search& search, float* wanted) const {
         search.end = space_.column_count;
@@ -53,16 +65,14 @@ class Mending {
     void mend(Search& search, float* wanted) const {
         const auto column = static_cast<std::size_t>(search.legal);
         const float by_default = space_.defaults[column];
-        if (is_real_[column] && search.halves < most_halves && search.mended < most_values) {
+        if (is_real_[column] && search.halves < most_halves && search.mended < most_mended_) {
             wanted[column] = by_default + (wanted[column] - by_default) * 0.5f;
             search.halves += 1;
             search.question = Search::Question::Value;
             return;
         }
         wanted[column] = by_default;
-        if (search.mended >= most_values)
-            std::copy(space_.defaults.begin() + search.legal, space_.defaults.end(),
-                      wanted + search.legal);
+        if (search.mended >= most_mended_) fall_back(search, search.legal, wanted);
         go_on(search);
     }
 
@@ -74,7 +84,8 @@ class Mending {
     }
 
     const ActionSpace& space_;
-    const std::vector<std::uint8_t>& is_real_;
+    const std::vector<std::uint8_t>&is_number_, &is_real_;
+    int most_mended_;
 };
 
 }  // namespace
@@ -84,9 +95,12 @@ MendingRoom::MendingRoom(const ActionSpace& space, std::int64_t environments) {
     violated.resize(count);
     wanted.resize(count * static_cast<std::size_t>(space.column_count));
     searches.resize(count);
+    is_number.resize(space.names.size());
     is_real.resize(space.names.size());
-    for (const RealHead& head : space.reals)
+    for (const RealHead& head : space.reals) {
+        is_number[static_cast<std::size_t>(head.column)] = 1;
         is_real[static_cast<std::size_t>(head.column)] = !head.rounds;
+    }
 }
 
 std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
@@ -103,21 +117,26 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
 
     const int columns = space.column_count;
     std::copy_n(actions, environments * columns, wanted);
-    // The first `count` values as they are wanted, the others at their default.
+    const Mending mending(space, room);
+    // The first `count` values as they are wanted, the others as in what is legal.
     const auto set_first = [&](std::int64_t i, int count) {
         float* const row = actions + i * columns;
-        std::copy_n(wanted + i * columns, count, row);
-        std::copy(space.defaults.begin() + count, space.defaults.end(), row + count);
+        std::copy_n(wanted + i * columns, columns, row);
+        mending.fall_back(searches[static_cast<std::size_t>(i)], count, row);
         converter.write(row, records + static_cast<std::size_t>(i) * converter.record_size());
     };
-    const Mending mending(space, room.is_real);
     std::fill(searches.begin(), searches.end(), Search{});
-    for (std::int64_t i = 0; i < environments; ++i)
-        if (violated[i] >= 0) {
+    for (const bool keeps_categories : {false, true}) {
+        const bool is_any = std::ranges::any_of(room.violated, [](auto v) { return v >= 0; });
+        if (!is_any || (keeps_categories && space.reals.empty())) break;
+        for (std::int64_t i = 0; i < environments; ++i) {
+            if (violated[i] < 0) continue;
             searches[static_cast<std::size_t>(i)].active = true;
+            searches[static_cast<std::size_t>(i)].keeps_categories = keeps_categories;
             set_first(i, 0);
         }
-    require_done(simulator, simulator.violated_preconditions(batch, records, violated));
+        require_done(simulator, simulator.violated_preconditions(batch, records, violated));
+    }
     for (std::int64_t i = 0; i < environments; ++i) {
         Search& search = searches[static_cast<std::size_t>(i)];
         if (!search.active) continue;

@@ -48,6 +48,12 @@ class Trial {
         return values_.data() + static_cast<std::size_t>(e) * columns_;
     }
 
+    void reset_numbers(const ActionSpace& space) {
+        for (std::int64_t e = 0; e < environments; ++e)
+            for (const RealHead& head : space.reals)
+                values(e)[head.column] = space.defaults[static_cast<std::size_t>(head.column)];
+    }
+
     std::int64_t count_legal() {
         for (std::int64_t e = 0; e < environments; ++e) records_.write(values(e), action(e));
         require_done(simulator_, simulator_.violated_preconditions(batch_.get(), actions_.data(),
@@ -87,8 +93,8 @@ class Trial {
 std::int64_t object_at(const rddl_problem& problem, const rddl_fluent& fluent,
                        std::int64_t grounding, std::int32_t parameter) {
     for (std::int32_t p = fluent.rank - 1; p > parameter; --p)
-        grounding /= problem.types[fluent.parameter_types[p]].object_count;
-    return grounding % problem.types[fluent.parameter_types[parameter]].object_count;
+        grounding /= rddl_type_at(&problem, fluent.parameter_types[p])->object_count;
+    return grounding % rddl_type_at(&problem, fluent.parameter_types[parameter])->object_count;
 }
 
 // What the changes of a group have in common.
@@ -139,6 +145,13 @@ std::vector<std::vector<std::vector<int>>> guesses(const rddl_problem& problem,
     return all;
 }
 
+// How many values change at most where one of each group does.
+std::int64_t changes_of(const std::vector<std::vector<int>>& groups, std::int64_t columns) {
+    for (const std::vector<int>& group : groups)
+        columns -= static_cast<std::int64_t>(group.size()) - 1;
+    return columns;
+}
+
 void change(float& value) {
     value = 1 - value;
 }
@@ -176,7 +189,11 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
             tried[static_cast<std::size_t>(e)] = {g, changed[g],
                                                   (changed[g] + 1 + below(size - 1)) % size};
         }
-        if (trial.count_legal() < environments) return std::nullopt;
+        if (trial.count_legal() < environments) {
+            if (space.reals.empty()) return std::nullopt;
+            trial.reset_numbers(space);  // learners mend those
+            if (trial.count_legal() < environments) return std::nullopt;
+        }
 
         change_all(&Tried::other);  // two of a group
         if (trial.count_legal() > 0) return std::nullopt;
@@ -218,8 +235,11 @@ bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& spac
 std::optional<Groups> find_groups(const rddl_simulator& simulator,
                                   const std::vector<rddl_column>& columns, const ActionSpace& space,
                                   const ActionRecords& records) {
-    for (const auto& groups : guesses(*simulator.problem, columns))
+    const std::int64_t limit = simulator.problem->max_nondef_actions;
+    for (const auto& groups : guesses(*simulator.problem, columns)) {
+        if (limit >= 0 && changes_of(groups, space.column_count) > limit) continue;
         if (auto found = confirmed(Trial(simulator, space, records), space, groups)) return found;
+    }
     return std::nullopt;
 }
 

@@ -24,7 +24,9 @@ struct Groups {
 
 // Tries the groups that the parameters of the action-fluents suggest: the changes that concern the
 // same object. They are taken if, in the states of some random episodes, random actions with one
-// change in each group are legal, and are not with one more. Nothing if no such groups are found.
+// change in each group are legal, with the numbers that are drawn or else their defaults, and are
+// not with one more; and if max-nondef-actions lets all of them change. Nothing if no such groups
+// are found.
 std::optional<Groups> find_groups(const rddl_simulator& simulator,
                                   const std::vector<rddl_column>& columns, const ActionSpace& space,
                                   const ActionRecords& records);

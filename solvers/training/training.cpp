@@ -104,6 +104,7 @@ class Training {
         result_.has_best = has_best_;
         result_.best_return = best_return_;
         result_.best_length = best_length_;
+        result_.best_policy = best_policy_;
         if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
             throw Failure(
                 fmt::format("no evaluation has a finite return: {}", result_.not_finite),

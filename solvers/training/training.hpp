@@ -38,9 +38,10 @@ struct Trainee {
     std::function<std::string()> save;    // checkpoints
     std::function<void(std::string_view)> load;
     std::function<std::string()> policy_text;  // what a policy file holds,
-    std::function<std::string()> summary;      // lines about what was learned; may be empty
-    std::function<double()> best_known;        // what it takes for the best return; may be empty
-    std::function<Policy()> policy;            // and the policy itself
+    // Lines about what such a file holds; may be empty.
+    std::function<std::string(std::string_view)> summary;
+    std::function<double()> best_known;  // what it takes for the best return; may be empty
+    std::function<Policy()> policy;      // and the policy itself
 };
 
 struct TrainingOptions {
@@ -51,7 +52,7 @@ struct TrainingOptions {
     std::int64_t evaluations = 20;      // in all; the best policy of them is kept
     std::int64_t evaluation_episodes = 20;
     std::uint64_t seed = 0;
-    Settings settings = {};  // of the simulator, as those of the trainee
+    Settings settings = {};                            // of the simulator, as those of the trainee
     std::int64_t memory_limit = default_memory_limit;  // bytes of a checkpoint that is read
     bool quiet = false;
     std::function<bool()> stops;  // Ctrl-C; may be empty
@@ -64,6 +65,7 @@ struct TrainingResult {
     double seconds = 0;
     bool has_best = false;  // false where an interrupt came before the first evaluation
     double best_return = 0, best_length = 0;  // mean of the best evaluation
+    std::string best_policy;                  // of that evaluation, as its file holds it
     std::int64_t episodes = 0, faulted = 0;   // of the last evaluation
     std::string first_fault;                  // of all of them; its message
     std::string not_finite;  // where the last evaluation's return is not: what has made it so

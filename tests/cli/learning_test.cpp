@@ -3,6 +3,7 @@
 #include "program.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 namespace rddlc::cli {
@@ -20,6 +21,27 @@ class LearningProgram : public Program {
         "--evaluation-episodes 10 ";
     static constexpr const char* small_cgp = "--lambda 4 --cols 20 --episodes 4 --evaluations 4 ";
 };
+
+// The formula beside the best return is that of policy.cgp, not of the search's last program.
+TEST_F(LearningProgram, PrintsTheFormulaThatEarnsTheBestReturn) {
+    const auto formula_of = [&](const char* const file) {
+        std::istringstream lines(read_file(folder_ / "c" / file));
+        std::string formula;
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with("# ")) formula += line.substr(2) + "\n";
+        return formula;
+    };
+    int others = 0;
+    for (int seed = 0; seed < 10; ++seed) {
+        const Outcome trained = run(
+            on_tanks("train cgp", fmt::format("--gens 40 --seed {} --out c {}", seed, small_cgp)));
+        ASSERT_EQ(trained.status, 0) << trained.err;
+        EXPECT_TRUE(trained.out.ends_with("\n" + formula_of("policy.cgp"))) << trained.out;
+        others += formula_of("policy.cgp") != formula_of("last.cgp");
+        std::filesystem::remove_all(folder_ / "c");
+    }
+    EXPECT_GT(others, 0);
+}
 
 TEST_F(LearningProgram, TrainsEvaluatesAndCompares) {
     for (const std::string& solver : {"ppo --steps 20000 " + std::string(small_ppo),

@@ -1,5 +1,6 @@
 // Bools that preconditions allow to change one at a time.
 #include "simulators.hpp"
+#include "solver_harbour.h"
 #include "solver_museum.h"
 #include "solver_shop.h"
 #include "solvers/batches/batch.hpp"
@@ -7,11 +8,13 @@
 #include "solvers/cgp/skdecide.hpp"
 #include "solvers/choosing/choosing.hpp"
 #include "solvers/spaces/actions.hpp"
+#include "solvers/spaces/mending.hpp"
 #include "support/failure.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <set>
 #include <string>
 
@@ -23,6 +26,9 @@ const rddl_simulator& shop() {
 }
 const rddl_simulator& museum() {
     return *rddl_simulator_museum_museum_1();
+}
+const rddl_simulator& harbour() {
+    return *rddl_simulator_harbour_harbour_1();
 }
 
 std::set<std::string> names_of(const ActionSpace& space, const CategoryHead& head) {
@@ -83,6 +89,67 @@ TEST(Groups, ExactlyOneOfThoseOfAnObject) {
     EXPECT_EQ(guards, 2u);
     const std::vector<float> action = action_of(space, {0, 3, 0, 1, 0});
     EXPECT_EQ(std::count(action.begin(), action.end(), 1.0f), 3);
+}
+
+// Though max-nondef-actions lets no more change than one bool of each ship, and the numbers, which
+// preconditions limit together.
+TEST(Groups, BesideALimitAndNumbers) {
+    const ActionSpace space = action_space(harbour());
+    ASSERT_EQ(harbour().problem->max_nondef_actions, 6);
+    EXPECT_EQ(space.picks, 0);
+    EXPECT_EQ(space.reals.size(), 3u);
+    ASSERT_EQ(space.categories.size(), 3u);
+    for (const CategoryHead& head : space.categories) {
+        EXPECT_EQ(head.group.size(), 3u);
+        EXPECT_EQ(head.first_value, 1);
+    }
+    EXPECT_TRUE(space.may_be_illegal);
+}
+
+// No default is legal where each ship has to do something: numbers alone fall back, and not all the
+// way where half of them is legal.
+TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
+    const rddl_simulator& simulator = harbour();
+    const ActionSpace space = action_space(simulator);
+    const ActionRecords records(simulator);
+    constexpr std::int64_t environments = 32;
+    rddl_batch_options options{};
+    options.environment_count = environments;
+    const Batch batch = create_batch(simulator, options);
+    const auto columns = static_cast<std::size_t>(space.column_count);
+    std::vector<float> actions(environments * columns);
+    std::vector<std::byte> bytes(environments * records.record_size());
+    std::mt19937 random(3);
+    for (std::size_t e = 0; e < environments; ++e) {
+        std::vector<float> numbers(3);
+        for (float& number : numbers) number = static_cast<float>(random() % 2000) / 500 - 2;
+        std::vector<std::int32_t> indices(3);
+        for (std::int32_t& index : indices) index = static_cast<std::int32_t>(random() % 3);
+        write_action(space, numbers.data(), indices.data(), actions.data() + e * columns);
+        records.write(actions.data() + e * columns, bytes.data() + e * records.record_size());
+    }
+    const std::vector<float> wanted = actions;
+    MendingRoom room(space, environments);
+    EXPECT_GT(
+        mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(), room),
+        environments / 2);
+    std::vector<std::int32_t> violated(environments);
+    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
+    EXPECT_EQ(violated, std::vector<std::int32_t>(environments, -1));
+    bool any_halved = false;
+    for (std::size_t e = 0; e < environments; ++e) {
+        const std::size_t row = e * columns;
+        for (const CategoryHead& head : space.categories)
+            for (const int column : head.group)
+                EXPECT_EQ(actions[row + static_cast<std::size_t>(column)],
+                          wanted[row + static_cast<std::size_t>(column)]);
+        for (const RealHead& head : space.reals) {
+            const float pumped = actions[row + static_cast<std::size_t>(head.column)];
+            any_halved |=
+                pumped > 0 && pumped < wanted[row + static_cast<std::size_t>(head.column)];
+        }
+    }
+    EXPECT_TRUE(any_halved);
 }
 
 // Where preconditions say something else, one change is picked after the other, as before.

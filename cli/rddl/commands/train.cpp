@@ -59,7 +59,8 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
         fmt::print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
                    number_text(result.best_length), duration_text(result.seconds),
                    training.folder.string());
-    if (!training.quiet && result.has_best && trainee.summary) fmt::print("{}", trainee.summary());
+    if (!training.quiet && result.has_best && trainee.summary)
+        fmt::print("{}", trainee.summary(result.best_policy));
     if (!training.quiet && result.faulted > 0)
         tell("rddl: warning: {} of {} episodes of the last evaluation ended by a fault: {}\n",
              result.faulted, result.episodes, result.first_fault);
