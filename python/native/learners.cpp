@@ -113,7 +113,9 @@ class Learner {
     }
     std::int64_t steps() { return trainee().steps(); }
     std::string policy_text() { return trainee().policy_text(); }
-    std::string summary() { return trainee().summary ? trainee().summary() : ""; }
+    std::string summary() {
+        return trainee().summary ? trainee().summary(trainee().policy_text()) : "";
+    }
     nb::dict row() {
         nb::dict row;
         for (const auto& [name, value] : trainee().row()) row[name.c_str()] = value;
