@@ -95,7 +95,7 @@ Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Nois
     if (space.masked)
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
-    if (space.may_be_illegal) mending_ = MendingRoom(space, environments);
+    if (space.may_be_illegal) mending_ = MendingRoom(simulator, space, environments);
 }
 
 void Chooser::begin_episode(std::int64_t environment) {

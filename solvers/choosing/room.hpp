@@ -12,7 +12,8 @@ inline double bytes_of_chooser(const rddl_simulator& simulator, const ActionSpac
         bytes += static_cast<double>(simulator.problem->action_size);
     if (space.masked) bytes += static_cast<double>(simulator.action_choice_count(&simulator));
     if (space.may_be_illegal)
-        bytes += sizeof(float) * (space.column_count + 1.0) + sizeof(MendingSearch);
+        bytes += sizeof(float) * (2.0 * space.column_count + 1) + sizeof(MendingSearch) +
+                 sizeof(RandomPolicy::Search);
     return bytes;
 }
 

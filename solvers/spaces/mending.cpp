@@ -3,6 +3,7 @@
 #include "solvers/batches/batch.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -19,22 +20,17 @@ int most_mended(int columns) {
     return std::clamp(16'000 / columns, 1, 16);
 }
 
+// Of one environment.
 class Mending {
   public:
-    Mending(const ActionSpace& space, const MendingRoom& room)
-        : space_(space),
-          is_number_(room.is_number),
-          is_real_(room.is_real),
-          most_mended_(most_mended(space.column_count)) {}
-
-    // The values from `begin` on fall back.
-    void fall_back(const Search& search, int begin, float* row) const {
-        for (auto c = static_cast<std::size_t>(begin); c < space_.defaults.size(); ++c)
-            if (!search.keeps_categories || is_number_[c]) row[c] = space_.defaults[c];
-    }
+    Mending(const MendingRoom& room, int columns, const float* base)
+        : is_real_(room.is_real),
+          columns_(columns),
+          most_mended_(most_mended(columns)),
+          base_(base) {}
 
     void start(Search& search, float* wanted) const {
-        search.end = space_.column_count;
+        search.end = columns_;
         narrow(search, wanted);
     }
 
@@ -45,10 +41,10 @@ class Mending {
                     search.active = false;
                     return;
                 }
-                search.end = space_.column_count;
+                search.end = columns_;
                 return narrow(search, wanted);
             case Search::Question::Middle:
-                (is_legal ? search.legal : search.end) = search.asked(space_.column_count);
+                (is_legal ? search.legal : search.end) = search.asked(columns_);
                 return narrow(search, wanted);
             case Search::Question::Value:
                 return is_legal ? go_on(search) : mend(search, wanted);
@@ -64,15 +60,16 @@ class Mending {
     // The value behind the legal ones is at fault.
     void mend(Search& search, float* wanted) const {
         const auto column = static_cast<std::size_t>(search.legal);
-        const float by_default = space_.defaults[column];
+        const float base = base_[column];
         if (is_real_[column] && search.halves < most_halves && search.mended < most_mended_) {
-            wanted[column] = by_default + (wanted[column] - by_default) * 0.5f;
+            wanted[column] = base + (wanted[column] - base) * 0.5f;
             search.halves += 1;
             search.question = Search::Question::Value;
             return;
         }
-        wanted[column] = by_default;
-        if (search.mended >= most_mended_) fall_back(search, search.legal, wanted);
+        wanted[column] = base;
+        if (search.mended >= most_mended_)
+            std::copy(base_ + search.legal, base_ + columns_, wanted + search.legal);
         go_on(search);
     }
 
@@ -83,80 +80,145 @@ class Mending {
         search.question = Search::Question::All;
     }
 
-    const ActionSpace& space_;
-    const std::vector<std::uint8_t>&is_number_, &is_real_;
-    int most_mended_;
+    const std::vector<std::uint8_t>& is_real_;
+    int columns_, most_mended_;
+    const float* base_;
 };
+
+// The rows and records of a batch, and which of its actions are legal.
+struct Actions {
+    const rddl_simulator& simulator;
+    const ActionSpace& space;
+    const ActionRecords& converter;
+    rddl_batch* batch;
+    float* values;
+    std::byte* records;
+    MendingRoom& room;
+
+    std::int64_t count() const { return static_cast<std::int64_t>(room.searches.size()); }
+    float* values_of(std::int64_t i) const { return values + i * space.column_count; }
+    float* wanted_of(std::int64_t i) const { return room.wanted.data() + i * space.column_count; }
+    float* base_of(std::int64_t i) const { return room.bases.data() + i * space.column_count; }
+    std::byte* record_of(std::int64_t i) const {
+        return records + static_cast<std::size_t>(i) * converter.record_size();
+    }
+    Search& search_of(std::int64_t i) const { return room.searches[static_cast<std::size_t>(i)]; }
+    bool is_legal(std::int64_t i) const { return room.violated[static_cast<std::size_t>(i)] < 0; }
+
+    void ask() const {
+        require_done(simulator,
+                     simulator.violated_preconditions(batch, records, room.violated.data()));
+    }
+    // The first values as they are wanted, the others as in the base.
+    void set_first(std::int64_t i, int values_wanted) const {
+        float* const row = values_of(i);
+        std::copy_n(wanted_of(i), values_wanted, row);
+        std::copy(base_of(i) + values_wanted, base_of(i) + space.column_count, row + values_wanted);
+        converter.write(row, record_of(i));
+    }
+};
+
+bool needs_base(const Search& search) {
+    return search.active && !search.has_base;
+}
+
+// make(base, wanted) writes rows that may be legal.
+void try_bases(const Actions& all, const auto& make) {
+    for (std::int64_t i = 0; i < all.count(); ++i) {
+        if (!needs_base(all.search_of(i))) continue;
+        make(all.base_of(i), all.wanted_of(i));
+        all.set_first(i, 0);
+    }
+    all.ask();
+    for (std::int64_t i = 0; i < all.count(); ++i)
+        if (needs_base(all.search_of(i))) all.search_of(i).has_base = all.is_legal(i);
+}
+
+// Searches for all environments side by side, since the simulator is asked about all of them.
+void try_random_bases(const Actions& all) {
+    MendingRoom& room = all.room;
+    std::fill(room.random_searches.begin(), room.random_searches.end(), RandomPolicy::Search{});
+    for (std::int64_t i = 0; i < all.count(); ++i)
+        if (needs_base(all.search_of(i))) room.random->act(0, 0, all.record_of(i));
+    for (bool searching = true; searching;) {
+        all.ask();
+        searching = false;
+        for (std::int64_t i = 0; i < all.count(); ++i) {
+            if (!needs_base(all.search_of(i))) continue;
+            if (all.is_legal(i)) {
+                all.converter.read(all.record_of(i), all.base_of(i));
+                all.search_of(i).has_base = true;
+            } else {
+                searching |= room.random->try_another(
+                    0, 0, room.random_searches[static_cast<std::size_t>(i)], all.record_of(i));
+            }
+        }
+    }
+}
+
+// Begins a search wherever an action is illegal and a legal one is found, its base.
+void begin_searches(const Actions& all) {
+    std::vector<Search>& searches = all.room.searches;
+    std::fill(searches.begin(), searches.end(), Search{});
+    for (std::int64_t i = 0; i < all.count(); ++i) all.search_of(i).active = !all.is_legal(i);
+
+    const std::vector<float>& defaults = all.space.defaults;
+    try_bases(all, [&](float* base, const float*) { std::ranges::copy(defaults, base); });
+    if (!all.space.reals.empty() && std::ranges::any_of(searches, needs_base))
+        try_bases(all, [&](float* base, const float* wanted) {
+            std::copy_n(wanted, all.space.column_count, base);
+            for (const RealHead& head : all.space.reals)
+                base[head.column] = defaults[static_cast<std::size_t>(head.column)];
+        });
+    if (std::ranges::any_of(searches, needs_base)) try_random_bases(all);
+
+    for (std::int64_t i = 0; i < all.count(); ++i) {
+        if (!needs_base(all.search_of(i))) continue;
+        all.search_of(i).active = false;
+        all.set_first(i, all.space.column_count);
+    }
+}
 
 }  // namespace
 
-MendingRoom::MendingRoom(const ActionSpace& space, std::int64_t environments) {
+MendingRoom::MendingRoom(const rddl_simulator& simulator, const ActionSpace& space,
+                         std::int64_t environments)
+    : random(std::in_place, *simulator.problem, 0) {
     const auto count = static_cast<std::size_t>(environments);
     violated.resize(count);
     wanted.resize(count * static_cast<std::size_t>(space.column_count));
+    bases.resize(wanted.size());
     searches.resize(count);
-    is_number.resize(space.names.size());
+    random_searches.resize(count);
     is_real.resize(space.names.size());
-    for (const RealHead& head : space.reals) {
-        is_number[static_cast<std::size_t>(head.column)] = 1;
+    for (const RealHead& head : space.reals)
         is_real[static_cast<std::size_t>(head.column)] = !head.rounds;
-    }
 }
 
 std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& space,
                           const ActionRecords& converter, rddl_batch* batch, float* actions,
                           std::byte* records, MendingRoom& room) {
-    std::vector<Search>& searches = room.searches;
-    const auto environments = static_cast<std::int64_t>(searches.size());
-    std::int32_t* const violated = room.violated.data();
-    float* const wanted = room.wanted.data();
-    require_done(simulator, simulator.violated_preconditions(batch, records, violated));
+    const Actions all{simulator, space, converter, batch, actions, records, room};
+    all.ask();
     const std::int64_t illegal =
-        std::count_if(violated, violated + environments, [](std::int32_t v) { return v >= 0; });
+        std::ranges::count_if(room.violated, [](auto v) { return v >= 0; });
     if (illegal == 0) return 0;
 
     const int columns = space.column_count;
-    std::copy_n(actions, environments * columns, wanted);
-    const Mending mending(space, room);
-    // The first `count` values as they are wanted, the others as in what is legal.
-    const auto set_first = [&](std::int64_t i, int count) {
-        float* const row = actions + i * columns;
-        std::copy_n(wanted + i * columns, columns, row);
-        mending.fall_back(searches[static_cast<std::size_t>(i)], count, row);
-        converter.write(row, records + static_cast<std::size_t>(i) * converter.record_size());
+    std::copy_n(actions, all.count() * columns, room.wanted.begin());
+    begin_searches(all);
+    const auto mending_of = [&](std::int64_t i) {
+        return Mending(room, columns, all.base_of(i));
     };
-    std::fill(searches.begin(), searches.end(), Search{});
-    for (const bool keeps_categories : {false, true}) {
-        const bool is_any = std::ranges::any_of(room.violated, [](auto v) { return v >= 0; });
-        if (!is_any || (keeps_categories && space.reals.empty())) break;
-        for (std::int64_t i = 0; i < environments; ++i) {
-            if (violated[i] < 0) continue;
-            searches[static_cast<std::size_t>(i)].active = true;
-            searches[static_cast<std::size_t>(i)].keeps_categories = keeps_categories;
-            set_first(i, 0);
-        }
-        require_done(simulator, simulator.violated_preconditions(batch, records, violated));
-    }
-    for (std::int64_t i = 0; i < environments; ++i) {
-        Search& search = searches[static_cast<std::size_t>(i)];
-        if (!search.active) continue;
-        search.active = violated[i] < 0;
-        search.active ? mending.start(search, wanted + i * columns) : set_first(i, columns);
-    }
-
-    const auto active = [](const Search& search) {
-        return search.active;
-    };
-    while (std::any_of(searches.begin(), searches.end(), active)) {
-        for (std::int64_t i = 0; i < environments; ++i) {
-            const Search& search = searches[static_cast<std::size_t>(i)];
-            if (search.active) set_first(i, search.asked(columns));
-        }
-        require_done(simulator, simulator.violated_preconditions(batch, records, violated));
-        for (std::int64_t i = 0; i < environments; ++i) {
-            Search& search = searches[static_cast<std::size_t>(i)];
-            if (search.active) mending.take(search, violated[i] < 0, wanted + i * columns);
-        }
+    for (std::int64_t i = 0; i < all.count(); ++i)
+        if (all.search_of(i).active) mending_of(i).start(all.search_of(i), all.wanted_of(i));
+    while (std::ranges::any_of(room.searches, &Search::active)) {
+        for (std::int64_t i = 0; i < all.count(); ++i)
+            if (all.search_of(i).active) all.set_first(i, all.search_of(i).asked(columns));
+        all.ask();
+        for (std::int64_t i = 0; i < all.count(); ++i)
+            if (all.search_of(i).active)
+                mending_of(i).take(all.search_of(i), all.is_legal(i), all.wanted_of(i));
     }
     return illegal;
 }

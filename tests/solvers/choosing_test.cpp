@@ -342,7 +342,7 @@ TEST(Mending, MakesActionsLegal) {
     std::vector<float> actions(environments * columns), wanted;
     std::vector<std::byte> bytes(environments * records.record_size());
     std::vector<std::int32_t> violated(environments);
-    MendingRoom room(space, environments);
+    MendingRoom room(simulator, space, environments);
     std::int64_t mended = 0;
     for (int step = 0; step < 20; ++step) {
         for (std::size_t i = 0; i < actions.size(); ++i)

@@ -129,7 +129,7 @@ TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
         records.write(actions.data() + e * columns, bytes.data() + e * records.record_size());
     }
     const std::vector<float> wanted = actions;
-    MendingRoom room(space, environments);
+    MendingRoom room(simulator, space, environments);
     EXPECT_GT(
         mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(), room),
         environments / 2);
@@ -150,6 +150,41 @@ TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
         }
     }
     EXPECT_TRUE(any_halved);
+}
+
+// Whatever is wanted: a random legal action is what values fall back to.
+TEST(Groups, AnyActionIsMendedWhereTheDefaultIsIllegal) {
+    const rddl_simulator& simulator = museum();
+    const ActionSpace space = action_space(simulator);
+    const ActionRecords records(simulator);
+    constexpr std::int64_t environments = 32;
+    rddl_batch_options options{};
+    options.environment_count = environments;
+    const Batch batch = create_batch(simulator, options);
+    const auto columns = static_cast<std::size_t>(space.column_count);
+    std::vector<float> actions(environments * columns);
+    std::vector<std::byte> bytes(environments * records.record_size());
+    std::mt19937 random(5);
+    for (float& value : actions) value = static_cast<float>(random() % 2);
+    for (std::size_t e = 0; e < environments; ++e)
+        records.write(actions.data() + e * columns, bytes.data() + e * records.record_size());
+    std::vector<std::int32_t> violated(environments);
+    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
+    const std::vector<std::int32_t> before = violated;
+    const std::vector<float> wanted = actions;
+    MendingRoom room(simulator, space, environments);
+    EXPECT_GT(
+        mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(), room),
+        environments / 2);
+    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
+    EXPECT_EQ(violated, std::vector<std::int32_t>(environments, -1));
+    for (std::size_t e = 0; e < environments; ++e) {
+        std::vector<float> row(columns);
+        records.read(bytes.data() + e * records.record_size(), row.data());
+        EXPECT_TRUE(std::equal(row.begin(), row.end(), actions.data() + e * columns));
+        if (before[e] >= 0) continue;
+        EXPECT_TRUE(std::equal(row.begin(), row.end(), wanted.data() + e * columns));  // stays
+    }
 }
 
 // Where preconditions say something else, one change is picked after the other, as before.
