@@ -92,8 +92,7 @@ class Island {
   public:
     Island(const rddl_simulator& simulator, const ProgramScope& scope, const CgpOptions& options,
            int number)
-        : scope_(scope),
-          options_(options),
+        : options_(options),
           shape_{scope.input_count(), options.constants, options.nodes,   scope.output_count(),
                  options.levels_back, options.functions, options.skdecide},
           random_(options.seed, static_cast<std::uint64_t>(number)),
@@ -365,7 +364,6 @@ class Island {
         if (!is_noisy()) fitness_ = evaluate_all({father_}).front();
     }
 
-    const ProgramScope& scope_;
     const CgpOptions& options_;
     GenomeShape shape_;
     Random random_;

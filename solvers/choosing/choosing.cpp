@@ -70,6 +70,10 @@ int draw(int count, const float* logits, const std::uint8_t* mask, float u) {
 
 }  // namespace
 
+const char* name_of(Noise noise) {
+    return noise == Noise::Sde ? "sde" : noise == Noise::Ar1 ? "ar1" : "white";
+}
+
 void standard_normals(const ChoiceKey& key, std::span<float> numbers) {
     for (std::size_t n = 0; n < numbers.size(); n += 2) {
         const TwoNormals two = normals(key, static_cast<std::uint32_t>(n));

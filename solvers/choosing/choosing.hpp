@@ -15,6 +15,7 @@ namespace rddlc::solvers {
 
 // Of reals. Ar1 is correlated in time; Sde depends on the state (ppo/state_noise.hpp).
 enum class Noise { White, Ar1, Sde };
+const char* name_of(Noise noise);  // "ar1"
 
 // Where what was chosen for n environments goes: rows of the action space's
 // real_count numbers and shifts (by how much noise of the step before moved the mean), a spread

@@ -57,9 +57,6 @@ const char* name_of(RealHead::Range range) {
     return "free";
 }
 
-const char* name_of(Noise noise) {
-    return noise == Noise::Sde ? "sde" : noise == Noise::Ar1 ? "ar1" : "white";
-}
 // Older files tell the correlation alone.
 Noise noise_of(const Json& json, double correlation) {
     const std::string name = json.value("noise", correlation > 0 ? "ar1" : "white");
