@@ -12,8 +12,8 @@
 
 namespace rddlc::solvers {
 
-// The highest that is read. Files of networks whose activation is not tanh are of version 3, others
-// of 2 if they remember, and else of 1.
+// The highest that is read. Files with groups of bools are of version 4, others of networks whose
+// activation is not tanh of 3, others of 2 if they remember, and else of 1.
 inline constexpr int policy_file_version = 4;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);

@@ -1,6 +1,7 @@
 #include "solvers/program/program.hpp"
 
 #include "solvers/evaluation/summary.hpp"
+#include "solvers/spaces/refusals.hpp"
 #include "support/files.hpp"
 #include "support/program.hpp"
 
@@ -98,9 +99,7 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
          }}};
     take_words(2, argc, argv, options, [&](const std::string& word) { file = word; });
     if (file.empty()) throw Failure("name the policy to evaluate", {}, usage_error);
-    const rddl_problem& problem = *simulator.problem;
-    if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
-        episodes.horizon = 1000;  // else nothing ends an episode
+    if (is_endless(*simulator.problem, simulator.problem->horizon)) episodes.horizon = 1000;
     const Policy policy = program.read(simulator, read_file(file));
     const Summary summary = summary_of(run_episodes(simulator, policy, episodes, {}));
     const Estimate& returns = summary.undiscounted_return;

@@ -19,11 +19,12 @@ std::optional<std::string> sentence_of(const Work& work) {
 
 }  // namespace
 
+bool is_endless(const rddl_problem& problem, std::int64_t horizon) {
+    return horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0;
+}
+
 void require_an_end_to_learn(const rddl_problem& problem) {
-    if (problem.horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
-        throw Failure(
-            "nothing ends an episode of this problem: it has no horizon, no termination "
-            "and no invariant");
+    if (is_endless(problem, problem.horizon)) throw Failure(endless);
 }
 
 Refusals refusals(const rddl_simulator& simulator) {

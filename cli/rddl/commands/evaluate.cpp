@@ -143,18 +143,13 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
 // What the last episodes earned while PPO learned, which acts at random then; nothing where the
 // policy is no run that tells it.
 std::optional<double> learned_return(const std::string& policy) {
-    RunProgress run;
     try {
-        run = read_progress(policy);
+        const RunProgress run = read_progress(policy);
+        const std::vector<double>& returns = column_of(run, "rollout/ep_rew_mean");
+        if (!returns.empty() && std::isfinite(returns.back())) return returns.back();
     } catch (const Failure&) {
-        return std::nullopt;
     }
-    const auto column = std::ranges::find(run.columns, "rollout/ep_rew_mean");
-    if (column == run.columns.end()) return std::nullopt;
-    const std::vector<double>& returns =
-        run.values[static_cast<std::size_t>(column - run.columns.begin())];
-    if (returns.empty() || !std::isfinite(returns.back())) return std::nullopt;
-    return returns.back();
+    return std::nullopt;
 }
 
 // Where the likeliest actions earn much less than chance did.
@@ -164,9 +159,10 @@ void hint_at_chance(const Evaluation& one) {
     const solvers::Estimate& earned = one.summary.undiscounted_return;
     const double size = std::max(std::abs(*learned), std::abs(earned.mean));
     if (*learned - earned.mean > std::max(size / 2, 3 * earned.half_width))
-        tell("rddl: note: while '{}' learned, its last episodes earned {} by actions at random, as "
-             "--stochastic takes them\n",
-             one.policy, number_text(*learned));
+        tell(
+            "rddl: note: while '{}' learned, its last episodes earned {} by actions at random, as "
+            "--stochastic takes them\n",
+            one.policy, number_text(*learned));
 }
 
 ExitStatus evaluate_all(const EvaluationOptions& options) {

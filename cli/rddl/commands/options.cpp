@@ -2,6 +2,7 @@
 
 #include "driver/driver.hpp"
 #include "learning/learned_policy.hpp"
+#include "solvers/spaces/refusals.hpp"
 
 #include <fmt/format.h>
 
@@ -34,11 +35,8 @@ void add_problem_arguments(Command& command, ProblemArguments& arguments, bool r
 }
 
 void require_an_end(const rddl_problem& problem, std::int64_t horizon) {
-    if (horizon == 0 && problem.termination_count == 0 && problem.invariant_count == 0)
-        throw Failure(
-            "nothing ends an episode of this problem: it has no horizon, no termination "
-            "and no invariant",
-            "give one with --horizon", usage_error);
+    if (solvers::is_endless(problem, horizon))
+        throw Failure(solvers::endless, "give one with --horizon", usage_error);
 }
 
 void add_standard_option(Command& command, Standard& standard) {

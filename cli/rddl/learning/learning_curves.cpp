@@ -40,14 +40,6 @@ double number_in(std::string_view word, const fs::path& file, std::size_t line) 
     return number;
 }
 
-const std::vector<double>& column_of(const RunProgress& run, const std::string& name) {
-    const auto found = std::find(run.columns.begin(), run.columns.end(), name);
-    if (found == run.columns.end())
-        throw Failure(fmt::format("the run '{}' has no column '{}'", run.folder.string(), name),
-                      fmt::format("it has {}", fmt::join(run.columns, ", ")), usage_error);
-    return run.values[static_cast<std::size_t>(found - run.columns.begin())];
-}
-
 struct Points {
     std::vector<double> x, y;
 };
@@ -107,6 +99,14 @@ RunProgress read_progress(const fs::path& folder) {
     }
     if (run.columns.empty()) throw Failure(fmt::format("'{}' is empty", file.string()));
     return run;
+}
+
+const std::vector<double>& column_of(const RunProgress& run, const std::string& name) {
+    const auto found = std::find(run.columns.begin(), run.columns.end(), name);
+    if (found == run.columns.end())
+        throw Failure(fmt::format("the run '{}' has no column '{}'", run.folder.string(), name),
+                      fmt::format("it has {}", fmt::join(run.columns, ", ")), usage_error);
+    return run.values[static_cast<std::size_t>(found - run.columns.begin())];
 }
 
 std::vector<fs::path> run_folders(const fs::path& path) {

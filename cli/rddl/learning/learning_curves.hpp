@@ -19,6 +19,9 @@ struct RunProgress {
 // Throws a Failure that names file and line.
 RunProgress read_progress(const std::filesystem::path& folder);
 
+// The numbers of a column. Throws a Failure that names those there are.
+const std::vector<double>& column_of(const RunProgress& run, const std::string& name);
+
 // The folders of runs that a path means: itself, or those in it, by their names. Throws a Failure
 // where there are none.
 std::vector<std::filesystem::path> run_folders(const std::filesystem::path& path);
