@@ -1,5 +1,7 @@
 #include "solvers/cgp/lifting.hpp"
 
+#include "solvers/spaces/groundings.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -79,22 +81,6 @@ std::vector<Source> sources_of(const rddl_simulator& simulator, const Observatio
     return sources;
 }
 
-std::int64_t objects_of_parameter(const rddl_problem& problem, const rddl_fluent& fluent,
-                                  std::int32_t parameter) {
-    return rddl_type_at(&problem, fluent.parameter_types[parameter])->object_count;
-}
-
-std::vector<std::int64_t> objects_of(const rddl_problem& problem, const rddl_fluent& fluent,
-                                     std::int64_t grounding) {
-    std::vector<std::int64_t> objects(static_cast<std::size_t>(fluent.rank));
-    for (std::int32_t p = fluent.rank; p-- > 0;) {
-        const std::int64_t size = objects_of_parameter(problem, fluent, p);
-        objects[static_cast<std::size_t>(p)] = grounding % size;
-        grounding /= size;
-    }
-    return objects;
-}
-
 // Parameters of a source that those of an action tell, as (source's, action's).
 using SharedParameters = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
@@ -159,8 +145,8 @@ class Lifter {
     std::string text_of(const rddl_fluent& fluent) const {
         std::string parameters;
         for (std::int32_t p = 0; p < fluent.rank; ++p)
-            parameters += (p > 0 ? ", ?" : "?") +
-                          std::string(rddl_type_at(&problem_, fluent.parameter_types[p])->name);
+            parameters +=
+                (p > 0 ? ", ?" : "?") + std::string(parameter_type(problem_, fluent, p).name);
         return parameters.empty() ? fluent.name : std::string(fluent.name) + "(" + parameters + ")";
     }
 
@@ -172,41 +158,47 @@ class Lifter {
         scale_by_bounds(input, source.lower, source.upper);
         scope_.inputs.push_back(std::move(input));
         std::map<SharedParameters, std::int64_t> first_sums;
-        for_each_unit([&](const rddl_fluent& action, const std::vector<std::int64_t>& objects) {
+        for_each_unit([&](const rddl_fluent& action, std::int64_t grounding) {
             const SharedParameters shared = bind(action);
             const auto [first, is_new] = first_sums.try_emplace(shared, scope_.sum_count());
             if (is_new) add_means(source, shared);
-            std::int64_t number = 0;
-            for (const auto& [p, q] : shared)
-                number = number * objects_of_parameter(problem_, *source.fluent, p) +
-                         objects[static_cast<std::size_t>(q)];
-            return first->second + number;
+            return first->second + number_of(source, shared, [&](std::int32_t, std::int32_t q) {
+                       return object_at(problem_, action, grounding, q);
+                   });
         });
     }
 
-    // sum_of(action, its objects) says which sum the unit reads as the input that was added last.
+    // sum_of(action, grounding) says which sum the unit reads as the input that was added last.
     template <class SumOf>
     void for_each_unit(SumOf sum_of) {
-        for (const rddl_column& column : columns_) {
-            const rddl_fluent& action = *rddl_fluent_at(&problem_, column.fluent);
+        for (const rddl_column& column : columns_)
             scope_.sum_of_unit.push_back(static_cast<std::int32_t>(
-                sum_of(action, objects_of(problem_, action, column.grounding))));
-        }
+                sum_of(*rddl_fluent_at(&problem_, column.fluent), column.grounding)));
         scope_.input_ends.push_back(scope_.sum_count());
     }
 
-    // A mean for each choice of objects for the parameters that are bound.
+    // Of a choice of objects for the source's shared parameters; object_of(source's, action's).
+    template <class ObjectOf>
+    std::int64_t number_of(const Source& source, const SharedParameters& shared,
+                           ObjectOf object_of) const {
+        std::int64_t number = 0;
+        for (const auto& [p, q] : shared)
+            number =
+                number * parameter_type(problem_, *source.fluent, p).object_count + object_of(p, q);
+        return number;
+    }
+
+    // A mean for each choice of objects for the parameters that are shared.
     void add_means(const Source& source, const SharedParameters& shared) {
         std::int64_t count = 1;
         for (const auto& [p, q] : shared)
-            count *= objects_of_parameter(problem_, *source.fluent, p);
+            count *= parameter_type(problem_, *source.fluent, p).object_count;
         std::vector<std::vector<std::int64_t>> groundings(static_cast<std::size_t>(count));
         for (std::int64_t g = 0; g < source.fluent->count; ++g) {
-            const std::vector<std::int64_t> objects = objects_of(problem_, *source.fluent, g);
-            std::int64_t number = 0;
-            for (const auto& [p, q] : shared)
-                number = number * objects_of_parameter(problem_, *source.fluent, p) +
-                         objects[static_cast<std::size_t>(p)];
+            const std::int64_t number =
+                number_of(source, shared, [&](std::int32_t p, std::int32_t) {
+                    return object_at(problem_, *source.fluent, g, p);
+                });
             groundings[static_cast<std::size_t>(number)].push_back(g);
         }
         for (const std::vector<std::int64_t>& those : groundings) {
@@ -233,8 +225,8 @@ class Lifter {
         input.name = std::string("sum[") + source.name + ": " + relation.name +
                      (forward ? "(?, other)]" : "(other, ?)]");
         scope_.inputs.push_back(std::move(input));
-        const std::int64_t rows = objects_of_parameter(problem_, r, 0),
-                           columns = objects_of_parameter(problem_, r, 1);
+        const std::int64_t rows = parameter_type(problem_, r, 0).object_count,
+                           columns = parameter_type(problem_, r, 1).object_count;
         const std::int64_t owns = forward ? rows : columns, others = forward ? columns : rows;
         const std::int64_t first = scope_.sum_count();
         for (std::int64_t own = 0; own < owns; ++own) {
@@ -246,10 +238,10 @@ class Lifter {
             end_sum();
         }
         end_sum();  // nothing, for actions without such an object
-        for_each_unit([&](const rddl_fluent& action, const std::vector<std::int64_t>& objects) {
+        for_each_unit([&](const rddl_fluent& action, std::int64_t grounding) {
             for (std::int32_t q = 0; q < action.rank; ++q)
                 if (action.parameter_types[q] == r.parameter_types[forward ? 0 : 1])
-                    return first + objects[static_cast<std::size_t>(q)];
+                    return first + object_at(problem_, action, grounding, q);
             return first + owns;
         });
     }

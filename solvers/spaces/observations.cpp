@@ -1,5 +1,6 @@
 #include "solvers/spaces/observations.hpp"
 
+#include "solvers/spaces/groundings.hpp"
 #include "support/failure.hpp"
 
 #include <algorithm>
@@ -41,12 +42,10 @@ std::string grounded_name(const rddl_simulator& simulator, std::int32_t fluent_i
     const rddl_problem& problem = *simulator.problem;
     const rddl_fluent& fluent = *rddl_fluent_at(&problem, fluent_index);
     std::string objects;
-    for (std::int32_t p = fluent.rank; p-- > 0;) {
-        const rddl_type& type = *rddl_type_at(&problem, fluent.parameter_types[p]);
-        const std::string object = type.objects[grounding % type.object_count];
-        objects = objects.empty() ? object : object + ", " + objects;
-        grounding /= type.object_count;
-    }
+    for (std::int32_t p = 0; p < fluent.rank; ++p)
+        objects += (p > 0 ? ", " : "") +
+                   std::string(parameter_type(problem, fluent, p)
+                                   .objects[object_at(problem, fluent, grounding, p)]);
     return objects.empty() ? fluent.name : std::string(fluent.name) + "(" + objects + ")";
 }
 

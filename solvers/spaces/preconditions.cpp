@@ -2,6 +2,7 @@
 
 #include "solvers/batches/batch.hpp"
 #include "solvers/policies/random_policy.hpp"
+#include "solvers/spaces/groundings.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -55,14 +56,14 @@ class Trial {
     }
 
     std::int64_t count_legal() {
-        for (std::int64_t e = 0; e < environments; ++e) records_.write(values(e), action(e));
+        write_actions();
         require_done(simulator_, simulator_.violated_preconditions(batch_.get(), actions_.data(),
                                                                    violated_.data()));
         return std::count_if(violated_.begin(), violated_.end(), [](int v) { return v < 0; });
     }
 
-    // With the actions that were tried last.
     void step() {
+        write_actions();
         rddl_transition unread{};
         require_done(simulator_, simulator_.step(batch_.get(), actions_.data(), &unread));
     }
@@ -74,6 +75,9 @@ class Trial {
         options.thread_count = 1;
         options.autoreset = RDDL_AUTORESET_SAME_STEP;
         return options;
+    }
+    void write_actions() {
+        for (std::int64_t e = 0; e < environments; ++e) records_.write(values(e), action(e));
     }
     std::byte* action(std::int64_t e) {
         return actions_.data() + static_cast<std::size_t>(e) * records_.record_size();
@@ -88,14 +92,6 @@ class Trial {
     std::vector<std::byte> actions_;
     std::vector<std::int32_t> violated_;
 };
-
-// The object of a grounding at one of its fluent's parameters; the last parameter changes fastest.
-std::int64_t object_at(const rddl_problem& problem, const rddl_fluent& fluent,
-                       std::int64_t grounding, std::int32_t parameter) {
-    for (std::int32_t p = fluent.rank - 1; p > parameter; --p)
-        grounding /= rddl_type_at(&problem, fluent.parameter_types[p])->object_count;
-    return grounding % rddl_type_at(&problem, fluent.parameter_types[parameter])->object_count;
-}
 
 // What the changes of a group have in common.
 struct Common {
@@ -205,7 +201,6 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
         may_be_none = legal > 0;
         change_all(&Tried::changed);
 
-        trial.count_legal();
         trial.step();
     }
     return Groups{groups, *may_be_none};
