@@ -145,11 +145,19 @@ class FormulaReader {
         return {apply(function, a.value, b.value, c.value),
                 fmt::format("{}[{};{};{}]", info_of(function).name, a.tree, b.tree, c.tree)};
     }
-    // Arguments of and, or may be understood in any order.
-    Part row(const std::string& word, Function function, Part (FormulaReader::*next)()) {
+    // Operators that bind alike, from left to right; those of and, or may be understood in any
+    // order.
+    using Operators = std::vector<std::pair<std::string, Function>>;
+    Part row(const Operators& operators, Part (FormulaReader::*next)()) {
         Part all = (this->*next)();
-        while (take(word)) all = call(function, all, (this->*next)());
-        return all;
+        const auto is_next = [this](const auto& each) {
+            return take(each.first);
+        };
+        for (;;) {
+            const auto found = std::ranges::find_if(operators, is_next);
+            if (found == operators.end()) return all;
+            all = call(found->second, all, (this->*next)());
+        }
     }
 
     Part choice() {
@@ -160,8 +168,8 @@ class FormulaReader {
         need(" else ");
         return call(Function::If, condition, yes, choice());
     }
-    Part either() { return row(" or ", Function::Or, &FormulaReader::both); }
-    Part both() { return row(" and ", Function::And, &FormulaReader::negation); }
+    Part either() { return row({{" or ", Function::Or}}, &FormulaReader::both); }
+    Part both() { return row({{" and ", Function::And}}, &FormulaReader::negation); }
     Part negation() { return take("not ") ? call(Function::Not, atom()) : comparison(); }
     Part comparison() {
         const Part a = sum();
@@ -170,26 +178,11 @@ class FormulaReader {
                    : call(Function::Greater, a, sum());
     }
     Part sum() {
-        Part all = product();
-        for (;;) {
-            if (take(" + "))
-                all = call(Function::Add, all, product());
-            else if (take(" - "))
-                all = call(Function::Subtract, all, product());
-            else
-                return all;
-        }
+        return row({{" + ", Function::Add}, {" - ", Function::Subtract}}, &FormulaReader::product);
     }
     Part product() {
-        Part all = signed_power();
-        for (;;) {
-            if (take(" * "))
-                all = call(Function::Multiply, all, signed_power());
-            else if (take(" / "))
-                all = call(Function::Divide, all, signed_power());
-            else
-                return all;
-        }
+        return row({{" * ", Function::Multiply}, {" / ", Function::Divide}},
+                   &FormulaReader::signed_power);
     }
     Part signed_power() { return take("-") ? call(Function::Negate, power()) : power(); }
     Part power() {

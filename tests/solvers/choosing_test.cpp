@@ -2,11 +2,11 @@
 // head, sums over all choices, and actions that preconditions forbid.
 #include "solvers/choosing/choosing.hpp"
 
+#include "action_batch.hpp"
 #include "simulators.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/choosing/probabilities.hpp"
 #include "solvers/ppo/loss.hpp"
-#include "solvers/spaces/mending.hpp"
 
 #include <gtest/gtest.h>
 
@@ -328,40 +328,22 @@ TEST(Actions, AreTheDefaultWhereAPolicyHasNoNumber) {
 }
 
 TEST(Mending, MakesActionsLegal) {
-    const rddl_simulator& simulator = *rddl_simulator_reservoir_reservoir_1();
-    const ActionSpace space = action_space(simulator);
-    const ActionRecords records(simulator);
-    ASSERT_TRUE(space.may_be_illegal);
-    constexpr std::int64_t environments = 32;
-    rddl_batch_options options{};
-    options.environment_count = environments;
-    const Batch batch = create_batch(simulator, options);
+    ActionBatch all(*rddl_simulator_reservoir_reservoir_1());
+    ASSERT_TRUE(all.space.may_be_illegal);
     std::mt19937 random(4);
     std::uniform_real_distribution<float> uniform(0, 200);
-    const std::size_t columns = static_cast<std::size_t>(space.column_count);
-    std::vector<float> actions(environments * columns), wanted;
-    std::vector<std::byte> bytes(environments * records.record_size());
-    std::vector<std::int32_t> violated(environments);
-    MendingRoom room(simulator, space, environments);
     std::int64_t mended = 0;
     for (int step = 0; step < 20; ++step) {
-        for (std::size_t i = 0; i < actions.size(); ++i)
-            actions[i] = random() % 3 ? uniform(random) : 0.0f;
-        wanted = actions;
-        for (std::int64_t e = 0; e < environments; ++e)
-            records.write(actions.data() + static_cast<std::size_t>(e) * columns,
-                          bytes.data() + static_cast<std::size_t>(e) * records.record_size());
-        std::vector<std::int32_t> before(environments);
-        simulator.violated_preconditions(batch.get(), bytes.data(), before.data());
-        mended += mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(),
-                               room);
-        simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
-        for (std::size_t e = 0; e < violated.size(); ++e) {
-            EXPECT_EQ(violated[e], -1);
-            for (std::size_t c = 0; c < columns && before[e] < 0; ++c)
-                EXPECT_EQ(actions[e * columns + c], wanted[e * columns + c]);
-        }
-        simulator.step(batch.get(), bytes.data(), nullptr);
+        for (float& value : all.values) value = random() % 3 ? uniform(random) : 0.0f;
+        all.write();
+        const std::vector<float> wanted = all.values;
+        const std::vector<std::int32_t> before = all.violated();
+        mended += all.mend();
+        EXPECT_EQ(all.violated(), all_legal);
+        for (std::size_t e = 0; e < all.environments; ++e)
+            for (std::size_t c = 0; c < all.columns && before[e] < 0; ++c)
+                EXPECT_EQ(all.row(e)[c], wanted[e * all.columns + c]);
+        all.simulator.step(all.batch.get(), all.bytes.data(), nullptr);
     }
     EXPECT_GT(mended, 100);
 }

@@ -1,4 +1,5 @@
 // Bools that preconditions allow to change one at a time.
+#include "action_batch.hpp"
 #include "simulators.hpp"
 #include "solver_harbour.h"
 #include "solver_museum.h"
@@ -8,7 +9,6 @@
 #include "solvers/cgp/skdecide.hpp"
 #include "solvers/choosing/choosing.hpp"
 #include "solvers/spaces/actions.hpp"
-#include "solvers/spaces/mending.hpp"
 #include "support/failure.hpp"
 
 #include <gtest/gtest.h>
@@ -109,44 +109,27 @@ TEST(Groups, BesideALimitAndNumbers) {
 // No default is legal where each ship has to do something: numbers alone fall back, and not all the
 // way where half of them is legal.
 TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
-    const rddl_simulator& simulator = harbour();
-    const ActionSpace space = action_space(simulator);
-    const ActionRecords records(simulator);
-    constexpr std::int64_t environments = 32;
-    rddl_batch_options options{};
-    options.environment_count = environments;
-    const Batch batch = create_batch(simulator, options);
-    const auto columns = static_cast<std::size_t>(space.column_count);
-    std::vector<float> actions(environments * columns);
-    std::vector<std::byte> bytes(environments * records.record_size());
+    ActionBatch all(harbour());
     std::mt19937 random(3);
-    for (std::size_t e = 0; e < environments; ++e) {
+    for (std::size_t e = 0; e < all.environments; ++e) {
         std::vector<float> numbers(3);
         for (float& number : numbers) number = static_cast<float>(random() % 2000) / 500 - 2;
         std::vector<std::int32_t> indices(3);
         for (std::int32_t& index : indices) index = static_cast<std::int32_t>(random() % 3);
-        write_action(space, numbers.data(), indices.data(), actions.data() + e * columns);
-        records.write(actions.data() + e * columns, bytes.data() + e * records.record_size());
+        write_action(all.space, numbers.data(), indices.data(), all.row(e));
     }
-    const std::vector<float> wanted = actions;
-    MendingRoom room(simulator, space, environments);
-    EXPECT_GT(
-        mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(), room),
-        environments / 2);
-    std::vector<std::int32_t> violated(environments);
-    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
-    EXPECT_EQ(violated, std::vector<std::int32_t>(environments, -1));
+    all.write();
+    const std::vector<float> wanted = all.values;
+    EXPECT_GT(all.mend(), static_cast<std::int64_t>(all.environments / 2));
+    EXPECT_EQ(all.violated(), all_legal);
     bool any_halved = false;
-    for (std::size_t e = 0; e < environments; ++e) {
-        const std::size_t row = e * columns;
-        for (const CategoryHead& head : space.categories)
-            for (const int column : head.group)
-                EXPECT_EQ(actions[row + static_cast<std::size_t>(column)],
-                          wanted[row + static_cast<std::size_t>(column)]);
-        for (const RealHead& head : space.reals) {
-            const float pumped = actions[row + static_cast<std::size_t>(head.column)];
-            any_halved |=
-                pumped > 0 && pumped < wanted[row + static_cast<std::size_t>(head.column)];
+    for (std::size_t e = 0; e < all.environments; ++e) {
+        const float* const before = wanted.data() + e * all.columns;
+        for (const CategoryHead& head : all.space.categories)
+            for (const int column : head.group) EXPECT_EQ(all.row(e)[column], before[column]);
+        for (const RealHead& head : all.space.reals) {
+            const float pumped = all.row(e)[head.column];
+            any_halved |= pumped > 0 && pumped < before[head.column];
         }
     }
     EXPECT_TRUE(any_halved);
@@ -154,36 +137,20 @@ TEST(Groups, KeepWhatWasChosenWhereNumbersAreMended) {
 
 // Whatever is wanted: a random legal action is what values fall back to.
 TEST(Groups, AnyActionIsMendedWhereTheDefaultIsIllegal) {
-    const rddl_simulator& simulator = museum();
-    const ActionSpace space = action_space(simulator);
-    const ActionRecords records(simulator);
-    constexpr std::int64_t environments = 32;
-    rddl_batch_options options{};
-    options.environment_count = environments;
-    const Batch batch = create_batch(simulator, options);
-    const auto columns = static_cast<std::size_t>(space.column_count);
-    std::vector<float> actions(environments * columns);
-    std::vector<std::byte> bytes(environments * records.record_size());
+    ActionBatch all(museum());
     std::mt19937 random(5);
-    for (float& value : actions) value = static_cast<float>(random() % 2);
-    for (std::size_t e = 0; e < environments; ++e)
-        records.write(actions.data() + e * columns, bytes.data() + e * records.record_size());
-    std::vector<std::int32_t> violated(environments);
-    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
-    const std::vector<std::int32_t> before = violated;
-    const std::vector<float> wanted = actions;
-    MendingRoom room(simulator, space, environments);
-    EXPECT_GT(
-        mend_actions(simulator, space, records, batch.get(), actions.data(), bytes.data(), room),
-        environments / 2);
-    simulator.violated_preconditions(batch.get(), bytes.data(), violated.data());
-    EXPECT_EQ(violated, std::vector<std::int32_t>(environments, -1));
-    for (std::size_t e = 0; e < environments; ++e) {
-        std::vector<float> row(columns);
-        records.read(bytes.data() + e * records.record_size(), row.data());
-        EXPECT_TRUE(std::equal(row.begin(), row.end(), actions.data() + e * columns));
+    for (float& value : all.values) value = static_cast<float>(random() % 2);
+    all.write();
+    const std::vector<std::int32_t> before = all.violated();
+    const std::vector<float> wanted = all.values;
+    EXPECT_GT(all.mend(), static_cast<std::int64_t>(all.environments / 2));
+    EXPECT_EQ(all.violated(), all_legal);
+    for (std::size_t e = 0; e < all.environments; ++e) {
+        std::vector<float> row(all.columns);
+        all.records.read(all.record(e), row.data());
+        EXPECT_TRUE(std::equal(row.begin(), row.end(), all.row(e)));
         if (before[e] >= 0) continue;
-        EXPECT_TRUE(std::equal(row.begin(), row.end(), wanted.data() + e * columns));  // stays
+        EXPECT_TRUE(std::equal(row.begin(), row.end(), wanted.data() + e * all.columns));  // stays
     }
 }
 
