@@ -172,9 +172,11 @@ struct Simulator {
         const Real term_2 = rddl::select(condition, state.angle_change * state.angle_change, term);
         const Real term_3 =
             rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.cos_angle);
-        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
-                            0.05 * (term_2 - term_3) - scratch.friction * scratch.pressure;
-        scratch.speed_up = term_4 / 1.1;
+        const Real term_4 = scratch.friction * scratch.pressure;
+        const Real term_5 = rddl::select(action.push_right, 10.0, -10.0) +
+                            0.05 * (term_2 - term_3) -
+                            rddl::select(scratch.pressure == 0.0, scratch.pressure, term_4);
+        scratch.speed_up = term_5 / 1.1;
     }
 
     // velocity'  (domain.rddl:75)

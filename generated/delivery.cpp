@@ -171,7 +171,7 @@ struct Simulator {
     static void set_position(const State<L>& state, const Action<L>& action,
                              const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
         using Bool = typename L::Bool;
-        const Bool draw = rddl::sample::bernoulli(context, {1, 0}, scratch.grip[0]);
+        const Bool draw = rddl::sample::valid_bernoulli(context, {1, 0}, scratch.grip[0]);
         next.position[0] =
             rddl::select(draw, rddl::at(ROAD_, state.position[0], action.go[0]), state.position[0]);
     }

@@ -187,7 +187,7 @@ struct Simulator {
                                     ignites_entries_[entry], 1.0);
                             });
                         const Real term = 1.0 - 0.9995 * product;
-                        return rddl::sample::bernoulli(context, {1, c * 5 + r}, term);
+                        return rddl::sample::valid_bernoulli(context, {1, c * 5 + r}, term);
                     });
             }
         }

@@ -30,6 +30,16 @@ inline constexpr rddl::Index basin_count = 4;  // north, lake, east, valley
 
 // ---------------------------------------------------------------------------------- tables
 
+// FLOWS-TO, domain.rddl:18
+// clang-format off
+inline constexpr std::array<std::array<bool, basin_count>, basin_count> FLOWS_TO_ = {{
+    {0, 1, 0, 0},
+    {0, 0, 0, 1},
+    {0, 0, 0, 1},
+    {0, 0, 0, 0},
+}};
+// clang-format on
+
 // CAPACITY, domain.rddl:21
 inline constexpr std::array<double, basin_count> CAPACITY_ = {100, 200, 100, 150};
 
@@ -47,12 +57,6 @@ inline constexpr std::array<double, basin_count> RAIN_SCALE_ = {6, 10, 15, 10};
 
 // water, domain.rddl:36
 inline constexpr std::array<double, basin_count> initial_water = {50, 120, 50, 60};
-
-// FLOWS-TO-rows, domain.rddl:18
-inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows_ = {0, 0, 1, 1, 3};
-
-// FLOWS-TO-up, domain.rddl:18
-inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up_ = {0, 1, 2};
 
 // --------------------------------------------------------------------------------- records
 
@@ -119,9 +123,9 @@ struct Simulator {
                     return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]);
                 },
                 [&] { return 0.0; });
-            const Real total = rddl::sum<Real>(
-                rddl::row(FLOWS_TO_rows_, b),
-                [&](rddl::Index entry) { return action.release[FLOWS_TO_up_[entry]]; });
+            const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
+                return rddl::to_real(FLOWS_TO_[up][b]) * action.release[up];
+            });
             scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
         }
     }
@@ -214,6 +218,101 @@ struct Simulator {
     }
 };
 
+// ------------------------------------------------------------------------- moderate values
+
+// The same step with less work, for states and actions whose reals are all moderate
+// (rddl/moderate.hpp): nothing overflows then, so terms that are multiplied by 0 are left out.
+namespace moderate {
+
+// ---------------------------------------------------------------------------------- tables
+
+// FLOWS-TO-rows, domain.rddl:18
+inline constexpr std::array<std::int64_t, 5> FLOWS_TO_rows_ = {0, 0, 1, 1, 3};
+
+// FLOWS-TO-up, domain.rddl:18
+inline constexpr std::array<std::int64_t, 3> FLOWS_TO_up_ = {0, 1, 2};
+
+// What the CPFs tell each other within a step.
+template <class L>
+struct Scratch {
+    std::array<typename L::Real, basin_count> balance;  // domain.rddl:40
+    std::array<typename L::Real, basin_count> spill;    // domain.rddl:41
+};
+
+struct Step {
+    template <class L>
+    using Scratch = moderate::Scratch<L>;
+
+    // Whether the step is for them.
+    template <class L>
+    static typename L::Bool is_for(const State<L>& state, const Action<L>& action) {
+        return rddl::is_moderate<L>(state.water) &&
+               rddl::is_moderate<L>(action.release);
+    }
+
+    // All CPFs, each after those that it depends on.
+    template <class L>
+    static void step(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                     State<L>& next, Observation<L>& /*observation*/, rddl::Context<L>& context) {
+        set_balance(state, action, scratch, context);
+        set_spill(scratch);
+        set_water(scratch, next);
+    }
+
+    // balance(?b)  (domain.rddl:56)
+    template <class L>
+    static void set_balance(const State<L>& state, const Action<L>& action, Scratch<L>& scratch,
+                            rddl::Context<L>& context) {
+        using Bool = typename L::Bool;
+        using Real = typename L::Real;
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
+            const Real term = rddl::branch(
+                context, draw,
+                [&] {
+                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]);
+                },
+                [&] { return 0.0; });
+            const Real total = rddl::sum<Real>(
+                rddl::row(FLOWS_TO_rows_, b),
+                [&](rddl::Index entry) { return action.release[FLOWS_TO_up_[entry]]; });
+            scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
+        }
+    }
+
+    // spill(?b)  (domain.rddl:58)
+    template <class L>
+    static void set_spill(Scratch<L>& scratch) {
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            scratch.spill[b] = rddl::maximum(0.0, scratch.balance[b] - CAPACITY_[b]);
+        }
+    }
+
+    // water'(?b)  (domain.rddl:60)
+    template <class L>
+    static void set_water(const Scratch<L>& scratch, State<L>& next) {
+        for (rddl::Index b = 0; b < basin_count; ++b) {
+            next.water[b] = rddl::maximum(0.0, scratch.balance[b] - scratch.spill[b]);
+        }
+    }
+
+    // The reward of the step that was just made.
+    template <class L>
+    static typename L::Real reward(const State<L>& /*state*/, const Action<L>& /*action*/,
+                                   const Scratch<L>& scratch, const State<L>& next,
+                                   rddl::Context<L>& /*context*/) {
+        using Real = typename L::Real;
+        const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index b) {
+            return 5.0 * rddl::maximum(0.0, SAFE_LOW_[b] - next.water[b]) +
+                   10.0 * rddl::maximum(0.0, next.water[b] - SAFE_HIGH_[b]) +
+                   50.0 * scratch.spill[b];
+        });
+        return -total;
+    }
+};
+
+}  // namespace moderate
+
 static_assert(sizeof(State<rddl::Scalar>) == 32);
 static_assert(sizeof(Action<rddl::Scalar>) == 32);
 
@@ -275,23 +374,19 @@ inline constexpr rddl_fluent fluents[] = {
     {"release", RDDL_ACTION, RDDL_REAL, -1, 1, of_basin, 4, offsetof(Action<rddl::Scalar>, release),
      release_lower.data(), release_upper.data(), {source_file, 43, 9}},
 };
-// clang-format on
 
-inline constexpr std::array<std::int64_t, 3> FLOWS_TO_places_ = {1, 7, 11};
-
-// clang-format off
 inline constexpr rddl::Constants constants[] = {
-    rddl::constants(0, false, FLOWS_TO_places_),  // FLOWS-TO
-    rddl::constants(1, CAPACITY_),                // CAPACITY
-    rddl::constants(2, SAFE_LOW_),                // SAFE-LOW
-    rddl::constants(3, SAFE_HIGH_),               // SAFE-HIGH
-    rddl::constants(4, RAIN_CHANCE_),             // RAIN-CHANCE
-    rddl::constant<double>(5, 2.0),               // RAIN-SHAPE
-    rddl::constants(6, RAIN_SCALE_),              // RAIN-SCALE
-    rddl::constant<double>(7, 0.02),              // EVAPORATION
-    rddl::constant<double>(8, 5.0),               // LOW-COST
-    rddl::constant<double>(9, 10.0),              // HIGH-COST
-    rddl::constant<double>(10, 50.0),             // SPILL-COST
+    rddl::constants(0, FLOWS_TO_),     // FLOWS-TO
+    rddl::constants(1, CAPACITY_),     // CAPACITY
+    rddl::constants(2, SAFE_LOW_),     // SAFE-LOW
+    rddl::constants(3, SAFE_HIGH_),    // SAFE-HIGH
+    rddl::constants(4, RAIN_CHANCE_),  // RAIN-CHANCE
+    rddl::constant<double>(5, 2.0),    // RAIN-SHAPE
+    rddl::constants(6, RAIN_SCALE_),   // RAIN-SCALE
+    rddl::constant<double>(7, 0.02),   // EVAPORATION
+    rddl::constant<double>(8, 5.0),    // LOW-COST
+    rddl::constant<double>(9, 10.0),   // HIGH-COST
+    rddl::constant<double>(10, 50.0),  // SPILL-COST
 };
 
 inline constexpr rddl_condition preconditions[] = {
@@ -352,8 +447,8 @@ inline constexpr rddl::Site sites[] = {
 }  // namespace about
 
 inline const rddl_simulator* simulator() {
-    using Engine = rddl::Compiled<Simulator, about::problem>;
-    using Packed = rddl::Packed<Simulator, about::problem, 16>;
+    using Engine = rddl::Compiled<rddl::WithModerateStep<Simulator, moderate::Step>, about::problem>;
+    using Packed = rddl::Packed<rddl::WithModerateStep<Simulator, moderate::Step>, about::problem, 16>;
     constexpr rddl::About description{about::problem, about::sites, about::constants};
     static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();

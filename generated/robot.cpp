@@ -137,13 +137,17 @@ struct Simulator {
     // ahead-x  (domain.rddl:67)
     template <class L>
     static void set_ahead_x(const State<L>& state, Scratch<L>& scratch) {
-        scratch.ahead_x = state.x + scratch.distance * rddl::cos(scratch.course);
+        using Real = typename L::Real;
+        const Real term = scratch.distance * rddl::cos(scratch.course);
+        scratch.ahead_x = state.x + rddl::select(scratch.distance == 0.0, scratch.distance, term);
     }
 
     // ahead-y  (domain.rddl:68)
     template <class L>
     static void set_ahead_y(const State<L>& state, Scratch<L>& scratch) {
-        scratch.ahead_y = state.y + scratch.distance * rddl::sin(scratch.course);
+        using Real = typename L::Real;
+        const Real term = scratch.distance * rddl::sin(scratch.course);
+        scratch.ahead_y = state.y + rddl::select(scratch.distance == 0.0, scratch.distance, term);
     }
 
     // heading'  (domain.rddl:76)

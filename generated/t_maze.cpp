@@ -154,7 +154,7 @@ struct Simulator {
                                    rddl::Context<L>& /*context*/) {
         using Real = typename L::Real;
         const Real term = rddl::select(action.turn_left == state.goal_is_left, 4.0, -0.1);
-        return rddl::select(scratch.turns, term, -0.1 * rddl::to_real(state.place == 10));
+        return rddl::select(scratch.turns, term, rddl::select(state.place == 10, -0.1, 0.0));
     }
 
     // An episode ends where one of these holds.

@@ -86,9 +86,22 @@ class Run {
     Compilation result;
 };
 
+void set_real(ir::Program& program, RealType real) {
+    program.real = real;
+    if (program.moderate) set_real(**program.moderate, real);
+}
+
+// Behind the program the one that makes most steps, if there is one.
+std::string both_printed(const ir::Program& program) {
+    if (!program.moderate) return ir::print(program);
+    return ir::print(program) + "\nsteps of moderate states and actions\n\n" +
+           ir::print(**program.moderate);
+}
+
 ir::Program verified(ir::Program program) {
     std::string complaints;
     for (const std::string& complaint : ir::verify(program)) complaints += "\n  " + complaint;
+    if (program.moderate) program.moderate = verified(std::move(**program.moderate));
     if (!complaints.empty()) throw std::logic_error("the IR is not valid:" + complaints);
     return program;
 }
@@ -177,7 +190,7 @@ void run_stages(Run& run) {
         return ground(*result.model, diagnostics, run.options.memory_limit);
     });
     if (diagnostics.has_errors()) return;
-    grounded->real = run.options.real;
+    set_real(*grounded, run.options.real);
     run.show(Form::Ir, [&] { return ir::print(*grounded); });
     if (run.ends_after(Stage::Ground)) return;
 
@@ -196,7 +209,7 @@ void run_stages(Run& run) {
     });
     report_memory(*result.program, run.options.memory_limit, diagnostics);
     if (diagnostics.has_errors()) return;
-    run.show(Form::OptimisedIr, [&] { return ir::print(*result.program); });
+    run.show(Form::OptimisedIr, [&] { return both_printed(*result.program); });
     if (run.ends_after(Stage::Optimise)) return;
 
     // IR -> C++.

@@ -4,6 +4,7 @@
 #include "emit/functions.hpp"
 #include "emit/layout.hpp"
 #include "emit/literals.hpp"
+#include "emit/moderate.hpp"
 #include "emit/tables.hpp"
 
 #include <fmt/format.h>
@@ -442,8 +443,8 @@ std::string table_definition(const Unit& unit, bool has_details) {
     std::string text;
     if (has_packs(unit)) {
         const bool floats = unit.program.real == RealType::Float;
-        text += fmt::format("    using Packed = rddl::Packed<Simulator, about::problem, {}{}>;\n",
-                            unit.options.lane_count, floats ? ", float" : "");
+        text += fmt::format("    using Packed = rddl::Packed<{}, about::problem, {}{}>;\n",
+                            stepping_type(unit), unit.options.lane_count, floats ? ", float" : "");
     }
     for (const std::string& line :
          fill_call("constexpr rddl::About description{", parts, "};", indentation))

@@ -7,6 +7,7 @@
 #include "emit/identifiers.hpp"
 #include "emit/line_directives.hpp"
 #include "emit/literals.hpp"
+#include "emit/moderate.hpp"
 #include "emit/tables.hpp"
 #include "emit/templates.hpp"
 #include "emit/unit.hpp"
@@ -46,11 +47,10 @@ std::string without_double_blanks(const std::string& text) {
 }
 
 std::string engine(const Unit& unit) {
-    if (unit.program.policy)
-        return "rddl::Compiled<Simulator, about::problem, rddl::Scalar, Policy>";
-    if (unit.program.real == RealType::Float)
-        return "rddl::Compiled<Simulator, about::problem, rddl::ScalarOf<float>>";
-    return "rddl::Compiled<Simulator, about::problem>";
+    const std::string start = "rddl::Compiled<" + cpp::stepping_type(unit) + ", about::problem";
+    if (unit.program.policy) return start + ", rddl::Scalar, Policy>";
+    if (unit.program.real == RealType::Float) return start + ", rddl::ScalarOf<float>>";
+    return start + ">";
 }
 
 std::string simulator(const Unit& unit, const DetailsUnit* details) {
@@ -68,6 +68,7 @@ std::string simulator(const Unit& unit, const DetailsUnit* details) {
                        {"conditions", cpp::condition_functions(unit)},
                        {"cpfs", step.cpfs},
                        {"policy", cpp::policy(unit)},
+                       {"moderate", cpp::moderate_section(unit)},
                        {"details", details ? cpp::details_section(*details, unit) : ""},
                        {"asserts", cpp::asserts(unit)},
                        {"about", cpp::about(unit, details)},

@@ -445,6 +445,22 @@ StepFunctions step_functions(const Unit& unit) {
     return {function("void", "step", record_parameters(uses), cpfs.calls), cpfs.functions};
 }
 
+std::string moderate_test(const Unit& unit) {
+    Uses uses;
+    std::string tests;
+    for (const ir::BufferId id : ir::reals_from_outside(unit.program)) {
+        const ir::Storage storage = unit.program[id].storage;
+        (storage == ir::Storage::State ? uses.state : uses.action) = true;
+        tests += (tests.empty() ? "" : " &&\n" + std::string(level * indentation + 11, ' ')) +
+                 "rddl::is_moderate<L>(" + words_of(storage).parameter + "." +
+                 unit.names.buffers[id.index] + ")";
+    }
+    return function("typename L::Bool", "is_for",
+                    {record_parameter(ir::Storage::State, uses.state, false),
+                     record_parameter(ir::Storage::Action, uses.action, false)},
+                    indented("return " + (tests.empty() ? "true" : tests) + ";", level + 1));
+}
+
 std::string policy(const Unit& unit) {
     if (!unit.program.policy) return "";
     CpfFunctions cpfs = cpf_functions(unit, "act", unit.program.policy->act,

@@ -24,6 +24,9 @@ struct StepFunctions {
 };
 StepFunctions step_functions(const Unit& unit);
 
+// Whether all reals that the program reads from the state and the action are moderate.
+std::string moderate_test(const Unit& unit);
+
 // The struct Policy; nothing if there is none.
 std::string policy(const Unit& unit);
 

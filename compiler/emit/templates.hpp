@@ -11,5 +11,6 @@ extern const std::string_view simulator;    // what both contain
 extern const std::string_view policy;       // the struct Policy, where there is a policy block
 extern const std::string_view declaration;  // a .h for C: the exported function
 extern const std::string_view details;      // the namespace details, with --details
+extern const std::string_view moderate;     // the namespace moderate, where there is such a step
 
 }  // namespace rddlc::cpp::templates

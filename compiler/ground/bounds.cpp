@@ -1,7 +1,6 @@
 #include "ground/bounds.hpp"
 
 #include "ground/codes.hpp"
-#include "ground/finiteness.hpp"
 #include "ground/lowering.hpp"
 #include "ir/builder.hpp"
 #include "ir/evaluator.hpp"
@@ -241,9 +240,8 @@ void find_bounds(const model::Model& model, const std::vector<FluentBuffers>& bu
     ir::Program lowered = program;
     start_unbounded(model, program);
     ir::Builder builder(lowered);
-    const Finiteness finiteness(model);
     Diagnostics already_reported;
-    Lowering lowering(model, buffers, finiteness, lowered, builder, already_reported);
+    Lowering lowering(model, buffers, lowered, builder, already_reported);
     Collector collector(model, builder, lowering);
     for (const model::Expr& condition : model.action_preconditions) {
         collector.collect(condition, Role::Action);

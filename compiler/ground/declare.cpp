@@ -1,5 +1,7 @@
 #include "ground/declare.hpp"
 
+#include <rddl/moderate.hpp>
+
 #include <utility>
 
 namespace rddlc::grounding {
@@ -36,7 +38,12 @@ ir::BufferId add_buffer(ir::Program& program, ir::Buffer buffer) {
     return {static_cast<std::uint32_t>(program.buffers.size() - 1)};
 }
 
-ir::Buffer buffer_of(const model::Model& model, const Finiteness& finiteness, model::FluentId id) {
+// A step finds its values in the records that it is given.
+bool is_chosen_outside(const model::Fluent& fluent) {
+    return fluent.role == Role::State || fluent.role == Role::Action;
+}
+
+ir::Buffer buffer_of(const model::Model& model, bool only_moderate, model::FluentId id) {
     const model::Fluent& fluent = model.fluents[id];
     const bool of_policy = model.is_of_policy(id);
     ir::Buffer buffer{
@@ -47,8 +54,9 @@ ir::Buffer buffer_of(const model::Model& model, const Finiteness& finiteness, mo
         .types = fluent.parameters,
         .fluent = of_policy ? std::nullopt : std::optional(id),
         .values = fluent.values,
-        .span = fluent.span,
-        .finite = finiteness.is_finite(id)};
+        .span = fluent.span};
+    if (only_moderate && is_chosen_outside(fluent) && buffer.scalar == ir::Scalar::Real)
+        buffer.range = ir::Range{-rddl::moderate, rddl::moderate};
     for (model::TypeId type : fluent.parameters) {
         buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
     }
@@ -59,6 +67,7 @@ ir::Buffer next_of(ir::Buffer state) {
     state.storage =
         state.storage == ir::Storage::Memory ? ir::Storage::NextMemory : ir::Storage::Next;
     state.values = {};
+    state.range = {};
     return state;
 }
 
@@ -92,9 +101,10 @@ ir::Scalar scalar_of(model::ValueType type) {
     return ir::Scalar::Int;
 }
 
-Declarations declare(const model::Model& model, const Finiteness& finiteness) {
+Declarations declare(const model::Model& model, bool only_moderate) {
     Declarations result;
     ir::Program& program = result.program;
+    program.only_moderate = only_moderate;
     program.domain_name = model.domain_name;
     program.instance_name = model.instance_name;
     program.horizon = model.horizon;
@@ -105,9 +115,10 @@ Declarations declare(const model::Model& model, const Finiteness& finiteness) {
     }
     for (model::FluentId id = 0; id < model.fluents.size(); ++id) {
         const model::Fluent& fluent = model.fluents[id];
-        FluentBuffers buffers{add_buffer(program, buffer_of(model, finiteness, id)), std::nullopt};
+        FluentBuffers buffers{add_buffer(program, buffer_of(model, only_moderate, id)),
+                              std::nullopt};
         if (fluent.role == Role::State) {
-            buffers.next = add_buffer(program, next_of(buffer_of(model, finiteness, id)));
+            buffers.next = add_buffer(program, next_of(buffer_of(model, only_moderate, id)));
         }
         if (!model.is_of_policy(id))
             program.fluents.push_back(description_of(fluent, buffers.current));

@@ -1,7 +1,6 @@
 // Types, fluents and their buffers: everything of the program that is not computed.
 #pragma once
 
-#include "ground/finiteness.hpp"
 #include "ir/ir.hpp"
 #include "model/model.hpp"
 
@@ -21,7 +20,8 @@ struct Declarations {
     std::vector<FluentBuffers> buffers;  // by model::FluentId
 };
 
-Declarations declare(const model::Model& model, const Finiteness& finiteness);
+// Of a program for moderate values only, or for any (ir::Program::only_moderate).
+Declarations declare(const model::Model& model, bool only_moderate);
 
 ir::Scalar scalar_of(model::ValueType type);
 

@@ -4,7 +4,6 @@
 #include "ground/certain_faults.hpp"
 #include "ground/codes.hpp"
 #include "ground/declare.hpp"
-#include "ground/finiteness.hpp"
 #include "ground/lowering.hpp"
 #include "ground/memory.hpp"
 #include "ir/analysis.hpp"
@@ -12,6 +11,8 @@
 #include "ir/layout.hpp"
 #include "ir/verify.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace rddlc {
@@ -53,18 +54,14 @@ void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
     }
 }
 
-}  // namespace
-
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
-                                  std::int64_t memory_limit) {
+                                  std::int64_t memory_limit, bool only_moderate) {
     const std::size_t errors_before = diagnostics.error_count();
-    const grounding::Finiteness finiteness(model);
-    grounding::Declarations declarations = grounding::declare(model, finiteness);
+    grounding::Declarations declarations = grounding::declare(model, only_moderate);
     ir::Program& program = declarations.program;
     {
         ir::Builder builder(program);
-        grounding::Lowering lowering(model, declarations.buffers, finiteness, program, builder,
-                                     diagnostics);
+        grounding::Lowering lowering(model, declarations.buffers, program, builder, diagnostics);
         for (const model::Cpf& cpf : model.cpfs)
             program.step.push_back(lowering.definition_of(cpf));
         program.reward = lowering.value_of(model.reward);
@@ -87,6 +84,25 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
     ir::expect_valid(program, "ground");
 #endif
     return std::move(program);
+}
+
+bool reads_reals(const ir::Program& program) {
+    return std::ranges::any_of(program.buffers, [](const ir::Buffer& buffer) {
+        return buffer.scalar == ir::Scalar::Real &&
+               (buffer.storage == ir::Storage::State || buffer.storage == ir::Storage::Action);
+    });
+}
+
+}  // namespace
+
+std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
+                                  std::int64_t memory_limit) {
+    auto program = ground(model, diagnostics, memory_limit, false);
+    if (!program || program->policy || !reads_reals(*program)) return program;
+    Diagnostics already_reported;
+    auto moderate = ground(model, already_reported, memory_limit, true);
+    if (moderate) program->moderate = *std::move(moderate);
+    return program;
 }
 
 }  // namespace rddlc

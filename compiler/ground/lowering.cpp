@@ -31,14 +31,16 @@ bool needs_an_object(Reduction op) {
            op == Reduction::ArgMax;
 }
 
+bool is_never_zero(const ir::Facts& facts) {
+    return facts.range && (facts.range->lower > 0 || facts.range->upper < 0);
+}
+
 }  // namespace
 
 Lowering::Lowering(const model::Model& model, const std::vector<FluentBuffers>& buffers,
-                   const Finiteness& finiteness, ir::Program& program, ir::Builder& builder,
-                   Diagnostics& diagnostics)
+                   ir::Program& program, ir::Builder& builder, Diagnostics& diagnostics)
     : model_(model),
       buffers_(buffers),
-      finiteness_(finiteness),
       program_(program),
       builder_(builder),
       diagnostics_(diagnostics) {}
@@ -52,6 +54,7 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     ir::Store store{.target = buffers.next.value_or(buffers.current), .indices = {}, .value = {}};
     for (ir::VariableId parameter : scope_) store.indices.push_back(builder_.index(parameter));
     store.value = lower_as(cpf.body, scalar_of(model_.fluents[cpf.fluent].range));
+    program_.buffers[store.target.index].range = range_of_reals(store.value);
 
     ir::Block body = std::exchange(prelude_, {});
     body.push_back(looped({store}, scope_));
@@ -161,6 +164,11 @@ ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
     return builder_.convert(lower(expr), type);
 }
 
+std::optional<ir::Range> Lowering::range_of_reals(ir::NodeId value) const {
+    if (program_[value].type != ir::Scalar::Real) return std::nullopt;
+    return builder_.facts(value).range;
+}
+
 ir::NodeId Lowering::lower_lazily(const model::Expr& expr) {
     ++branches_;
     const ir::NodeId node = lower(expr);
@@ -250,6 +258,14 @@ ir::NodeId Lowering::connective(const model::Apply& form) {
     return builder_.apply(form.op, {left, right});
 }
 
+// Does multiplying by it leave 0 and -0 as they are, without a fault?
+bool Lowering::keeps_zeros(ir::NodeId factor) const {
+    const ir::Facts& facts = builder_.facts(factor);
+    if (facts.may_fault) return false;
+    if (program_[factor].type == ir::Scalar::Int) return true;
+    return facts.finite && facts.range && facts.range->lower > 0;
+}
+
 // 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
 // in scope. Where it is not, that depends on the other objects in pyRDDLGym; there it is an
 // ordinary product here.
@@ -260,20 +276,22 @@ ir::NodeId Lowering::product(const model::Apply& form) {
     const ir::NodeId first = lower(first_expr);
     const bool is_scalar = is_fixed_in_scope(first);
     const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
-    const bool is_plain =
-        !is_scalar || (finiteness_.is_finite(other_expr) && !builder_.facts(other).may_fault);
+    const bool is_plain = !is_scalar || is_never_zero(builder_.facts(first)) || keeps_zeros(other);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
     return builder_.apply(Operator::Multiply, {left, right});
 }
 
-//     select(first == 0, first, first * other)
+//     select(first == 0, first, first * other), of a bool select(first, other, 0)
 //
 // A large first factor is not repeated: it gets a name, or, where it must stay in a lazy branch,
 // hands the product down into its own second branch: in the first one it is zero already.
 ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first) {
     const ir::NodeId zero = builder_.convert(builder_.constant(false), program_[first].type);
+    const auto* convert = std::get_if<ir::Convert>(&program_[first].form);
+    if (convert && program_[convert->operand].type == ir::Scalar::Bool)
+        return builder_.select(convert->operand, other, zero);
     const auto test = [&](ir::NodeId id) {
         return builder_.apply(Operator::Equal, {id, zero});
     };
@@ -288,6 +306,9 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
             return builder_.select(condition, then_value, rest);
         }
     }
+    // In the second branch the first factor is not zero, which the other one need not ask again.
+    const auto* asks = std::get_if<ir::Select>(&program_[other].form);
+    if (asks && asks->condition == test(first)) other = asks->else_value;
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
     return builder_.select(test(first), first, builder_.apply(Operator::Multiply, {left, right}));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "ground/declare.hpp"
-#include "ground/finiteness.hpp"
 #include "ir/builder.hpp"
 #include "ir/ir.hpp"
 #include "model/model.hpp"
@@ -22,8 +21,7 @@ class Lowering {
   public:
     // All must outlive it. Variables and sites are added to the program, nodes through the builder.
     Lowering(const model::Model& model, const std::vector<FluentBuffers>& buffers,
-             const Finiteness& finiteness, ir::Program& program, ir::Builder& builder,
-             Diagnostics& diagnostics);
+             ir::Program& program, ir::Builder& builder, Diagnostics& diagnostics);
 
     ir::Definition definition_of(const model::Cpf& cpf);
     ir::Definition definition_of(const model::InitialDraw& draw);
@@ -56,11 +54,13 @@ class Lowering {
     ir::NodeId lower(const model::RandomVector& form, const model::Expr& expr);
 
     ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
+    std::optional<ir::Range> range_of_reals(ir::NodeId value) const;
     std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
     // What is not evaluated in any case.
     ir::NodeId lower_lazily(const model::Expr& expr);
     ir::NodeId connective(const model::Apply& form);
     ir::NodeId product(const model::Apply& form);
+    bool keeps_zeros(ir::NodeId factor) const;
     ir::NodeId product_unless_zero(ir::NodeId first, ir::NodeId other, bool right_first);
     bool may_be_named(ir::NodeId value) const;
     bool is_fixed_in_scope(ir::NodeId value) const;
@@ -113,7 +113,6 @@ class Lowering {
 
     const model::Model& model_;
     const std::vector<FluentBuffers>& buffers_;
-    const Finiteness& finiteness_;
     ir::Program& program_;
     ir::Builder& builder_;
     Diagnostics& diagnostics_;

@@ -67,8 +67,7 @@ ir::BufferId Lowering::new_table(std::string_view name, ir::Scalar scalar,
     ir::Buffer buffer{.name = builder_.tables().unused_name(std::string(name), "_"),
                       .storage = ir::Storage::Scratch,
                       .scalar = scalar,
-                      .span = expr.span,
-                      .finite = scalar != ir::Scalar::Real};
+                      .span = expr.span};
     double count = 1;
     for (ir::VariableId variable : dimensions) {
         buffer.shape.push_back(program_[variable].size);

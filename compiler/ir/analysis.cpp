@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace rddlc::ir {
 namespace {
@@ -54,7 +55,8 @@ class Collector {
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
-        facts_.finite |= node.type != Scalar::Real || (program_.assumes_finite && !is_fixed(node));
+        facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
+                        (program_.assumes_finite && !is_fixed(node));
         return std::move(facts_);
     }
 
@@ -63,7 +65,6 @@ class Collector {
         facts_.may_fault |= operand.may_fault;
         facts_.random |= operand.random;
         facts_.uniform &= operand.uniform;
-        facts_.finite &= operand.finite;
         facts_.elementary |= operand.elementary;
         facts_.cost += operand.cost;
         std::vector<VariableId> merged;
@@ -81,7 +82,6 @@ class Collector {
 
     void describe(Scalar, const Constant& constant) {
         facts_.range = range_of(Table{constant.value});
-        facts_.finite = is_finite(constant.value);
     }
 
     void describe(Scalar, const Index& index) {
@@ -94,9 +94,9 @@ class Collector {
         facts_.cost += 1;
         const Buffer& buffer = program_[load.buffer];
         facts_.uniform &= is_constant(load.buffer);
-        facts_.finite = buffer.finite;
-        facts_.range =
-            is_constant(load.buffer) ? tables_.range(program_, load.buffer) : object_range(buffer);
+        facts_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
+                       : buffer.scalar == Scalar::Real ? buffer.range
+                                                       : object_range(buffer);
     }
 
     // Of a fluent whose values are objects.
@@ -121,13 +121,13 @@ class Collector {
 
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
-        facts_.finite = false;
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
     }
 
-    void describe(Scalar, const Convert& convert) {
+    void describe(Scalar type, const Convert& convert) {
         const bool is_bool = program_[convert.operand].type == Scalar::Bool;
         facts_.range = is_bool ? Range{0, 1} : range(convert.operand);
+        if (!facts_.range && type == Scalar::Real) facts_.range = any_int;
     }
 
     void describe(Scalar type, const Apply& apply) {
@@ -136,19 +136,15 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
         if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
-        if (!facts_.range && is_square(apply)) facts_.range = never_negative;
+        if (facts_.range && is_square(apply))
+            facts_.range->lower = std::max(facts_.range->lower, 0.0);
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
         if (type == Scalar::Int) facts_.range = range_of_ints(apply, ranges);
         if (apply.place) facts_.may_fault |= !always_defined(apply.op, ranges);
-        facts_.finite &= keeps_finite(apply.op, ranges);
     }
 
     bool is_square(const Apply& apply) const {
-        return apply.op == Operator::Multiply && apply.operands[0] == apply.operands[1] &&
-               facts_.finite;
-    }
-    static bool is_never_negative(const std::optional<Range>& range) {
-        return range && range->lower >= 0;
+        return apply.op == Operator::Multiply && apply.operands[0] == apply.operands[1];
     }
 
     std::optional<Range> range_of_ints(const Apply& apply,
@@ -184,7 +180,8 @@ class Collector {
 
     void describe(Scalar, const Select& select) {
         facts_.cost += 1;
-        const auto a = range(select.then_value);
+        const auto a =
+            is_guarded_product(program_, select) ? Range{0, 0} : range(select.then_value);
         const auto b = range(select.else_value);
         if (a && b) facts_.range = join(*a, *b);
     }
@@ -197,9 +194,12 @@ class Collector {
             facts_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
             facts_.range = range_of_sum(reduce);
-        if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Real &&
-            is_never_negative(range(reduce.body)))
-            facts_.range = never_negative;
+        const auto& body = range(reduce.body);
+        if (program_[reduce.body].type != Scalar::Real || !body) return;
+        const auto count = static_cast<double>(size);
+        if (reduce.op == Reduction::Sum) facts_.range = ir::range_of_sum(*body, count);
+        if (reduce.op == Reduction::Product) facts_.range = ir::range_of_product(*body, count);
+        if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum) facts_.range = body;
     }
 
     std::optional<Range> range_of_sum(const Reduce& sum) const {
@@ -228,7 +228,7 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
-        facts_.finite &= draws_finite(sample.distribution, ranges);
+        facts_.range = ir::range_of(sample.distribution, ranges);
         facts_.cost += 20;
     }
 
@@ -271,8 +271,7 @@ class Collector {
         return operands[0] && operands[0]->lower > 0;
     }
 
-    // Also of what may overflow.
-    static constexpr Range never_negative{0, std::numeric_limits<double>::infinity()};
+    static constexpr Range any_int{-0x1p63, 0x1p63};
 
     std::optional<Range> range(NodeId id) const { return known_[id.index].range; }
 
@@ -398,18 +397,17 @@ bool is_cheap(const Facts& facts) {
     return is_droppable(facts) && facts.cost <= cheap_cost;
 }
 
-namespace {
-
-// t == 0 ? t : t * x
 bool is_guarded_product(const Program& program, const Select& select) {
+    const auto is_zero = [&](NodeId id) {
+        return constant<double>(program, id) == 0.0 || constant<std::int64_t>(program, id) == 0;
+    };
     const auto* test = std::get_if<Apply>(&program[select.condition].form);
     const auto* product = std::get_if<Apply>(&program[select.else_value].form);
     return test && product && test->op == Operator::Equal && product->op == Operator::Multiply &&
+           std::ranges::any_of(test->operands, is_zero) &&
            std::ranges::find(test->operands, select.then_value) != test->operands.end() &&
            std::ranges::find(product->operands, select.then_value) != product->operands.end();
 }
-
-}  // namespace
 
 bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
              const Facts& else_facts) {
@@ -563,6 +561,20 @@ std::vector<bool> reachable_nodes(const Program& program) {
         for (NodeId operand : operands_of(program.nodes[index])) reachable[operand.index] = true;
     }
     return reachable;
+}
+
+std::vector<BufferId> reals_from_outside(const Program& program) {
+    const std::vector<bool> reachable = reachable_nodes(program);
+    std::set<BufferId> found;
+    for (std::size_t index = 0; index < program.nodes.size(); ++index) {
+        const auto* load = std::get_if<Load>(&program.nodes[index].form);
+        if (!load || !reachable[index]) continue;
+        const Buffer& buffer = program[load->buffer];
+        if (buffer.scalar == Scalar::Real &&
+            (buffer.storage == Storage::State || buffer.storage == Storage::Action))
+            found.insert(load->buffer);
+    }
+    return {found.begin(), found.end()};
 }
 
 bool is_stochastic(const Program& program) {

@@ -19,7 +19,7 @@ struct Facts {
     // Depends on constants and loop indices only: equal in all lanes, known to the compiler. So an
     // index that is uniform may be spelled array[i]; any other needs at(array, i).
     bool uniform = true;
-    // Never inf or nan, as long as no sum or product overflows and actions are finite.
+    // Never inf or nan: as its range shows, or as --fast-math assumes.
     bool finite = true;
     bool elementary = false;  // computes an elementary function: a root, exp, a power, ...
     // Roughly the number of simple operations of one evaluation, loops multiplied out.
@@ -40,8 +40,10 @@ double cost_of_step(const Program& program);
 // Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
 // no more than a handful of operations. A Select of two cheap branches needs no branch.
 bool is_cheap(const Facts& facts);
-// Should a Select evaluate only the branch it takes? Not where both are cheap; nor for `t == 0 ? t
-// : t * x`, which `ground` makes of products: the test hardly ever holds, so x is evaluated in any
+// `t == 0 ? t : t * x`, which `ground` makes of products.
+bool is_guarded_product(const Program& program, const Select& select);
+// Should a Select evaluate only the branch it takes? Not where both are cheap; nor for a guarded
+// product: the test hardly ever holds, so x is evaluated in any
 // case, may be shared with others, and needs no branch.
 bool is_lazy(const Program& program, const Select& select, const Facts& then_facts,
              const Facts& else_facts);
@@ -106,6 +108,9 @@ std::vector<NodeId> roots_of(const Program& program);
 
 // By NodeId::index: is the node part of something that the program evaluates?
 std::vector<bool> reachable_nodes(const Program& program);
+
+// The buffers of reals of the state and the action that expressions read.
+std::vector<BufferId> reals_from_outside(const Program& program);
 
 // Does reset, the step, the reward or a condition draw at random? And does the policy?
 bool is_stochastic(const Program& program);

@@ -3,7 +3,10 @@
 #include "ir/analysis.hpp"
 #include "ir/layout.hpp"
 
+#include <rddl/moderate.hpp>
+
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,17 +28,44 @@ bool does_reset_fill_tables(const Program& program) {
     });
 }
 
+// The fields of a record that a program for moderate values relies on.
+std::vector<Field> relied_on(const Program& program, Storage storage) {
+    if (!program.only_moderate) return {};
+    const std::vector<BufferId> reals = reals_from_outside(program);
+    std::vector<Field> fields = record_layout(program, storage).fields;
+    std::erase_if(fields, [&](const Field& field) {
+        return std::ranges::find(reals, field.buffer) == reals.end();
+    });
+    return fields;
+}
+
+// Reals of a record, which are moderate.
+bool are_moderate(const Program& program, const std::vector<Field>& fields,
+                  const std::byte* record) {
+    return std::ranges::all_of(fields, [&](const Field& field) {
+        const auto count = static_cast<std::size_t>(program[field.buffer].count());
+        const std::span reals(reinterpret_cast<const double*>(record + field.offset), count);
+        return std::ranges::all_of(reals, rddl::is_moderate<rddl::Scalar>);
+    });
+}
+
 }  // namespace
 
 Interpreter::Interpreter(Program program, ExternalFunctions functions)
     : program_(std::make_unique<const Program>(std::move(program))),
-      evaluator_(*program_, std::move(functions)),
+      evaluator_(*program_, functions),
+      moderate_(program_->moderate
+                    ? std::make_unique<const Interpreter>(**program_->moderate, functions)
+                    : nullptr),
+      state_reals_(relied_on(*program_, Storage::State)),
+      action_reals_(relied_on(*program_, Storage::Action)),
       state_size_(record_layout(*program_, Storage::State).size),
       action_size_(record_layout(*program_, Storage::Action).size),
       observation_size_(program_->partially_observed()
                             ? record_layout(*program_, Storage::Observation).size
                             : state_size_),
-      scratch_size_(record_layout(*program_, Storage::Scratch).size),
+      scratch_size_(std::max(record_layout(*program_, Storage::Scratch).size,
+                             moderate_ ? moderate_->scratch_size() : 0)),
       memory_size_(record_layout(*program_, Storage::Memory).size),
       conditions_fill_tables_(do_conditions_fill_tables(*program_)),
       reset_fills_tables_(does_reset_fill_tables(*program_)) {}
@@ -72,6 +102,8 @@ double Interpreter::step(const std::byte* state, const std::byte* action, std::b
 double Interpreter::step(const std::byte* state, const std::byte* action, std::byte* scratch,
                          std::byte* next, std::byte* observation, Context& context,
                          Outcomes* outcomes) const {
+    if (moderate_ && moderate_->may_step_from(state, action))
+        return moderate_->step(state, action, scratch, next, observation, context, outcomes);
     Records records;
     records.set(Storage::State, state).set(Storage::Action, action).set(Storage::Scratch, scratch);
     records.set(Storage::Next, next).set(Storage::Observation, observation);
@@ -79,6 +111,11 @@ double Interpreter::step(const std::byte* state, const std::byte* action, std::b
     for (const Definition& definition : program_->step) evaluator_.run(definition.body, frame);
     evaluator_.run(program_->reward.body, frame);
     return evaluator_.value<double>(program_->reward.value, frame);
+}
+
+bool Interpreter::may_step_from(const std::byte* state, const std::byte* action) const {
+    return are_moderate(*program_, state_reals_, state) &&
+           are_moderate(*program_, action_reals_, action);
 }
 
 void Interpreter::reset_policy(std::byte* memory) const {

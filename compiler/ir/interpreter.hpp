@@ -4,9 +4,11 @@
 
 #include "ir/evaluator.hpp"
 #include "ir/ir.hpp"
+#include "ir/layout.hpp"
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace rddlc::ir {
 
@@ -41,6 +43,10 @@ class Interpreter {
                 std::byte* next, std::byte* observation, Context& context,
                 Outcomes* outcomes) const;
 
+    // Of a program for moderate values only: are all reals moderate that it reads from the state
+    // and the action? Any other program may step from anywhere.
+    bool may_step_from(const std::byte* state, const std::byte* action) const;
+
     // Does any termination condition hold?
     bool terminal(const std::byte* state, Context& context) const;
     // Is there an invariant that does not hold, or faults?
@@ -64,6 +70,8 @@ class Interpreter {
 
     std::unique_ptr<const Program> program_;
     Evaluator evaluator_;
+    std::unique_ptr<const Interpreter> moderate_;    // of Program::moderate, if there is one
+    std::vector<Field> state_reals_, action_reals_;  // of a program for moderate values
     std::size_t state_size_, action_size_, observation_size_, scratch_size_, memory_size_;
     bool conditions_fill_tables_, reset_fills_tables_;
 };

@@ -10,8 +10,10 @@
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
 
+#include "ir/range.hpp"
 #include "model/table.hpp"
 #include "model/vocabulary.hpp"
+#include "support/box.hpp"
 #include "support/source.hpp"
 
 #include <compare>
@@ -79,8 +81,8 @@ struct Buffer {
     // Constant: the table; State, Memory: initial; Action: defaults.
     Table values = {};
     Span span;
-    // No element is ever inf or nan, as long as no sum or product overflows and actions are finite.
-    bool finite = true;
+    // Within which every element lies, where that is known; of reals that are no constants.
+    std::optional<Range> range = {};
 
     std::int64_t count() const;
 };
@@ -301,6 +303,10 @@ struct Program {
     RealType real = RealType::Double;
     // --fast-math: reals that are computed are taken to be never inf or nan.
     bool assumes_finite = false;
+    // Right only for steps from moderate states and actions (rddl/moderate.hpp).
+    bool only_moderate = false;
+    // Makes such steps in place of this program, with less work. It has the same sites.
+    std::optional<Box<Program>> moderate = {};
     std::vector<ObjectType> types;
     std::vector<Fluent> fluents;  // in declaration order
 

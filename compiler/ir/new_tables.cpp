@@ -56,13 +56,13 @@ BufferId NewTables::add(Buffer table) {
     return {static_cast<std::uint32_t>(program_.buffers.size() - 1)};
 }
 
-BufferId NewTables::scratch(const std::string& wish, Scalar scalar, bool finite,
+BufferId NewTables::scratch(const std::string& wish, Scalar scalar, std::optional<Range> range,
                             const std::vector<VariableId>& variables, Span span) {
     Buffer table{.name = unused_name(wish),
                  .storage = Storage::Scratch,
                  .scalar = scalar,
                  .span = span,
-                 .finite = finite};
+                 .range = range};
     set_dimensions(program_, table, variables);
     return add(std::move(table));
 }

@@ -31,7 +31,7 @@ class NewTables {
 
     // A table that the step fills with the values of an expression, with a dimension for each of
     // these loop indices, named as it wishes if nobody else is.
-    BufferId scratch(const std::string& wish, Scalar scalar, bool finite,
+    BufferId scratch(const std::string& wish, Scalar scalar, std::optional<Range> range,
                      const std::vector<VariableId>& variables, Span span);
 
     // A constant table like this one, if there is one already; else a new one, named as it wishes

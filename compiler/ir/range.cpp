@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 namespace rddlc::ir {
 namespace {
@@ -25,14 +26,8 @@ std::optional<Range> divide(Range a, Range b) {
     return hull({a.lower / b.lower, a.lower / b.upper, a.upper / b.lower, a.upper / b.upper});
 }
 
-bool is_finite(Range range) {
-    return std::isfinite(range.lower) && std::isfinite(range.upper);
-}
 bool is_probability(Range range) {
     return range.lower >= 0 && range.upper <= 1;
-}
-bool is_at_least(const std::optional<Range>& range, double least) {
-    return range && range->lower >= least;
 }
 bool is_whole_number(double value) {
     return value == std::floor(value);
@@ -41,13 +36,48 @@ bool is_positive(Range range) {
     return range.lower > 0 && std::isfinite(range.upper);
 }
 
+double magnitude(Range range) {
+    return std::max(std::abs(range.lower), std::abs(range.upper));
+}
+Range symmetric(double magnitude) {
+    return {-magnitude, magnitude};
+}
+
+// With room for what functions and long sums round.
+Range padded(Range range) {
+    const double slack = 1e-9 * magnitude(range);
+    return {range.lower >= 0 ? std::max(0.0, range.lower - slack) : range.lower - slack,
+            range.upper <= 0 ? std::min(0.0, range.upper + slack) : range.upper + slack};
+}
+
+// Whole exponents, and any exponent of what is not negative.
+std::optional<Range> power(Range base, Range exponent) {
+    if (exponent.lower < 0) return std::nullopt;
+    const bool is_whole = exponent.lower == exponent.upper && is_whole_number(exponent.lower);
+    if (!is_whole && base.lower < 0) return std::nullopt;
+    const double most = std::pow(std::max(magnitude(base), 1.0), exponent.upper);
+    const bool is_even = is_whole && std::fmod(exponent.lower, 2) == 0;
+    return padded(base.lower >= 0 || is_even ? Range{0, most} : symmetric(most));
+}
+
+// The remainder has the divisor's sign.
+std::optional<Range> floor_modulo(Range divisor) {
+    if (divisor.lower <= 0 && divisor.upper >= 0) return std::nullopt;
+    return Range{std::min(0.0, divisor.lower), std::max(0.0, divisor.upper)};
+}
+
 }  // namespace
+
+bool is_finite(const Range& range) {
+    return magnitude(range) <= std::numeric_limits<float>::max();
+}
 
 Range join(Range a, Range b) {
     return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }
 
 std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>> operands) {
+    constexpr double most_tangent = 1e20;  // no double is nearer to a pole
     for (const std::optional<Range>& operand : operands) {
         if (!operand || !is_finite(*operand)) return std::nullopt;
     }
@@ -64,61 +94,110 @@ std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>>
             return divide(a, b);
         case Operator::Negate:
             return Range{-a.upper, -a.lower};
+        case Operator::Abs:
+            return Range{a.lower >= 0 ? a.lower : std::max(0.0, -a.upper), magnitude(a)};
         case Operator::Minimum:
             return hull({std::min(a.lower, b.lower), std::min(a.upper, b.upper)});
         case Operator::Maximum:
             return hull({std::max(a.lower, b.lower), std::max(a.upper, b.upper)});
+        case Operator::FloorModuloReal:
+            return floor_modulo(b);
+        case Operator::Power:
+            return power(a, b);
+        case Operator::Sqrt:
+            if (a.lower < 0) return std::nullopt;
+            return Range{std::sqrt(a.lower), std::sqrt(a.upper)};
+        case Operator::Exp:
+            return padded({0, std::exp(a.upper)});
+        case Operator::Ln:
+            if (a.lower <= 0) return std::nullopt;
+            return padded({std::log(a.lower), std::log(a.upper)});
+        case Operator::Cos:
+        case Operator::Sin:
+        case Operator::Tanh:
+            return padded({-1, 1});
+        case Operator::Tan:
+            return symmetric(most_tangent);
+        case Operator::Acos:
+        case Operator::Asin:
+            if (magnitude(a) > 1) return std::nullopt;
+            return symmetric(4);
+        case Operator::Atan:
+        case Operator::Atan2:
+            return symmetric(4);
+        case Operator::Cosh:
+        case Operator::Sinh:
+            return padded(symmetric(std::cosh(magnitude(a))));
+        case Operator::Hypot:
+            return padded({0, magnitude(a) + magnitude(b)});
+        case Operator::Defined:
+            return a;
         default:
             return std::nullopt;
     }
 }
 
-bool keeps_finite(Operator op, std::span<const std::optional<Range>> operands) {
-    constexpr double least_divisor = 1e-30, most_factors = 16;
-    const std::optional<Range>& first = operands.front();
-    const std::optional<Range>& last = operands.back();
-    switch (op) {
-        case Operator::Divide:
-            return last && (last->lower >= least_divisor || last->upper <= -least_divisor);
-        case Operator::Power: {
-            if (!last || last->lower < 0 || last->upper > most_factors) return false;
-            const bool is_whole = last->lower == last->upper && is_whole_number(last->lower);
-            return is_whole || is_at_least(first, 0);
-        }
-        case Operator::Sqrt:
-            return is_at_least(first, 0);
-        case Operator::FloorModuloReal:
-        case Operator::Exp:
-        case Operator::Ln:
-        case Operator::Acos:
-        case Operator::Asin:
-        case Operator::Cosh:
-        case Operator::Sinh:
-        case Operator::Log:
-        case Operator::LnGamma:
-        case Operator::Gamma:
-            return false;
-        default:
-            return true;
+std::optional<Range> range_of(Distribution distribution,
+                              std::span<const std::optional<Range>> parameters) {
+    constexpr double longest_tail = 40;  // of an exponential or normal draw, in its scale
+    for (const std::optional<Range>& parameter : parameters) {
+        if (!parameter || !is_finite(*parameter)) return std::nullopt;
     }
+    const Range first = *parameters.front();
+    const Range last = *parameters.back();
+    switch (distribution) {
+        case Distribution::KronDelta:
+        case Distribution::DiracDelta:
+            return first;
+        case Distribution::Uniform:
+            return padded(join(first, last));
+        case Distribution::Normal:  // the second parameter is the variance
+            return symmetric(magnitude(first) + longest_tail * std::sqrt(magnitude(last)));
+        case Distribution::Exponential:
+            return symmetric(longest_tail * magnitude(last));
+        case Distribution::Laplace:
+        case Distribution::Gumbel:
+            return symmetric(magnitude(first) + longest_tail * magnitude(last));
+        case Distribution::Cauchy:  // a tangent
+            return symmetric(magnitude(first) + 1e20 * magnitude(last));
+        case Distribution::Weibull:
+            if (first.lower <= 0) return std::nullopt;
+            return symmetric(std::pow(longest_tail, 1 / first.lower) * magnitude(last));
+        case Distribution::Pareto:
+            if (first.lower <= 0) return std::nullopt;
+            return symmetric(std::exp(longest_tail / first.lower) * magnitude(last));
+        case Distribution::Gamma:  // a normal draw of the method makes it at most 103 times as
+                                   // large
+            return symmetric(200 * (magnitude(first) + 1) * magnitude(last));
+        case Distribution::ChiSquare:  // Gamma(first / 2, 2)
+            return symmetric(200 * (magnitude(first) + 2));
+        case Distribution::Beta:
+        case Distribution::Kumaraswamy:
+            return Range{0, 1};
+        case Distribution::Gompertz:
+            if (first.lower <= 0 || last.lower <= 0) return std::nullopt;
+            return symmetric((longest_tail / first.lower + 1) * (longest_tail / last.lower + 1));
+        case Distribution::Student:  // a quotient by what may be next to 0
+        case Distribution::Bernoulli:
+        case Distribution::Poisson:
+        case Distribution::Binomial:
+        case Distribution::NegativeBinomial:
+        case Distribution::Geometric:
+            return std::nullopt;  // the last five are no reals
+    }
+    return std::nullopt;
 }
 
-// By the uniform number that is nearest to 0, which is 2^-53, or 2^-24 of floats; -ln of it is 37.
-bool draws_finite(Distribution distribution, std::span<const std::optional<Range>> parameters) {
-    const std::optional<Range>& first = parameters.front();
-    const std::optional<Range>& last = parameters.back();
-    switch (distribution) {
-        case Distribution::Weibull:
-            return is_at_least(first, 0.1);  // 37^10
-        case Distribution::Pareto:
-            return is_at_least(first, 1);  // e^37
-        case Distribution::Student:
-            return is_at_least(first, 1);  // a normal by the root of a chi-square by its degrees
-        case Distribution::Gompertz:
-            return is_at_least(first, 1e-30) && is_at_least(last, 1e-30);  // a quotient by each
-        default:
-            return true;
-    }
+Range range_of_sum(const Range& term, double count) {
+    const auto total = [&](double bound) {
+        return bound == 0 ? 0.0 : bound * count;
+    };
+    return padded({std::min(0.0, total(term.lower)), std::max(0.0, total(term.upper))});
+}
+
+Range range_of_product(const Range& factor, double count) {
+    const double most = std::pow(std::max(1.0, magnitude(factor)), count);
+    return padded(factor.lower >= 0 ? Range{0, most} : symmetric(most));
 }
 
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters) {

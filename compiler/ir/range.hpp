@@ -1,4 +1,5 @@
-// Intervals: within which a value lies for certain. They tell which draws cannot fault.
+// Intervals: within which a value lies for certain. They show which draws cannot fault, and which
+// numbers are finite.
 #pragma once
 
 #include "model/vocabulary.hpp"
@@ -20,16 +21,21 @@ inline constexpr double exact_ints = 0x1p53;
 
 Range join(Range a, Range b);
 
-// The range of `op` on reals, where it is known.
+// A number beyond all floats is not finite, since simulators may compute with them (--real=float).
+bool is_finite(const Range& range);
+
+// The range of `op` on reals, where it is known. Functions of the runtime may be off by some last
+// digits, which the range allows for.
 std::optional<Range> range_of(Operator op, std::span<const std::optional<Range>> operands);
 
-// Finite operands from these ranges give a finite result, unless a sum or product overflows. A
-// quotient by 1e-30 or more, and a power up to 16, count as products.
-bool keeps_finite(Operator op, std::span<const std::optional<Range>> operands);
+// The range of a real draw with parameters from these ranges, where it is known. The uniform number
+// behind a draw is at least 2^-53 from 0 and from 1; -ln of that is 37.
+std::optional<Range> range_of(Distribution distribution,
+                              std::span<const std::optional<Range>> parameters);
 
-// Finite parameters from these ranges give a finite draw, unless a sum or product overflows: tails
-// may be so heavy that they reach beyond all reals.
-bool draws_finite(Distribution distribution, std::span<const std::optional<Range>> parameters);
+// The range of a sum or product of at most so many reals from this range, the empty one included.
+Range range_of_sum(const Range& term, double count);
+Range range_of_product(const Range& factor, double count);
 
 // True if parameters from these ranges are always in the distribution's domain: it cannot fault.
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters);

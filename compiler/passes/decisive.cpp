@@ -69,6 +69,8 @@ class Search {
 
     // A branch that has the value in any case leaves the other one to decide.
     Conditions of_select(const ir::Select& select, const ir::Value& value) const {
+        if (number(value) == 0 && ir::is_guarded_product(program(), select))
+            return of(select.else_value, value);
         if (is_constant(select.else_value, value))
             return all(of(select.condition, false), of(select.then_value, value));
         if (is_constant(select.then_value, value))

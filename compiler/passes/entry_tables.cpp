@@ -10,8 +10,7 @@ ir::BufferId EntryTables::table(const std::string& name, ir::Scalar scalar,
                              .scalar = scalar,
                              .shape = {std::ssize(values)},
                              .values = values,
-                             .span = span,
-                             .finite = std::ranges::all_of(values, is_finite)});
+                             .span = span});
 }
 
 ir::VariableId EntryTables::variable(std::int64_t count, std::size_t depth) {

@@ -257,6 +257,8 @@ std::optional<Relation> Exceptions::of_product(ir::NodeId a, ir::NodeId b, const
 
 std::optional<Relation> Exceptions::of(const ir::Select& select, const ir::Value& value) {
     if (facts(select.condition).may_fault) return std::nullopt;
+    if (is_zero(value) && ir::is_guarded_product(program(), select))
+        return of(select.else_value, value);
     const Found first = both(select.condition, false, select.then_value, value);
     if (!first) return std::nullopt;
     const Found second = both(select.condition, true, select.else_value, value);

@@ -181,7 +181,7 @@ class Hoisting {
             const ir::Variable& dimension = program_[variable];
             name += "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
         }
-        return builder_.tables().scratch(name, program_[id].type, builder_.facts(id).finite,
+        return builder_.tables().scratch(name, program_[id].type, builder_.facts(id).range,
                                          dimensions, span_);
     }
 

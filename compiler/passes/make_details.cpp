@@ -164,6 +164,7 @@ ir::Program tidied(ir::Program program) {
 }  // namespace
 
 ir::Details make_details(ir::Program program) {
+    program.moderate.reset();
     ir::Details details;
     std::vector<ir::Computation> preconditions = std::exchange(program.preconditions, {});
     keep_details(program);

@@ -9,7 +9,7 @@
 #include "passes/evaluate_together.hpp"
 #include "passes/factor_aggregations.hpp"
 #include "passes/fast_math.hpp"
-#include "passes/find_finite_fluents.hpp"
+#include "passes/find_ranges.hpp"
 #include "passes/fold_constant_expressions.hpp"
 #include "passes/fold_uniform_tables.hpp"
 #include "passes/fuse_interm_fluents.hpp"
@@ -32,17 +32,25 @@
 #include "passes/unroll_rows.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace rddlc {
 namespace {
 
+enum Trait : unsigned {
+    only_fast_math = 1,
+    rounds_sums = 2,
+    leaves_out_zeros = 4,  // what is multiplied by zero, where it is finite
+};
+
 struct Pass {
     const char* name;
     const char* summary;
     ir::Program (*run)(ir::Program, passes::Report&);
-    bool only_fast_math = false;
-    bool rounds_sums = false;
+    unsigned traits = 0;
+
+    bool has(Trait trait) const { return (traits & trait) != 0; }
 };
 
 // A pass may stand here several times.
@@ -53,21 +61,21 @@ constexpr Pass in_order[] = {
      passes::fold_uniform_tables},
     {"fold_constant_expressions", "what only tables decide is evaluated now",
      passes::fold_constant_expressions},
-    {"find_finite_fluents", "tells which fluents are never inf or nan, for the passes below",
-     passes::find_finite_fluents},
+    {"find_ranges", "finds within which range a real lies, for the passes below",
+     passes::find_ranges},
     {"fast_math", "only with --fast-math: what is right for real numbers, if not for floating ones",
-     passes::fast_math, true},
+     passes::fast_math, only_fast_math},
     {"reduce_strength", "operators with cheaper equals: products for divisions and powers",
      passes::reduce_strength},
     {"fuse_interm_fluents",
      "interm-fluents read once, or cheap ones, are computed where they are read",
      passes::fuse_interm_fluents},
     {"prove_invariants", "only with --fast-math: an invariant that every step keeps is not tested",
-     passes::prove_invariants, true},
+     passes::prove_invariants, only_fast_math},
     {"index_directly", "an aggregation to which one object contributes takes that object",
-     passes::index_directly},
+     passes::index_directly, leaves_out_zeros},
     {"search_intervals", "what depends on the interval of a number becomes a binary search",
-     passes::search_intervals},
+     passes::search_intervals, leaves_out_zeros},
     {"count_bools", "sums of reals that only count, in steps of constants, count in ints",
      passes::count_bools},
     {"compare_counts", "an exists or forall of what is counted, too, compares the count",
@@ -79,15 +87,15 @@ constexpr Pass in_order[] = {
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
      passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
-     passes::make_aggregations_sparse, false, true},
+     passes::make_aggregations_sparse, rounds_sums | leaves_out_zeros},
     {"tabulate_counts", "what a count, or another small int, decides becomes a table",
      passes::tabulate_counts},
     {"straighten_rows", "only with --fast-math: rows of tables that are nearly lines become lines",
-     passes::straighten_rows, true},
+     passes::straighten_rows, only_fast_math},
     {"tabulate_constants", "what tables and loop variables decide becomes a table",
      passes::tabulate_constants},
     {"skip_zero_terms", "sums compute only the expensive terms that a bool lets count",
-     passes::skip_zero_terms},
+     passes::skip_zero_terms, leaves_out_zeros},
     {"count_bits", "sums and tests over tables of bools work on the bits of ints",
      passes::count_bits},
     {"compare_magnitudes", "two opposite bounds of a real become one of its absolute value",
@@ -124,7 +132,8 @@ std::vector<PassDescription> all_passes() {
     for (const Pass& pass : in_order) {
         const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
         if (known == passes.end())
-            passes.push_back({pass.name, pass.summary, pass.only_fast_math, pass.rounds_sums});
+            passes.push_back(
+                {pass.name, pass.summary, pass.has(only_fast_math), pass.has(rounds_sums)});
     }
     return passes;
 }
@@ -135,22 +144,70 @@ ProgramSize size_of(const ir::Program& program) {
             .operations = ir::cost_of_step(program)};
 }
 
-ir::Program optimise(ir::Program program, const PassOptions& options, std::vector<PassRun>* runs) {
+namespace {
+
+// What they did is added to `runs`; the sizes only if they are wanted.
+ir::Program run_passes(ir::Program program, const PassOptions& options, bool wants_sizes,
+                       std::vector<PassRun>& runs) {
     for (const Pass& pass : in_order) {
         if (options.without.contains(pass.name)) continue;
-        if (pass.only_fast_math && !options.fast_math) continue;
-        const ProgramSize before = runs ? size_of(program) : ProgramSize{};
+        if (pass.has(only_fast_math) && !options.fast_math) continue;
+        const ProgramSize before = wants_sizes ? size_of(program) : ProgramSize{};
         PassRun run = measured(pass, program);
-        if (runs) {
-            run.before = before;
-            run.after = size_of(program);
-        }
+        run.before = before;
+        if (wants_sizes) run.after = size_of(program);
         if (options.observe) options.observe(run, program);
-        if (runs) runs->push_back(std::move(run));
+        runs.push_back(std::move(run));
 #ifndef NDEBUG
         ir::expect_valid(program, pass.name);
 #endif
     }
+    return program;
+}
+
+// How often passes left out what is multiplied by zero.
+std::int64_t terms_left_out(const std::vector<PassRun>& runs) {
+    std::int64_t count = 0;
+    for (const PassRun& run : runs) {
+        const auto pass = std::ranges::find(in_order, run.name, &Pass::name);
+        if (!pass->has(leaves_out_zeros)) continue;
+        for (const auto& [what, times] : run.report) count += times;
+    }
+    return count;
+}
+
+// The step and the reward, and the tables that they read.
+ir::Program step_alone(ir::Program program) {
+    program.only_moderate = true;
+    program.preconditions.clear();
+    program.invariants.clear();
+    program.terminations.clear();
+    program.reset.clear();
+    passes::Report unused;
+    return passes::remove_unused_buffers(std::move(program), unused);
+}
+
+}  // namespace
+
+ir::Program optimise(ir::Program program, const PassOptions& options, std::vector<PassRun>* runs) {
+    auto moderate = std::exchange(program.moderate, std::nullopt);
+    // All values are taken to be moderate then.
+    if (options.fast_math && moderate) {
+        program = std::move(**moderate);
+        moderate.reset();
+    }
+    std::vector<PassRun> made;
+    program = run_passes(std::move(program), options, runs != nullptr, made);
+    if (moderate) {
+        std::vector<PassRun> made_of_moderate;
+        ir::Program other =
+            run_passes(std::move(**moderate), options, runs != nullptr, made_of_moderate);
+        if (terms_left_out(made_of_moderate) > terms_left_out(made)) {
+            program.moderate = step_alone(std::move(other));
+            made = std::move(made_of_moderate);
+        }
+    }
+    if (runs) std::ranges::move(made, std::back_inserter(*runs));
     return program;
 }
 

@@ -80,7 +80,6 @@ ir::BufferId new_table(ir::Builder& builder, const Pieces& pieces, const std::st
                      .shape = {static_cast<std::int64_t>(values.size())},
                      .values = std::move(values),
                      .span = program.reward.span};
-    table.finite = table.values.all_of(is_finite);
     return builder.tables().constant(std::move(table));
 }
 

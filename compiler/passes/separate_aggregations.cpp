@@ -162,7 +162,7 @@ class Separation {
     ir::NodeId table_of(ir::NodeId id, const std::string& what, const Variables& variables,
                         ir::Block& before) {
         const ir::BufferId table = builder_.tables().scratch(
-            name_ + "-" + what, program_[id].type, builder_.facts(id).finite, variables, span_);
+            name_ + "-" + what, program_[id].type, builder_.facts(id).range, variables, span_);
         std::vector<ir::NodeId> indices;
         for (const ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
         ir::Block fill;

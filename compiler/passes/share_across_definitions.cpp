@@ -202,7 +202,7 @@ class DefinitionSharing {
 
     ir::BufferId new_table(ir::NodeId id, Span span) {
         const ir::Facts facts = builder_.facts(id);
-        return builder_.tables().scratch(name_for(id), program_[id].type, facts.finite,
+        return builder_.tables().scratch(name_for(id), program_[id].type, facts.range,
                                          facts.free_variables, span);
     }
 

@@ -106,7 +106,6 @@ class ConstantTabulation {
                           .values = *std::move(values),
                           .span = span};
         set_dimensions(program_, buffer, variables);
-        buffer.finite = buffer.values.all_of(is_finite);
         tables_.emplace(id, Table{std::move(variables), std::move(buffer)});
         return true;
     }

@@ -293,8 +293,6 @@ class CountTabulation {
                          .scalar = ir::Scalar::Real,
                          .shape = std::move(shape),
                          .span = span_};
-        table.finite = std::ranges::all_of(
-            values, [](const ir::Value& value) { return std::isfinite(std::get<double>(value)); });
         table.values = std::move(values);
         return builder_.tables().constant(std::move(table));
     }

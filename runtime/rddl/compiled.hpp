@@ -23,6 +23,54 @@ struct NoPolicy {
     struct Memory {};
 };
 
+// The CPFs and then the reward.
+template <class Simulator, class L, class State, class Action, class Scratch, class Observation>
+RDDL_ALWAYS_INLINE typename L::Real step_with_reward(const State& state, const Action& action,
+                                                     Scratch& scratch, State& next,
+                                                     Observation& observation,
+                                                     Context<L>& context) {
+    if constexpr (requires { Simulator::has_moderate_step; }) {
+        return Simulator::step_with_reward(state, action, scratch, next, observation, context);
+    } else {
+        Simulator::step(state, action, scratch, next, observation, context);
+        return Simulator::reward(state, action, scratch, next, context);
+    }
+}
+
+// A simulator with a second step, for states and actions whose reals are all moderate: it does the
+// same with less work.
+template <class Simulator, class ModerateStep>
+struct WithModerateStep : Simulator {
+    static constexpr bool has_moderate_step = true;
+
+    template <class L>
+    union Scratch {
+        typename Simulator::template Scratch<L> of_any;
+        typename ModerateStep::template Scratch<L> of_moderate;
+    };
+
+    template <class L, class State, class Action, class Observation>
+    RDDL_ALWAYS_INLINE static typename L::Real step_with_reward(const State& state,
+                                                                const Action& action,
+                                                                Scratch<L>& scratch, State& next,
+                                                                Observation& observation,
+                                                                Context<L>& context) {
+        if (!all(ModerateStep::is_for(state, action))) [[unlikely]]
+            return of_any_values(state, action, scratch.of_any, next, observation, context);
+        return rddl::step_with_reward<ModerateStep>(state, action, scratch.of_moderate, next,
+                                                    observation, context);
+    }
+
+  private:
+    template <class L, class State, class Action, class ScratchOfAny, class Observation>
+    [[gnu::noinline, gnu::cold]] static typename L::Real of_any_values(
+        const State& state, const Action& action, ScratchOfAny& scratch, State& next,
+        Observation& observation, Context<L>& context) {
+        return rddl::step_with_reward<Simulator>(state, action, scratch, next, observation,
+                                                 context);
+    }
+};
+
 // `problem` describes the simulator.
 template <class Simulator, const rddl_problem& problem, class L = Scalar, class Policy = NoPolicy>
 struct Compiled {
@@ -70,9 +118,8 @@ struct Compiled {
         const Action& chosen = as<Action>(action);
         Scratch& workspace = as<Scratch>(scratch);
         State& following = as<State>(next);
-        Simulator::step(current, chosen, workspace, following, as<Observation>(observation),
-                        context);
-        return Simulator::reward(current, chosen, workspace, following, context);
+        Observation& seen = as<Observation>(observation);
+        return step_with_reward<Simulator>(current, chosen, workspace, following, seen, context);
     }
 
     static typename L::Bool terminal(const std::byte* state, Context<L>& context) {

@@ -8,6 +8,7 @@
 #include <rddl/distributions.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/linear_algebra.hpp>
+#include <rddl/moderate.hpp>
 #include <rddl/objects.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/reductions.hpp>

@@ -181,6 +181,12 @@ void expect_trace(const Case& expected, const Compilation& compilation) {
 #endif
 }
 
+// From the step for moderate values on, if there is one: it makes most steps.
+std::string usual_step(const std::string& text) {
+    const std::size_t begin = text.find("namespace moderate {");
+    return begin == text.npos ? text : text.substr(begin);
+}
+
 class Cases : public ::testing::TestWithParam<fs::path> {};
 
 TEST_P(Cases, AreAsExpected) {
@@ -198,7 +204,8 @@ TEST_P(Cases, AreAsExpected) {
                 "template <class L>\nstruct State");
     expect_part(expected, "reset.exp", compilation.text, "    // The initial state",
                 "    // All CPFs");
-    expect_part(expected, "step.exp", compilation.text, "    // All CPFs", "    // The reward of");
+    expect_part(expected, "step.exp", usual_step(compilation.text), "    // All CPFs",
+                "    // The reward of");
     expect_part(expected, "policy.exp", compilation.text, "// The policy block", "static_assert");
     const bool runs = std::ranges::any_of(
         std::array{"sim.cpp.exp", "tables.exp", "reset.exp", "step.exp", "policy.exp", "trace.exp"},

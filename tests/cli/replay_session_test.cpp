@@ -50,26 +50,6 @@ TEST_F(Replay, SetsTheStateBeforeTheStep) {
     EXPECT_EQ(after["state"]["repairs"], 11);
 }
 
-TEST_F(Replay, WarnsOfDoubtfulValuesAndMakesTheStep) {
-    ReplayOptions options;
-    options.doubt = [](const RecordLayout& layout,
-                       const std::byte* record) -> std::optional<std::string> {
-        std::string text;
-        layout.write(text, record);
-        if (text.find("inf") == text.npos) return {};
-        return "not finite";
-    };
-    ReplaySession session(*tiny::simulator(), options);
-    EXPECT_FALSE(json::parse(session.answer("{}")).contains("warning"));
-    for (const char* line :
-         {R"({"state": {"wear___mill": "-inf"}})", R"({"action": {"hazard": "inf"}})",
-          R"({"reset": true, "state": {"wear___mill": "-inf"}})"}) {
-        const json answer = json::parse(session.answer(line));
-        EXPECT_EQ(answer.value("warning", "none"), "not finite") << line;
-        EXPECT_TRUE(answer.contains("state")) << line;
-    }
-}
-
 TEST_F(Replay, RefusesALineAndGoesOn) {
     EXPECT_NE(error("{").find("parse error"), std::string::npos);
     EXPECT_EQ(error("3"), "the line is not a JSON object");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace rddlc::fuzzing {
@@ -94,8 +95,11 @@ Tolerance tolerance_of(std::string_view pass) {
     return {.signs_of_zero = std::ranges::find(of_zero, pass) != of_zero.end()};
 }
 
-Contracts check_contracts(const ir::Program& program, const PassOptions& options, Values values,
-                          std::uint64_t seed, int steps) {
+namespace {
+
+// Of a program that stands alone.
+Contracts check_alone(const ir::Program& program, const PassOptions& options, Values values,
+                      std::uint64_t seed, int steps) {
     Contracts result;
     std::vector<Made> history = {{"ground", program}};
     PassOptions watched = options;
@@ -113,8 +117,9 @@ Contracts check_contracts(const ir::Program& program, const PassOptions& options
     };
     result.optimised = optimise(program, watched);
     if (!result.breaches.empty() || steps == 0) return result;  // nobody runs what is not valid
+    const bool only_moderate = program.only_moderate || options.fast_math;
     std::vector<Situation> tried =
-        situations(program, result.optimised, values, seed, affordable_steps(program, steps));
+        situations(program, values, only_moderate, seed, affordable_steps(program, steps));
     if (options.fast_math) drop_states_out_of_bounds(program, tried);
     Story before = story(program, tried, seed);
     for (std::size_t i = 1; i < history.size(); ++i) {
@@ -126,6 +131,35 @@ Contracts check_contracts(const ir::Program& program, const PassOptions& options
             result.breaches.push_back({history[i].pass, *text});
         }
         before = std::move(after);
+    }
+    return result;
+}
+
+// In moderate situations both programs must show the same.
+std::optional<std::string> difference_of_moderate(const ir::Program& any,
+                                                  const ir::Program& moderate, Values values,
+                                                  std::uint64_t seed, int steps) {
+    const std::vector<Situation> tried =
+        situations(moderate, values, true, seed, affordable_steps(any, steps));
+    return difference(any, story(any, tried, seed), story(moderate, tried, seed), {});
+}
+
+}  // namespace
+
+Contracts check_contracts(const ir::Program& program, const PassOptions& options, Values values,
+                          std::uint64_t seed, int steps) {
+    if (!program.moderate) return check_alone(program, options, values, seed, steps);
+    if (options.fast_math) return check_alone(**program.moderate, options, values, seed, steps);
+    ir::Program any = program;
+    const ir::Program moderate = std::move(**std::exchange(any.moderate, std::nullopt));
+    Contracts result = check_alone(any, options, values, seed, steps);
+    Contracts other = check_alone(moderate, options, values, seed, steps);
+    for (const auto& [pass, runs] : other.changed) result.changed[pass] += runs;
+    std::ranges::move(other.breaches, std::back_inserter(result.breaches));
+    if (result.breaches.empty() && steps > 0) {
+        if (const auto text = difference_of_moderate(any, moderate, values, seed, steps))
+            result.breaches.push_back({"ground", "for moderate values: " + *text});
+        result.optimised = optimise(program, options);
     }
     return result;
 }

@@ -14,7 +14,6 @@
 #include <cstring>
 #include <limits>
 #include <random>
-#include <set>
 #include <utility>
 
 namespace rddlc::fuzzing {
@@ -39,14 +38,8 @@ ir::Context context_of(std::uint64_t seed, std::uint32_t step) {
 
 class RandomValues {
   public:
-    RandomValues(const ir::Program& program, const ir::Program& optimised, Values values,
-                 std::uint64_t seed)
-        : program_(program), values_(values), random_(seed) {
-        for (const ir::Buffer& buffer : optimised.buffers) {
-            if (buffer.storage == ir::Storage::State && !buffer.finite)
-                may_be_infinite_.insert(buffer.name);
-        }
-    }
+    RandomValues(const ir::Program& program, Values values, bool only_moderate, std::uint64_t seed)
+        : program_(program), values_(values), only_moderate_(only_moderate), random_(seed) {}
 
     // Leaves one value of `keep` as it is, if that is more than 0.
     void fill(ir::Storage storage, Record& record, std::uint64_t keep) {
@@ -67,7 +60,7 @@ class RandomValues {
 
     void write_value(std::byte* at, const ir::Buffer& buffer) {
         if (buffer.scalar == ir::Scalar::Bool) return write(at, one_of(2));
-        if (buffer.scalar == ir::Scalar::Real) return write(at, real(buffer));
+        if (buffer.scalar == ir::Scalar::Real) return write(at, real());
         if (const auto type = object_type(buffer)) {
             const std::size_t objects = program_.types[*type].objects.size();
             if (objects > 0) write(at, static_cast<std::int64_t>(below(objects)));
@@ -89,22 +82,20 @@ class RandomValues {
     }
 
     // Multiples of a quarter, and now and then what they are not.
-    double real(const ir::Buffer& buffer) {
+    double real() {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        constexpr std::array other = {-0.0, 0.1, 0.30000000000000004, 1.0 / 3.0, -2.4, 1e15, 1e-12};
-        constexpr std::array edges = {infinity, -infinity,
-                                      std::numeric_limits<double>::quiet_NaN()};
+        constexpr std::array other = {-0.0, 0.1, 0.30000000000000004, 1.0 / 3.0, -2.4, 1e9, 1e-12};
+        constexpr std::array edges = {
+            infinity, -infinity, 1e15, 1e200, -1e300, std::numeric_limits<double>::quiet_NaN()};
         const double quarters = static_cast<double>(below(81)) / 4 - 10;
         if (values_ == Values::Tame || one_of(2)) return quarters;
-        const bool is_state = buffer.storage == ir::Storage::State;
-        if (is_state && may_be_infinite_.contains(buffer.name) && one_of(6))
-            return edges[below(edges.size())];
+        if (!only_moderate_ && one_of(6)) return edges[below(edges.size())];
         return one_of(3) ? other[below(other.size())] : quarters * 0.1;
     }
 
     const ir::Program& program_;
     Values values_;
-    std::set<std::string> may_be_infinite_;  // states, by name
+    bool only_moderate_;
     std::mt19937_64 random_;
 };
 
@@ -251,10 +242,10 @@ double cost_of(const ir::Computation& computation, const std::vector<ir::Facts>&
 
 }  // namespace
 
-std::vector<Situation> situations(const ir::Program& program, const ir::Program& optimised,
-                                  Values values, std::uint64_t seed, int count) {
+std::vector<Situation> situations(const ir::Program& program, Values values, bool only_moderate,
+                                  std::uint64_t seed, int count) {
     const ir::Interpreter engine(program);
-    RandomValues random(program, optimised, values, seed);
+    RandomValues random(program, values, only_moderate, seed);
     Record scratch(engine.scratch_size());
     Situation now{.state = Record(engine.state_size()),
                   .observation = Record(engine.observation_size()),
@@ -269,6 +260,8 @@ std::vector<Situation> situations(const ir::Program& program, const ir::Program&
         ++now.step;
         engine.default_action(now.action.data());
         random.fill(ir::Storage::Action, now.action, 3);
+        if (!engine.may_step_from(now.state.data(), now.action.data()))
+            engine.reset(now.state.data(), reset);
         Shown follows = shown(engine, now, scratch, seed);
         if (engine.has_policy() && !follows.of_policy && random.one_of(2)) {
             now.action = follows.action;

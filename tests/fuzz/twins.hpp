@@ -39,16 +39,17 @@ struct Story {
     std::vector<Shown> steps;
 };
 
-// Which values states and actions have that nobody computed.
+// Which values states and actions have that no step computed.
 enum class Values : std::uint8_t {
     Tame,  // small ints, and reals of few bits, so that sums are not rounded
-    Wild,  // also ints beyond 2^53, tenths, -0, and nan and infinities where a fluent may have them
+    Wild,  // also ints beyond 2^53, tenths, -0, and, unless the reals have to be moderate, numbers
+           // near the greatest ones, nan and infinities
 };
 
 // Situations that the program comes into under random actions (or those of its policy block), from
-// its initial state and from random ones. What the optimised program takes to be finite is.
-std::vector<Situation> situations(const ir::Program& program, const ir::Program& optimised,
-                                  Values values, std::uint64_t seed, int count);
+// its initial state and from random ones. Those of a program for moderate values are moderate.
+std::vector<Situation> situations(const ir::Program& program, Values values, bool only_moderate,
+                                  std::uint64_t seed, int count);
 
 // The random numbers are those of the seed.
 Story story(const ir::Program& program, const std::vector<Situation>& situations,

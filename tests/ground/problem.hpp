@@ -79,6 +79,12 @@ inline ir::Program grounded(const Problem& problem) {
     return std::move(*result.program);
 }
 
+// The program for moderate values alone, if there is one.
+inline ir::Program of_moderate_values(const Problem& problem) {
+    ir::Program program = grounded(problem);
+    return program.moderate ? std::move(**program.moderate) : program;
+}
+
 // The lines of the printed step, without the indentation of the block.
 inline std::string step_text(const ir::Program& program) {
     const std::string text = ir::print(program);

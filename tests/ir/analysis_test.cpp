@@ -53,14 +53,22 @@ TEST_F(AnalysisTest, CountsOfBitsHaveARange) {
     EXPECT_EQ(facts(w.apply(Operator::CountOnes, w.load(w.count))).range->upper, 64);
 }
 
-TEST_F(AnalysisTest, SquaresAreNeverNegativeAndHaveFiniteRoots) {
+TEST_F(AnalysisTest, NumbersAreFiniteWhereTheirRangeShowsIt) {
+    w.program.buffers[w.level.index].range = Range{-10, 10};
     const NodeId level = w.load(w.level);
     const NodeId square = w.apply(Operator::Multiply, level, level);
-    EXPECT_EQ(facts(square).range->lower, 0);
+    EXPECT_EQ(facts(square).range, (Range{0, 100}));
     EXPECT_TRUE(facts(w.apply(Operator::Sqrt, square)).finite);
     EXPECT_TRUE(facts(w.apply(Operator::Power, square, w.real(0.5))).finite);
     EXPECT_FALSE(facts(w.apply(Operator::Power, square, w.real(-0.5))).finite);
     EXPECT_FALSE(facts(w.apply(Operator::Sqrt, level)).finite);
+}
+
+TEST_F(AnalysisTest, NumbersFromOutsideMayBeAnything) {
+    const NodeId level = w.load(w.level);
+    EXPECT_FALSE(facts(level).finite);
+    EXPECT_FALSE(facts(w.apply(Operator::Multiply, level, level)).finite);
+    EXPECT_TRUE(facts(w.builder().convert(w.load(w.count), Scalar::Real)).finite);
 }
 
 TEST_F(AnalysisTest, CheapIsAHandfulOfOperations) {

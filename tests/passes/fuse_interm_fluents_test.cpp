@@ -9,13 +9,13 @@ namespace {
 std::string fused(const std::string& interm_fluents, const std::string& cpfs,
                   const std::string& reward = "0") {
     const ir::Program program =
-        grounded({.pvariables = "x : { state-fluent, real, default = 1.0 };\n"
-                                "y : { state-fluent, real, default = 1.0 };\n"
-                                "v(obj) : { state-fluent, real, default = 1.0 };\n"
-                                "n(obj) : { state-fluent, int, default = 1 };\n" +
-                                interm_fluents,
-                  .cpfs = cpfs + "y' = y; n'(?o) = n(?o);",
-                  .reward = reward});
+        of_moderate_values({.pvariables = "x : { state-fluent, real, default = 1.0 };\n"
+                                          "y : { state-fluent, real, default = 1.0 };\n"
+                                          "v(obj) : { state-fluent, real, default = 1.0 };\n"
+                                          "n(obj) : { state-fluent, int, default = 1 };\n" +
+                                          interm_fluents,
+                            .cpfs = cpfs + "y' = y; n'(?o) = n(?o);",
+                            .reward = reward});
     passes::Report report;
     return step_text(valid(passes::fuse_interm_fluents(program, report)));
 }

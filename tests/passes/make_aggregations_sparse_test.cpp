@@ -35,11 +35,11 @@ ir::Program made_sparse(ir::Program program) {
 }
 
 std::string sparse(const std::string& cpf_of_x) {
-    return value_of_x(made_sparse(grounded(with_links(cpf_of_x))));
+    return value_of_x(made_sparse(of_moderate_values(with_links(cpf_of_x))));
 }
 
 std::string sparse_table(const std::string& cpf_of_x, const std::string& name) {
-    return table_text(made_sparse(grounded(with_links(cpf_of_x))), name);
+    return table_text(made_sparse(of_moderate_values(with_links(cpf_of_x))), name);
 }
 
 TEST(MakeAggregationsSparse, RunsOverTheEntriesOfARow) {
@@ -94,7 +94,7 @@ TEST(MakeAggregationsSparse, TabulatesWhatIsFixedForAnEntry) {
 
 TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
     const std::string sum = "sum_{?o : obj} COST(?o) * exp[v(?o)] * exp[v(?o)]";
-    EXPECT_EQ(sparse(sum), value_of_x(grounded(with_links(sum))));
+    EXPECT_EQ(sparse(sum), value_of_x(of_moderate_values(with_links(sum))));
     EXPECT_EQ(sparse("sum_{?o : obj} COST(?o) * v(?o) * v(?o) * v(?o)"),
               "2.5 * state.v[2] * state.v[2] * state.v[2]");
 }
@@ -102,15 +102,16 @@ TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
 TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {
     passes::Report report;
     const Problem problem = with_links("sum_{?o : obj} COST(?o) * exp[v(?o)]");
-    EXPECT_EQ(value_of_x(made_sparse(grounded(problem))), value_of_x(grounded(problem)));
-    EXPECT_EQ(value_of_x(made_sparse(passes::fast_math(grounded(problem), report))),
+    EXPECT_EQ(value_of_x(made_sparse(of_moderate_values(problem))),
+              value_of_x(of_moderate_values(problem)));
+    EXPECT_EQ(value_of_x(made_sparse(passes::fast_math(of_moderate_values(problem), report))),
               "2.5 * exp(state.v[2])");
 }
 
 TEST(MakeAggregationsSparse, LeavesTermsThatMayFault) {
     const std::string fallible =
         "sum_{?o : obj} [Bernoulli(v(?o)) ^ COST(?o) ~= 0 ^ q(?o) ^ p(?o)]";
-    EXPECT_EQ(sparse(fallible), value_of_x(grounded(with_links(fallible))));
+    EXPECT_EQ(sparse(fallible), value_of_x(of_moderate_values(with_links(fallible))));
     EXPECT_EQ(
         sparse("sum_{?o : obj} (if (COST(?o) ~= 0) then Bernoulli(v(?o)) ^ p(?o) else false)"),
         "real(select(state.p[2], sample bernoulli@0[2](state.v[2]), false))");
@@ -128,13 +129,13 @@ TEST(MakeAggregationsSparse, TakesTablesThatAreTooLargeToTryAll) {
         "FAR(b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b3) = 2.5;\n"
         "FAR(b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b2, b1) = 1.0;\n"
         "FAR(b2, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b1, b2, b2) = 4.0;\n";
-    EXPECT_EQ(value_of_x(made_sparse(grounded(problem))),
+    EXPECT_EQ(value_of_x(made_sparse(of_moderate_values(problem))),
               "real(sum[entry in 0 .. 2](int(state.p[FAR-n[entry]])))");
 }
 
 TEST(MakeAggregationsSparse, LeavesDenseTables) {
     const std::string sum = "sum_{?o : obj, ?u : obj} [~LINK(?o, ?u) ^ p(?u)]";
-    EXPECT_EQ(sparse(sum), value_of_x(grounded(with_links(sum))));
+    EXPECT_EQ(sparse(sum), value_of_x(of_moderate_values(with_links(sum))));
 }
 
 TEST(MakeAggregationsSparse, KnowsRowsInsideOfEntries) {

@@ -52,12 +52,12 @@ TEST(MergeDraws, NeedsTheSameNumbers) {
     }
 }
 
-// A product whose other factor turns out to be 1 is `select(draw == 0, draw, draw)`.
+// Products test their first factor for zero: `select(draw == 0, draw, draw * y)`.
 TEST(MergeDraws, LeavesDrawsThatSomethingElseNeeds) {
-    const Texts x = of_x("Normal(0.0, 1.0) * exp[0.0]", passes::merge_draws);
+    const Texts x = of_x("Normal(0.0, 1.0) * exp[x]", passes::merge_draws);
     EXPECT_EQ(x.after,
               "select(sample normal@0[0](0.0, 1.0) == 0.0, sample normal@0[0](0.0, 1.0), "
-              "sample normal@0[0](0.0, 1.0))");
+              "sample normal@0[0](0.0, 1.0) * exp(state.x))");
     EXPECT_EQ(x.before, x.after);
 }
 

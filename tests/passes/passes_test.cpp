@@ -143,6 +143,10 @@ TEST(Optimise, TellsWhatEachPassHasMade) {
     const ir::Program program = grounded(with_tables("sum_{?o : obj} [v(?o) * SAME(?o)]"));
     const ir::Program last = optimise(program, options, &runs);
     for (const PassRun& run : runs) ran.emplace_back(run.name);
+    // Those of the program for moderate values, which has no advantage here, come behind them.
+    ASSERT_EQ(told.size(), 2 * ran.size());
+    told.resize(ran.size());
+    texts.resize(ran.size());
     EXPECT_EQ(told, ran);
     EXPECT_EQ(told.front(), "tabulate_constant_fluents");
     EXPECT_EQ(std::ranges::count(told, "reduce_strength"), 2);

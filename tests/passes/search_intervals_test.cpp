@@ -31,7 +31,8 @@ struct Searched {
     passes::Report report;
 };
 Searched searched(const std::string& cpf_of_x, RealType real = RealType::Double) {
-    Searched result{.before = grounded(with_intervals(cpf_of_x)), .after = {}, .report = {}};
+    Searched result{
+        .before = of_moderate_values(with_intervals(cpf_of_x)), .after = {}, .report = {}};
     result.before.real = real;
     result.after = valid(passes::search_intervals(result.before, result.report));
     return result;

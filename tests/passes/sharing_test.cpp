@@ -104,7 +104,7 @@ TEST(ShareSubexpressions, SharesWhatACaseDistinctionNeedsInAnyCase) {
 
 TEST(ShareSubexpressions, NeverSharesDifferentDraws) {
     const ir::Program before =
-        grounded(one_cpf("s = Normal(0, 1) * Normal(0, 1); t(?o) = sum_{?u : obj} Normal(0, 1);"));
+        grounded(one_cpf("s = Normal(0, 1) + Normal(0, 1); t(?o) = sum_{?u : obj} Normal(0, 1);"));
     EXPECT_EQ(step_text(shared(before)), step_text(before));
 }
 
@@ -123,12 +123,12 @@ TEST(ShareSubexpressions, DrawsOnceWhatASwitchAsksSeveralTimes) {
 
 TEST(ShareSubexpressions, WorksInRewardAndConditions) {
     Problem problem = one_cpf("s = 0; t(?o) = 0;");
-    problem.reward = "[sum_{?u : obj} v(?u)] * [sum_{?u : obj} v(?u)]";
+    problem.reward = "[sum_{?u : obj} v(?u)] / [sum_{?u : obj} v(?u)]";
     problem.blocks = "termination { forall_{?o : obj} [p(?o) ^ exists_{?u : obj} [v(?u) > 1]]; };";
     const std::string text = ir::print(shared(grounded(problem)));
     EXPECT_NE(text.find("reward\n"
                         "    let %0 = sum[u in obj](state.v[u])\n"
-                        "    = %0 * %0\n"
+                        "    = %0 / %0\n"
                         "termination 0\n"
                         "    let %1 = exists[u in obj](state.v[u] > 1.0)\n"
                         "    = forall[o in obj](state.p[o] && %1)\n"),

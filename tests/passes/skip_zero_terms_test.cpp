@@ -6,7 +6,7 @@ namespace rddlc {
 namespace {
 
 std::string skipping(const std::string& cpf_of_x) {
-    return of_x(cpf_of_x, passes::skip_zero_terms).after;
+    return of_moderate_x(cpf_of_x, passes::skip_zero_terms).after;
 }
 
 TEST(SkipZeroTerms, ComputesOnlyTermsThatCount) {
@@ -25,7 +25,7 @@ TEST(SkipZeroTerms, LeavesOtherTerms) {
          {"sum_{?o : obj} [v(?o) * p(?o)]", "sum_{?o : obj} [exp[v(?o)] * p(?o)]",
           "sum_{?o : obj} [p(?o) * pow[v(?o), 0.5]]", "sum_{?o : obj} [Normal(x, 1.0) * p(?o)]",
           "prod_{?o : obj} [cos[v(?o)] * p(?o)]"}) {
-        const Texts x = of_x(cpf, passes::skip_zero_terms);
+        const Texts x = of_moderate_x(cpf, passes::skip_zero_terms);
         EXPECT_EQ(x.before, x.after);
     }
 }

@@ -50,11 +50,18 @@ inline Problem with_tables(const std::string& cpf_of_x) {
 struct Texts {
     std::string before, after;
 };
-inline Texts of_x(const std::string& cpf_of_x, ir::Program (*pass)(ir::Program, passes::Report&)) {
-    ir::Program program = grounded(with_tables(cpf_of_x));
+using Pass = ir::Program (*)(ir::Program, passes::Report&);
+inline Texts of_x(ir::Program program, Pass pass) {
     const std::string before = value_of_x(program);
     passes::Report report;
     return {before, value_of_x(valid(pass(std::move(program), report)))};
+}
+inline Texts of_x(const std::string& cpf_of_x, Pass pass) {
+    return of_x(grounded(with_tables(cpf_of_x)), pass);
+}
+// In the program for moderate values.
+inline Texts of_moderate_x(const std::string& cpf_of_x, Pass pass) {
+    return of_x(of_moderate_values(with_tables(cpf_of_x)), pass);
 }
 
 }  // namespace rddlc

@@ -20,7 +20,7 @@ Problem with_linked_rows(const std::string& cpf_of_depth) {
 }
 
 std::string unrolled(const Problem& problem, passes::Report& report) {
-    ir::Program program = passes::make_aggregations_sparse(grounded(problem), report);
+    ir::Program program = passes::make_aggregations_sparse(of_moderate_values(problem), report);
     report.clear();
     return step_text(valid(passes::unroll_rows(std::move(program), report)));
 }

@@ -3,7 +3,6 @@
 #include "commands/options.hpp"
 #include "formats/line_stream.hpp"
 #include "formats/trace.hpp"
-#include "rollouts/finite_values.hpp"
 #include "rollouts/replay_session.hpp"
 #include "rollouts/violations.hpp"
 #include "support/program.hpp"
@@ -99,10 +98,6 @@ ExitStatus replay(const ReplayCommandOptions& options) {
     ReplayOptions session_options = options.session;
     session_options.explain = [&](const Violation& violation) {
         return log.add(violation);
-    };
-    FiniteValues finite(problem.files, options.load);
-    session_options.doubt = [&](const RecordLayout& layout, const std::byte* record) {
-        return finite.complaint(layout, record);
     };
     ChangedFiles changed(problem.files.inputs());
     session_options.see_header = [&](const nlohmann::json& header) {

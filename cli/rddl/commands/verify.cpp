@@ -68,8 +68,7 @@ Walk walk(const VerifiedProblem& problem, const OutcomeComparison& comparison,
     if (options.pyrddlgym) walk.most_samples = static_cast<std::size_t>(options.pyrddlgym_steps);
     if (!options.states.empty()) {
         const VerifiedEnvironments fresh(problem.engines.front(), 1, options.seed, 0);
-        FiniteValues finite(problem.files, options.load);
-        walk.recorded = read_states(options.states, problem.description(), fresh.state(0), finite);
+        walk.recorded = read_states(options.states, problem.description(), fresh.state(0));
     }
     return walk_in_step(problem.engines, comparison, walk);
 }

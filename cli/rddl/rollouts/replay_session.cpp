@@ -151,11 +151,9 @@ std::string ReplaySession::answer_object(const json& line, bool is_first) {
     }
     Request request = read_request(line);
     prepare(request);
-    std::string warning = doubts_about(request);
-    if (!request.steps) return with_warning(describe_start(), warning);
+    if (!request.steps) return describe_start();
     require_running();
-    if (std::string violation = check_preconditions(request.action); !violation.empty())
-        warning += (warning.empty() ? "" : "; ") + violation;
+    const std::string warning = check_preconditions(request.action);
     return with_warning(
         request.samples ? sample(request.action, *request.samples) : step(request.action), warning);
 }
@@ -205,13 +203,6 @@ ReplaySession::Record ReplaySession::read_action(const json& values) const {
         throw Refusal{fmt::format("{} action values differ from their default; at most {} may",
                                   changes, problem_.max_nondef_actions)};
     return record;
-}
-
-std::string ReplaySession::doubts_about(const Request& request) const {
-    if (!options_.doubt) return {};
-    if (request.state)
-        if (auto doubt = options_.doubt(state_layout_, request.state->data())) return *doubt;
-    return options_.doubt(action_layout_, request.action.data()).value_or("");
 }
 
 // ------------------------------------------------------------------------------- acting on it

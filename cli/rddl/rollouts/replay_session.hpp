@@ -27,9 +27,6 @@ struct ReplayOptions {
     Preconditions preconditions = Preconditions::Ignore;
     // Tells what is wrong, in one line; called for each violated precondition.
     std::function<std::string(const Violation&)> explain = {};
-    // Tells of a value of a state or action that must not be what it is; the step is made all the
-    // same.
-    std::function<std::optional<std::string>(const RecordLayout&, const std::byte*)> doubt = {};
     // Sees the header of a trace.
     std::function<void(const nlohmann::json&)> see_header = {};
 };
@@ -70,7 +67,6 @@ class ReplaySession {
     Request read_request(const nlohmann::json& line) const;
     Record read_state(const nlohmann::json& values, bool fresh) const;
     Record read_action(const nlohmann::json& values) const;
-    std::string doubts_about(const Request& request) const;
 
     Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
     void prepare(const Request& request);

@@ -42,6 +42,10 @@ class Repetition {
         return outcome;
     }
 
+    bool may_step() const {
+        return interpreter_.may_step_from(start_.state.data(), start_.action.data());
+    }
+
     StepOutcome step() {
         StepOutcome outcome;
         outcome.action = decide();
@@ -112,10 +116,13 @@ std::optional<std::string> pass_to_blame(const ir::Program& plain, const Pipelin
     const auto outcome_of = [&](const ir::Program& program) {
         return interpret_step(program, functions, repetition.start, repetition.seed);
     };
+    const auto is_concerned = [&](const ir::Program& program) {
+        return Repetition(program, functions, repetition.start, repetition.seed).may_step();
+    };
     const StepOutcome expected = outcome_of(plain);
     std::optional<std::string> found;
     pipeline(plain, [&](std::string_view pass, const ir::Program& program) {
-        if (found) return;
+        if (found || !is_concerned(program)) return;
         ValueCounts ignored;
         if (repetition.comparison.compare(expected, outcome_of(program), repetition.tolerance,
                                           ignored))

@@ -125,8 +125,7 @@ double RandomStates::between(double low, double high) {
 }
 
 std::vector<RecordedState> read_states(const std::filesystem::path& file,
-                                       const rddl_problem& problem, const Record& initial_state,
-                                       FiniteValues& finite) {
+                                       const rddl_problem& problem, const Record& initial_state) {
     const RecordLayout states(problem, RDDL_STATE), actions(problem, RDDL_ACTION);
     const auto* const defaults = static_cast<const std::byte*>(problem.default_action);
     UsedFiles used;
@@ -157,12 +156,10 @@ std::vector<RecordedState> read_states(const std::filesystem::path& file,
         if (!line.contains("state")) refuse("it has no state");
         RecordedState& step = recorded.emplace_back(RecordedState{initial_state, {}});
         if (const auto message = states.read(line["state"], step.state.data())) refuse(*message);
-        if (const auto doubt = finite.complaint(states, step.state.data())) refuse(*doubt);
         if (!line.contains("action")) continue;
         step.action = Record(defaults, defaults + problem.action_size);
         if (const auto message = actions.read(line["action"], step.action->data()))
             refuse(*message);
-        if (const auto doubt = finite.complaint(actions, step.action->data())) refuse(*doubt);
     }
     if (recorded.empty()) throw Failure(fmt::format("there is no state in '{}'", file.string()));
     return recorded;

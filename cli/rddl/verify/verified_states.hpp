@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/records_json.hpp"
-#include "rollouts/finite_values.hpp"
 #include "rollouts/step_outcome.hpp"
 
 #include <rddl/simulator.h>
@@ -50,10 +49,8 @@ struct RecordedState {
 };
 
 // The steps of a trace or of an input of `rddl replay` (docs/traces.md). A part of a state is one
-// of the initial state. Fails where a line is not one, or has no state,
-// or one that must not be (`finite`).
+// of the initial state. Fails where a line is not one, or has no state.
 std::vector<RecordedState> read_states(const std::filesystem::path& file,
-                                       const rddl_problem& problem, const Record& initial_state,
-                                       FiniteValues& finite);
+                                       const rddl_problem& problem, const Record& initial_state);
 
 }  // namespace rddlc::cli

@@ -1,4 +1,4 @@
-#include "passes/find_finite_fluents.hpp"
+#include "passes/find_ranges.hpp"
 
 #include "passes/make_aggregations_sparse.hpp"
 #include "texts.hpp"
@@ -22,47 +22,54 @@ Problem with_part(const std::string& part, const std::string& x) {
             .non_fluents = "LINK(b1, b2); N(b2) = 4.0; SOME(b3) = 2.0;"};
 }
 
-bool is_finite(const ir::Program& program, const std::string& name, ir::Storage storage) {
+bool is_known_finite(const ir::Program& program, const std::string& name, ir::Storage storage) {
     const auto found = std::ranges::find_if(program.buffers, [&](const ir::Buffer& buffer) {
         return buffer.name == name && buffer.storage == storage;
     });
-    return found->finite;
+    return found->range && ir::is_finite(*found->range);
 }
 
 struct Found {
-    bool part, x, next_x;
+    bool part, next_x;
     bool operator==(const Found&) const = default;
 };
 Found found(const std::string& part, const std::string& x) {
     passes::Report report;
     const ir::Program program =
-        valid(passes::find_finite_fluents(grounded(with_part(part, x)), report));
-    return {is_finite(program, "part", ir::Storage::Scratch),
-            is_finite(program, "x", ir::Storage::State),
-            is_finite(program, "x", ir::Storage::Next)};
+        valid(passes::find_ranges(of_moderate_values(with_part(part, x)), report));
+    return {is_known_finite(program, "part", ir::Storage::Scratch),
+            is_known_finite(program, "x", ir::Storage::Next)};
 }
 
-TEST(FindFiniteFluents, LooksAtTheValuesOfDivisors) {
-    const Found all{true, true, true};
+TEST(FindRanges, LooksAtTheValuesOfDivisors) {
+    const Found all{true, true};
     EXPECT_EQ(found("v(?o) / (1.0 + sum_{?p : obj} [LINK(?o, ?p)])", "part(?o)"), all);
     EXPECT_EQ(found("v(?o) / (N(?o) - 3.0)", "x(?o) + part(?o)"), all);
 }
 
-TEST(FindFiniteFluents, LeavesWhatMayBeInfiniteOrNan) {
-    const Found none{false, false, false};
+TEST(FindRanges, LeavesWhatMayBeInfiniteOrNan) {
+    const Found none{false, false};
     EXPECT_EQ(found("v(?o) / SOME(?o)", "x(?o) + part(?o)"), none);
     EXPECT_EQ(found("v(?o) / (v(?o) + 1.0)", "x(?o) + part(?o)"), none);
     EXPECT_EQ(found("v(?o) / (N(?o) - 4.0)", "x(?o) + part(?o)"), none);
     EXPECT_EQ(found("v(?o) / (N(?o) - 3.0) + exp[v(?o)]", "x(?o) + part(?o)"), none);
-    EXPECT_EQ(found("v(?o) / (N(?o) - 3.0)", "x(?o) + 1.0 / x(?o)"), (Found{true, false, false}));
+    EXPECT_EQ(found("v(?o) / (N(?o) - 3.0)", "x(?o) + 1.0 / x(?o)"), (Found{true, false}));
+}
+
+TEST(FindRanges, TakesNoNumberFromOutsideForFinite) {
+    passes::Report report;
+    const ir::Program program =
+        passes::find_ranges(grounded(with_part("v(?o) / (N(?o) - 3.0)", "cos[part(?o)]")), report);
+    EXPECT_FALSE(is_known_finite(program, "part", ir::Storage::Scratch));
+    EXPECT_FALSE(is_known_finite(program, "x", ir::Storage::Next)) << "cos[inf] is nan";
 }
 
 // What it is good for.
-TEST(FindFiniteFluents, LetsSumsLeaveOutProductsWithZero) {
+TEST(FindRanges, LetsSumsLeaveOutProductsWithZero) {
     const auto made_sparse = [](const std::string& part) {
         passes::Report report;
         const std::string sum = "sum_{?p : obj} [LINK(?p, ?o) * cos[part(?p)]]";
-        ir::Program program = passes::find_finite_fluents(grounded(with_part(part, sum)), report);
+        ir::Program program = passes::find_ranges(of_moderate_values(with_part(part, sum)), report);
         report = {};
         program = passes::make_aggregations_sparse(std::move(program), report);
         return report["aggregations made sparse"];
