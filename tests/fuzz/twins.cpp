@@ -201,8 +201,8 @@ class Comparison {
 
     bool same(double expected, double found) const {
         if (std::isnan(expected) && std::isnan(found)) return true;
-        if (expected == found)
-            return tolerance_.signs_of_zero || std::signbit(expected) == std::signbit(found);
+        if (expected == found)  // zeros of both signs are
+            return tolerance_.relative > 0 || std::signbit(expected) == std::signbit(found);
         if (!std::isfinite(expected) || !std::isfinite(found)) return tolerance_.not_finite;
         const double size = std::max({1.0, std::abs(expected), std::abs(found)});
         return std::abs(expected - found) <= tolerance_.relative * size;
