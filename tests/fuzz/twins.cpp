@@ -94,6 +94,7 @@ class RandomValues {
         constexpr std::array other = {-0.0, 0.1, 0.30000000000000004, 1.0 / 3.0, -2.4, 1e15, 1e-12};
         constexpr std::array edges = {infinity, -infinity,
                                       std::numeric_limits<double>::quiet_NaN()};
+        if (values_ == Values::Wild && one_of(8)) return one_of(2) ? 0.0 : -0.0;
         const double quarters = static_cast<double>(below(81)) / 4 - 10;
         if (values_ == Values::Tame || one_of(2)) return quarters;
         const bool is_state = buffer.storage == ir::Storage::State;
