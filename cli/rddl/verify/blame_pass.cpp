@@ -31,6 +31,8 @@ class Repetition {
                                 static_cast<std::uint64_t>(start.episode))),
           scratch_(interpreter_.scratch_size()) {}
 
+    void round_by(ir::Rounding& rounding) { interpreter_.round_by(rounding); }
+
     StepOutcome initial() const {
         StepOutcome outcome;
         outcome.state.resize(interpreter_.state_size());
@@ -138,6 +140,20 @@ StepOutcome interpret_step(const ir::Program& program, const ir::ExternalFunctio
                            const StepStart& start, std::uint64_t seed) {
     Repetition repetition(program, functions, start, seed);
     return start.initial ? repetition.initial() : repetition.step();
+}
+
+std::vector<StepOutcome> interpret_step_otherwise(const ir::Program& program,
+                                                  const ir::ExternalFunctions& functions,
+                                                  const StepStart& start, std::uint64_t seed) {
+    constexpr std::uint64_t repetitions = 16;
+    std::vector<StepOutcome> outcomes;
+    for (std::uint64_t k = 0; k < repetitions; ++k) {
+        ir::Rounding rounding(k);
+        Repetition repetition(program, functions, start, seed);
+        repetition.round_by(rounding);
+        outcomes.push_back(repetition.step());
+    }
+    return outcomes;
 }
 
 std::optional<StepOutcome> repeat_step(const VerifiedEngine& engine, std::int64_t count,
