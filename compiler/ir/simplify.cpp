@@ -62,7 +62,7 @@ class Simplifier {
                 return inequality();
             case Operator::Minimum:
             case Operator::Maximum:
-                return a_ == b_ ? std::optional(a_) : std::nullopt;
+                return extremum();
             case Operator::BitAnd:
                 return common_bits();
             case Operator::BitOr:
@@ -112,6 +112,18 @@ class Simplifier {
 
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
+
+    // Of equal numbers they take the first: max[0.0, x] is x only if that is greater than 0.
+    std::optional<NodeId> extremum() {
+        if (a_ == b_) return a_;
+        const NodeId b = without_zero(b_);
+        const Facts& first = builder_.facts(a_);
+        const bool hides_zeros =
+            first.never_negative_zero && first.range &&
+            (op_ == Operator::Maximum ? first.range->lower >= 0 : first.range->upper <= 0);
+        if (b == b_ || !hides_zeros) return std::nullopt;
+        return builder_.apply(op_, {a_, b});
+    }
 
     static constexpr std::int64_t no_bits = 0, all_bits = -1;
 

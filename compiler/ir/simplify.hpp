@@ -13,6 +13,7 @@ namespace rddlc::ir {
 //     x + 0, x - 0, x * 1, x / 1             x; x + 0.0 only if x is never -0.0
 //     (0.0 + x) + y, (0.0 + x) - y           0.0 + (x + y), 0.0 + (x - y)
 //     y - (0.0 + x)                          y - x, if y is never -0.0
+//     max[y, 0.0 + x]                        max[y, x], if y is at least 0 and never -0.0
 //     abs(0.0 + x), 0.0 + x < y, ...         abs(x), x < y, ...: the sign of a zero does not matter
 //     -(-x), !(!x)                           x
 //     true && x, false || x                  x

@@ -96,7 +96,7 @@ TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
     const std::string sum = "sum_{?o : obj} COST(?o) * exp[v(?o)] * exp[v(?o)]";
     EXPECT_EQ(sparse(sum), value_of_x(grounded(with_links(sum))));
     EXPECT_EQ(sparse("sum_{?o : obj} COST(?o) * v(?o) * v(?o) * v(?o)"),
-              "2.5 * state.v[2] * state.v[2] * state.v[2]");
+              "0.0 + 2.5 * state.v[2] * state.v[2] * state.v[2]");
 }
 
 TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {
@@ -104,7 +104,7 @@ TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {
     const Problem problem = with_links("sum_{?o : obj} COST(?o) * exp[v(?o)]");
     EXPECT_EQ(value_of_x(made_sparse(grounded(problem))), value_of_x(grounded(problem)));
     EXPECT_EQ(value_of_x(made_sparse(passes::fast_math(grounded(problem), report))),
-              "2.5 * exp(state.v[2])");
+              "0.0 + 2.5 * exp(state.v[2])");
 }
 
 TEST(MakeAggregationsSparse, LeavesTermsThatMayFault) {
