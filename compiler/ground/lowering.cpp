@@ -263,7 +263,7 @@ bool Lowering::keeps_zeros(ir::NodeId factor) const {
     const ir::Facts& facts = builder_.facts(factor);
     if (facts.may_fault) return false;
     if (program_[factor].type == ir::Scalar::Int) return true;
-    return facts.finite && facts.range && facts.range->lower > 0;
+    return facts.finite && facts.never_negative_zero && facts.range && facts.range->lower >= 0;
 }
 
 // 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects

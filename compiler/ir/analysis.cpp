@@ -57,6 +57,9 @@ class Collector {
         match(node.form, [&](const auto& form) { describe(node.type, form); });
         facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
                         (program_.assumes_finite && !is_fixed(node));
+        facts_.never_negative_zero =
+            node.type != Scalar::Real || excludes_zero(facts_.range) ||
+            match(node.form, [&](const auto& form) { return is_never_negative_zero(form); });
         return std::move(facts_);
     }
 
@@ -262,6 +265,72 @@ class Collector {
         facts_.random = true;
         facts_.uniform = false;
         facts_.may_fault |= may_fault;
+    }
+
+    // ------------------------------------------------------------------- zeros and their signs
+
+    // Of reals. What underflows is a zero, whose sign is that of what was rounded.
+    bool is_never_negative_zero(const Constant& constant) const {
+        return !is_negative_zero(constant.value);
+    }
+    bool is_never_negative_zero(const Load& load) const {
+        return is_constant(load.buffer) && !tables_.has_negative_zero(program_, load.buffer);
+    }
+    bool is_never_negative_zero(const Convert&) const { return true; }
+    bool is_never_negative_zero(const Select& select) const {
+        return never_negative_zero(select.then_value) && never_negative_zero(select.else_value);
+    }
+    // A sum begins with 0.0, and two numbers make -0.0 only if both are.
+    bool is_never_negative_zero(const Reduce& reduce) const {
+        if (reduce.op == Reduction::Sum) return true;
+        return reduce.op == Reduction::Product ? has_no_sign(reduce.body)
+                                               : never_negative_zero(reduce.body);
+    }
+    bool is_never_negative_zero(const Apply& apply) const {
+        const NodeId a = apply.operands.front(), b = apply.operands.back();
+        switch (apply.op) {
+            case Operator::Add:
+                return never_negative_zero(a) || never_negative_zero(b);
+            case Operator::Subtract:  // only -0.0 - 0.0 is
+                return a == b || never_negative_zero(a) || excludes_zero(range(b));
+            case Operator::Multiply:
+                return a == b || (has_no_sign(a) && has_no_sign(b));
+            case Operator::Divide:
+                return has_no_sign(a) && has_no_sign(b);
+            case Operator::Power:
+                return has_no_sign(a);
+            case Operator::Sqrt:
+                return never_negative_zero(a);
+            // Of equal numbers they take the first.
+            case Operator::Minimum:
+                return never_negative_zero(a) &&
+                       (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
+            case Operator::Maximum:
+                return never_negative_zero(a) &&
+                       (never_negative_zero(b) || is_never_negative(range(a)));
+            case Operator::Abs:
+            case Operator::Exp:
+            case Operator::Cosh:
+            case Operator::Hypot:
+                return true;
+            default:
+                return false;
+        }
+    }
+    template <class Form>
+    bool is_never_negative_zero(const Form&) const {
+        return false;
+    }
+
+    bool never_negative_zero(NodeId id) const { return known_[id.index].never_negative_zero; }
+    bool has_no_sign(NodeId id) const {
+        return never_negative_zero(id) && is_never_negative(range(id));
+    }
+    static bool is_never_negative(const std::optional<Range>& range) {
+        return range && range->lower >= 0;
+    }
+    static bool excludes_zero(const std::optional<Range>& range) {
+        return range && (range->lower > 0 || range->upper < 0);
     }
 
     // Of the operators that may fault.

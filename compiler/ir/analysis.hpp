@@ -21,6 +21,8 @@ struct Facts {
     bool uniform = true;
     // Never inf or nan: as its range shows, or as --fast-math assumes.
     bool finite = true;
+    // A real that is -0.0 for no operands: adding 0.0 changes nothing. Nan is not -0.0.
+    bool never_negative_zero = true;
     bool elementary = false;  // computes an elementary function: a root, exp, a power, ...
     // Roughly the number of simple operations of one evaluation, loops multiplied out.
     double cost = 0;

@@ -240,6 +240,7 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
                        std::optional<Bounds> bounds) {
     const Scalar type = result_type(op, program_[body].type);
     const std::int64_t size = program_[variable].size;
+    if (op == Reduction::Sum) body = without_zero(program_, body);  // it begins with 0.0
     if (size == 0 || (bounds && bounds->begin == bounds->end)) {
         if (const auto value = fold_empty(op, type)) return constant(*value);
     }
@@ -249,9 +250,14 @@ NodeId Builder::reduce(Reduction op, VariableId variable, NodeId body,
     }
     const bool fixed = !contains(facts(body).free_variables, variable);
     if (fixed && is_idempotent(op)) return body;
-    if (size == 1 && !is_argument(op)) return body;
+    if (size == 1 && !is_argument(op)) return aggregated(op, body);
     if (fixed && is_argument(op) && is_droppable(facts(body))) return constant(std::int64_t{0});
     return intern({type, Reduce{op, variable, body, {}}});
+}
+
+NodeId Builder::aggregated(Reduction op, NodeId terms) {
+    if (op != Reduction::Sum || program_[terms].type != Scalar::Real) return terms;
+    return apply(Operator::Add, {constant(0.0), terms});
 }
 
 NodeId Builder::sample(Scalar type, Distribution distribution, Place place,

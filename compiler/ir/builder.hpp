@@ -42,6 +42,9 @@ class Builder {
     // Over an empty variable only for reductions that have a value there.
     NodeId reduce(Reduction op, VariableId variable, NodeId body,
                   std::optional<Bounds> bounds = {});
+    // An aggregation whose terms are combined already, such as one over a single object: a sum of
+    // reals begins with 0.0, and so is never -0.0.
+    NodeId aggregated(Reduction op, NodeId terms);
     NodeId sample(Scalar type, Distribution distribution, Place place,
                   std::vector<NodeId> parameters);
     NodeId discrete(bool normalise, Place place, std::vector<NodeId> weights);

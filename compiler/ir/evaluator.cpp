@@ -413,7 +413,9 @@ double Evaluator::apply<double>(const Apply& form, Frame& frame) const {
     const NodeId b = form.operands.back();
     const double left = value<double>(a, frame);
     const double right = a == b ? left : value<double>(b, frame);
-    return apply_real(form.op, left, right, place(form.place, frame), frame.context_);
+    const double result =
+        apply_real(form.op, left, right, place(form.place, frame), frame.context_);
+    return rounding_ ? rounding_->of_function(form.op, result) : result;
 }
 
 rddl::IndexRange Evaluator::range(const Reduce& form, Frame& frame) const {
@@ -422,8 +424,24 @@ rddl::IndexRange Evaluator::range(const Reduce& form, Frame& frame) const {
             value<std::int64_t>(form.bounds->end, frame)};
 }
 
+double Evaluator::reduce_otherwise(const Reduce& form, Frame& frame) const {
+    const rddl::IndexRange over = range(form, frame);
+    const bool is_sum = form.op == Reduction::Sum;
+    double total = is_sum ? 0 : 1;
+    for (rddl::Index i = over.begin; i < over.end; ++i) {
+        frame.set(form.variable, i);
+        const double term = value<double>(form.body, frame);
+        total = is_sum ? rounding_->sum(total, term) : rounding_->product(total, term);
+    }
+    return total;
+}
+
 template <class T>
 T Evaluator::reduce(const Reduce& form, Frame& frame) const {
+    if constexpr (std::is_same_v<T, double>) {
+        if (rounding_ && (form.op == Reduction::Sum || form.op == Reduction::Product))
+            return reduce_otherwise(form, frame);
+    }
     const rddl::IndexRange over = range(form, frame);
     const std::int64_t size = over.end;
     const auto body = [&]<class Body>(Body) {

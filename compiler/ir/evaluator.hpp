@@ -7,6 +7,7 @@
 #include "ir/ir.hpp"
 #include "ir/kernels.hpp"
 #include "ir/outcomes.hpp"
+#include "ir/rounding.hpp"
 
 #include <rddl/reductions.hpp>
 
@@ -38,6 +39,9 @@ class Evaluator {
     // The program must outlive the evaluator, and not change; there may come more nodes that do not
     // draw, and constant tables. The functions are by ExternalId; whoever runs no calls needs none.
     explicit Evaluator(const Program& program, ExternalFunctions functions = {});
+
+    // Evaluates with other last digits from now on. `rounding` must outlive this.
+    void round_by(Rounding& rounding) { rounding_ = &rounding; }
 
     // Before values that read constant tables which are new.
     void know_added_tables();
@@ -121,6 +125,7 @@ class Evaluator {
     rddl::IndexRange range(const Reduce& form, Frame& frame) const;
     template <class T>
     T reduce(const Reduce& form, Frame& frame) const;
+    double reduce_otherwise(const Reduce& form, Frame& frame) const;
     template <class T>
     T draw(const Sample& form, Frame& frame) const;
     std::int64_t draw(const Discrete& form, NodeId id, Frame& frame) const;
@@ -139,6 +144,7 @@ class Evaluator {
     std::vector<std::size_t> local_slots_;   // by LocalId::index
     std::vector<std::size_t> weight_slots_;  // by NodeId::index: the first weight of a Discrete
     std::size_t slot_count_ = 0;             // loop indices come first
+    Rounding* rounding_ = nullptr;
 };
 
 }  // namespace rddlc::ir

@@ -21,6 +21,8 @@ class Interpreter {
     explicit Interpreter(Program program, ExternalFunctions functions = {});
 
     const Program& program() const { return *program_; }
+    // As Evaluator::round_by.
+    void round_by(Rounding& rounding) { evaluator_.round_by(rounding); }
 
     // In bytes.
     std::size_t state_size() const { return state_size_; }

@@ -1,9 +1,34 @@
 #include "ir/simplify.hpp"
 
-#include <bit>
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace rddlc::ir {
 namespace {
+
+bool has_value(const Program& program, NodeId id, const Value& expected) {
+    const auto* constant = std::get_if<Constant>(&program[id].form);
+    return constant && identical(constant->value, expected);
+}
+
+// The same result for zeros of both signs.
+bool is_blind_to_signs_of_zero(Operator op) {
+    if (is_comparison(op)) return true;
+    switch (op) {
+        case Operator::Abs:
+        case Operator::Sign:
+        case Operator::Round:
+        case Operator::Floor:
+        case Operator::Ceil:
+        case Operator::Exp:
+        case Operator::Cos:
+        case Operator::Cosh:
+            return true;
+        default:
+            return false;
+    }
+}
 
 class Simplifier {
   public:
@@ -37,7 +62,7 @@ class Simplifier {
                 return inequality();
             case Operator::Minimum:
             case Operator::Maximum:
-                return a_ == b_ ? std::optional(a_) : std::nullopt;
+                return extremum();
             case Operator::BitAnd:
                 return common_bits();
             case Operator::BitOr:
@@ -49,16 +74,30 @@ class Simplifier {
     }
 
   private:
-    // Zeros of reals have a sign: only -0.0 is neutral.
+    // Zeros of reals have a sign: -0.0 + 0.0 is 0.0.
     std::optional<NodeId> add() {
-        if (is(a_, std::int64_t{0}) || is(a_, -0.0)) return b_;
-        if (is(b_, std::int64_t{0}) || is(b_, -0.0)) return a_;
-        return std::nullopt;
+        if (is_neutral_to(b_, a_)) return b_;
+        if (is_neutral_to(a_, b_)) return a_;
+        const NodeId a = without_zero(a_), b = without_zero(b_);
+        if (a == a_ && b == b_) return std::nullopt;
+        return plus_zero(builder_.apply(Operator::Add, {a, b}));
+    }
+    NodeId without_zero(NodeId id) const { return ir::without_zero(builder_.program(), id); }
+    NodeId plus_zero(NodeId id) {
+        return builder_.apply(Operator::Add, {builder_.constant(0.0), id});
+    }
+    bool is_neutral_to(NodeId other, NodeId zero) const {
+        return is(zero, std::int64_t{0}) || is(zero, -0.0) ||
+               (is(zero, 0.0) && builder_.facts(other).never_negative_zero);
     }
 
     // (x + 3) - 1 = x + 2 for ints, which wrap around.
     std::optional<NodeId> subtract() {
         if (is_zero(b_)) return a_;
+        if (const NodeId a = without_zero(a_); a != a_)
+            return plus_zero(builder_.apply(Operator::Subtract, {a, b_}));
+        if (const NodeId b = without_zero(b_); b != b_ && builder_.facts(a_).never_negative_zero)
+            return builder_.apply(Operator::Subtract, {a_, b});
         const auto* sum = std::get_if<Apply>(&node(a_).form);
         if (!sum || sum->op != Operator::Add || !int_constant(b_)) return std::nullopt;
         const NodeId first = sum->operands[0], last = sum->operands[1];
@@ -73,6 +112,18 @@ class Simplifier {
 
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
+
+    // Of equal numbers they take the first: max[0.0, x] is x only if that is greater than 0.
+    std::optional<NodeId> extremum() {
+        if (a_ == b_) return a_;
+        const NodeId b = without_zero(b_);
+        const Facts& first = builder_.facts(a_);
+        const bool hides_zeros =
+            first.never_negative_zero && first.range &&
+            (op_ == Operator::Maximum ? first.range->lower >= 0 : first.range->upper <= 0);
+        if (b == b_ || !hides_zeros) return std::nullopt;
+        return builder_.apply(op_, {a_, b});
+    }
 
     static constexpr std::int64_t no_bits = 0, all_bits = -1;
 
@@ -178,16 +229,8 @@ class Simplifier {
         return apply->operands.front();
     }
 
-    template <class T>
-    bool is(NodeId id, T expected) const {
-        const auto* constant = std::get_if<Constant>(&node(id).form);
-        const T* value = constant ? std::get_if<T>(&constant->value) : nullptr;
-        if (!value) return false;
-        if constexpr (std::is_same_v<T, double>) {
-            return std::bit_cast<std::uint64_t>(*value) == std::bit_cast<std::uint64_t>(expected);
-        } else {
-            return *value == expected;
-        }
+    bool is(NodeId id, const Value& expected) const {
+        return has_value(builder_.program(), id, expected);
     }
 
     const Node& node(NodeId id) const { return builder_.program()[id]; }
@@ -208,7 +251,19 @@ std::optional<bool> known_bool(const Program& program, NodeId id) {
 
 }  // namespace
 
+NodeId without_zero(const Program& program, NodeId id) {
+    const auto* sum = std::get_if<Apply>(&program[id].form);
+    if (!sum || sum->op != Operator::Add) return id;
+    if (has_value(program, sum->operands[0], 0.0)) return sum->operands[1];
+    return has_value(program, sum->operands[1], 0.0) ? sum->operands[0] : id;
+}
+
 std::optional<NodeId> simplify(Builder& builder, Operator op, std::span<const NodeId> operands) {
+    if (is_blind_to_signs_of_zero(op)) {
+        std::vector<NodeId> bare(operands.begin(), operands.end());
+        for (NodeId& operand : bare) operand = without_zero(builder.program(), operand);
+        if (!std::ranges::equal(bare, operands)) return builder.apply(op, std::move(bare));
+    }
     return Simplifier(builder, op, operands).simplify();
 }
 

@@ -65,4 +65,11 @@ double TableFacts::most_ones(const Program& program, BufferId table) {
     return known(of(table).most_ones, [&] { return most_ones_of(program[table].values); });
 }
 
+bool TableFacts::has_negative_zero(const Program& program, BufferId table) {
+    return known(of(table).has_negative_zero, [&] {
+        return !program[table].values.all_of(
+            [](const Value& value) { return !is_negative_zero(value); });
+    });
+}
+
 }  // namespace rddlc::ir

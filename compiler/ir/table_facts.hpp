@@ -21,11 +21,14 @@ class TableFacts {
     double longest_row(const Program& program, BufferId table);
     // Of a table of ints: the most bits that are 1 in one of them.
     double most_ones(const Program& program, BufferId table);
+    // Is some element -0.0?
+    bool has_negative_zero(const Program& program, BufferId table);
 
   private:
     struct Facts {
         std::optional<std::optional<Range>> range;
         std::optional<double> longest_row, most_ones;
+        std::optional<bool> has_negative_zero;
     };
     Facts& of(BufferId table);
 

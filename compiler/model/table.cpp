@@ -46,6 +46,10 @@ double as_real(const Value& value) {
     return match(value, [](auto v) { return static_cast<double>(v); });
 }
 
+bool is_negative_zero(const Value& value) {
+    return identical(value, -0.0);
+}
+
 bool is_finite(const Value& value) {
     return std::abs(as_real(value)) <= std::numeric_limits<float>::max();
 }

@@ -20,7 +20,7 @@ struct Condition {
 };
 
 // The expression has `value` unless all of these hold. Only what it evaluates in any case is
-// looked at. A zero may have either sign.
+// looked at. A zero may have either sign, which a sum does not show: it begins with 0.0.
 std::vector<Condition> decisive_conditions(const ir::Builder& builder, ir::NodeId id,
                                            const ir::Value& value);
 

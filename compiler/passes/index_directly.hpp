@@ -7,7 +7,7 @@
 //
 // The object is the other side of an equality, or what a constant table says that has at most one
 // entry in each row. Whether there is such an object is tested where it is not sure. What may
-// fault for another object, or draws, is left alone. A sum of one real that is -0.0 keeps its sign.
+// fault for another object, or draws, is left alone.
 #pragma once
 
 #include "ir/ir.hpp"

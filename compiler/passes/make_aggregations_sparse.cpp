@@ -231,7 +231,7 @@ class Rewriting {
     ir::NodeId over_entries(Reduction op, ir::NodeId body, Scope& scope) {
         if (has_one_entry_a_row(scope)) {
             scope.entry = row_of(scope);
-            return rewritten(body, scope);
+            return builder_.aggregated(op, rewritten(body, scope));
         }
         const ir::VariableId variable = tables_.variable(scope.relation.count(), height_of(body));
         scope.entry = builder_.index(variable);

@@ -11,7 +11,7 @@
 // the dense tables go when remove_unused_buffers finds that nobody reads them. Nested aggregations
 // become one. Entries are in the order of the objects, and what is left out would have added 0,
 // multiplied by 1 and so on. So values stay the same, except that nested sums and products of
-// reals are rounded in another order, and that a sum of one real may be -0.0.
+// reals are rounded in another order.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -12,8 +12,7 @@
 //                                          =>
 //     select(x-is-there[k], state.v[x-object[k]], 0.0)    with k = search(x-breaks, state.x)
 //
-// Values at the ends, and for nan, are those of the comparisons. A sum of one real that is not
-// constant and is -0.0 keeps its sign.
+// Values at the ends, and for nan, are those of the comparisons.
 #pragma once
 
 #include "ir/ir.hpp"

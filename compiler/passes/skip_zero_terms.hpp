@@ -4,8 +4,8 @@
 //                                       =>
 //     sum[i in item](select(action.recommend[i], sqrt(state.far[i]), 0.0))
 //
-// Where the other factor is expensive, finite and neither draws nor faults. In a sum it does not
-// matter that the product may be -0.0.
+// Where the other factor is expensive, finite and neither draws nor faults. The product may be
+// -0.0, but a sum, which begins with 0.0, is the same with either zero as a term.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -65,7 +65,7 @@ class Indexing {
         return nest;
     }
 
-    ir::NodeId rebuilt(const Nest& nest, ir::NodeId body) {
+    ir::NodeId over_inner(const Nest& nest, ir::NodeId body) {
         for (auto variable = nest.inner.rbegin(); variable != nest.inner.rend(); ++variable)
             body = builder_.reduce(nest.op, *variable, body);
         return body;
@@ -81,10 +81,13 @@ class Indexing {
         known[condition.id] = condition.needed ? exists : builder_.apply(Operator::Not, {exists});
         known[builder_.index(variable)] = object.index;
         const ir::NodeId body = ir::replace_in(builder_, nest.body, known);
-        if (in_place) return rebuilt(nest, body);
-        if (depends_on_any(object.exists, nest.inner))
-            return rebuilt(nest, guarded(object.exists, body, neutral));
-        return guarded(object.exists, rebuilt(nest, body), neutral);
+        const auto value = [&] {
+            if (in_place) return over_inner(nest, body);
+            if (depends_on_any(object.exists, nest.inner))
+                return over_inner(nest, guarded(object.exists, body, neutral));
+            return guarded(object.exists, over_inner(nest, body), neutral);
+        };
+        return builder_.aggregated(nest.op, value());
     }
 
     ir::NodeId guarded(ir::NodeId exists, ir::NodeId value, const ir::Value& neutral) {

@@ -17,7 +17,8 @@ using FindOnlyObject = std::function<std::optional<OnlyObject>(ir::Program&, ir:
                                                                const Condition&, ir::VariableId)>;
 
 // Wherever an aggregation has its neutral value but for the object that is found, its body for that
-// object stands in its place. What draws or may fault in a place of its own for each object stays.
+// object stands in its place; a sum of reals still begins with 0.0. What draws or may fault in a
+// place of its own for each object stays.
 ir::Program take_only_objects(ir::Program program, const FindOnlyObject& find);
 
 }  // namespace rddlc::passes

@@ -119,6 +119,7 @@ class Unrolling {
             const ir::NodeId term = with(sum.body, {{variable, builder_.constant(entry)}});
             total = total ? builder_.apply(Operator::Add, {*total, term}) : term;
         }
+        if (total) total = builder_.aggregated(Reduction::Sum, *total);
         return total;
     }
 

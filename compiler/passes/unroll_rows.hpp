@@ -9,7 +9,8 @@
 //     part[1] = x[0]
 //     part[2] = 0.0
 //
-// What draws or may fault stays in its loop. Values stay the same, except that a sum of reals may be -0.0.
+// A sum of reals whose terms may all be -0.0 begins with 0.0. What draws or may fault stays in its
+// loop.
 #pragma once
 
 #include "ir/ir.hpp"

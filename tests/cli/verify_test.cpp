@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -345,6 +346,50 @@ TEST_F(Verify, AcceptsReorderedSumsAloneAndCountsThem) {
 
     plant_wrong_pass(problem, altered(problem.plain, 7.5, 7.5 * (1 + 1e-8)));
     EXPECT_FALSE(report_of(problem, comparison).agrees());
+}
+
+// A Newton iteration: exp[x] - 2.5 is a few units in the last place of 2.5.
+TEST_F(Verify, AcceptsWhatIsLeftOfLargerNumbersThatCancel) {
+    const VerifiedProblem problem = load(R"(domain roots {
+        pvariables {
+            x : { state-fluent, real, default = 0.9162907318741551 };
+            small : { state-fluent, real, default = 0.0000000001 };
+            none : { action-fluent, bool, default = false };
+        };
+        cpfs { x' = x - (exp[x] - 2.5) / 2.5; small' = small * 0.5; };
+        reward = exp[x] - 2.5;
+    }
+    non-fluents n { domain = roots; }
+    instance i { domain = roots; non-fluents = n; max-nondef-actions = 1; horizon = 5; discount = 1.0; }
+    )");
+    const OutcomeComparison comparison(problem.description());
+    const VerifiedEnvironments fresh(problem.engines.front(), 1, 0, 0);
+    const StepStart start{.state = fresh.state(0), .action = Record(comparison.action().size())};
+    const ir::ExternalFunctions none;
+    const StepOutcome ours = interpret_step(problem.plain, none, start, 0);
+    const auto otherwise = interpret_step_otherwise(problem.plain, none, start, 0);
+    const auto agrees = [&](const StepOutcome& theirs, std::span<const StepOutcome> others) {
+        ValueCounts counts;
+        return !comparison.compare(theirs, ours, {1e-9, false}, counts, others);
+    };
+    StepOutcome theirs = ours;
+    theirs.reward += 0x1p-51;  // one unit in the last place of 2.5
+    EXPECT_FALSE(agrees(theirs, {}));
+    EXPECT_TRUE(agrees(theirs, otherwise));
+    theirs.reward = ours.reward + 1e-12;
+    EXPECT_FALSE(agrees(theirs, otherwise)) << "more than rounding explains";
+
+    const auto with_small = [&](double factor) {
+        StepOutcome changed = ours;
+        const RecordEntry& entry = comparison.state().entries()[1];
+        double value;
+        std::memcpy(&value, changed.state.data() + entry.offset, sizeof value);
+        value *= factor;
+        std::memcpy(changed.state.data() + entry.offset, &value, sizeof value);
+        return changed;
+    };
+    EXPECT_TRUE(agrees(with_small(1 + 1e-12), otherwise));
+    EXPECT_FALSE(agrees(with_small(1 + 1e-8), otherwise)) << "a difference of 5e-19";
 }
 
 TEST(Tolerance, KnowsNanAndZeros) {

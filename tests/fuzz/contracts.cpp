@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
@@ -87,12 +86,10 @@ void drop_states_out_of_bounds(const ir::Program& program, std::vector<Situation
 }  // namespace
 
 Tolerance tolerance_of(std::string_view pass) {
-    constexpr std::array of_zero = {"index_directly", "search_intervals", "skip_zero_terms",
-                                    "unroll_rows"};
-    if (pass == "make_aggregations_sparse") return {.signs_of_zero = true, .relative = roughly};
+    if (pass == "make_aggregations_sparse") return {.relative = roughly};
     if (pass == "fast_math" || pass == "straighten_rows" || pass == "prove_invariants")
-        return {.signs_of_zero = true, .relative = roughly, .not_finite = true};
-    return {.signs_of_zero = std::ranges::find(of_zero, pass) != of_zero.end()};
+        return {.relative = roughly, .not_finite = true};
+    return {};
 }
 
 namespace {

@@ -128,6 +128,7 @@ class Expressions:
             (1, self.logic_chain),
             (1, self.comparison_chain),
             (0.3, self.test_of_nothing),
+            (1 if self.flavour.wild else 0, self.bool_by_sign),
         ]
         if self.flavour.draws:
             options.append((2, self.bernoulli))
@@ -258,6 +259,7 @@ class Expressions:
             (0 if self.flavour.finite else 2, self.edge),
             (1, lambda d: self.numeric_chain(d, rough)),
             (1, lambda d: self.dirac(self.real(d, rough))),
+            (2 if self.flavour.wild else 0, self.real_by_sign),
         ]
         if rough:
             options += [(5, self.rough_function), (2, self.rough_division)]

@@ -19,7 +19,7 @@ to it.
 
 What is drawn from stands beside this: tables.py (sizes and values), expressions.py,
 distributions.py, shapes.py (what passes look for), assumptions.py (what they take for granted),
-matrices.py.
+signs.py (which sign a zero has), matrices.py.
 """
 
 import argparse
@@ -34,6 +34,7 @@ from expressions import Expressions
 from matrices import Matrices
 from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem, Type, work_of
 from shapes import Shapes
+from signs import Signs
 from tables import Tables
 
 NAMES = ("a", "b-2", "sum", "avg_x", "Max", "abs", "q1", "load", "pow", "z-z", "in", "t_1", "new", "int8")
@@ -57,7 +58,7 @@ FLAVOURS = {
 }
 
 
-class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Matrices):
+class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, Matrices):
     def __init__(self, seed: int, flavour: str):
         self.rng = random.Random(f"{seed} {flavour}")
         self.flavour = FLAVOURS[flavour]

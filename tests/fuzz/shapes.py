@@ -453,6 +453,8 @@ class Shapes:
             if count is not None and weight is not None:
                 line = self.line_of_each_object(count, weight)
                 return Expr("real", "max[-500.0, min[500.0, %s]]", (line,), 10, UNSURE)
+        if self.flavour.wild and self.chance(0.3) and fluent.range in ("bool", "real"):
+            return self.bool_by_sign(1) if fluent.range == "bool" else self.wild_real(fluent, self.real_by_sign(1))
         total = self.sum_of_row()
         if total is None or not (total.finite or self.flavour.wild):
             return None

@@ -87,6 +87,7 @@ class RandomValues {
         constexpr std::array other = {-0.0, 0.1, 0.30000000000000004, 1.0 / 3.0, -2.4, 1e9, 1e-12};
         constexpr std::array edges = {
             infinity, -infinity, 1e15, 1e200, -1e300, std::numeric_limits<double>::quiet_NaN()};
+        if (values_ == Values::Wild && one_of(8)) return one_of(2) ? 0.0 : -0.0;
         const double quarters = static_cast<double>(below(81)) / 4 - 10;
         if (values_ == Values::Tame || one_of(2)) return quarters;
         if (!only_moderate_ && one_of(6)) return edges[below(edges.size())];
@@ -192,8 +193,8 @@ class Comparison {
 
     bool same(double expected, double found) const {
         if (std::isnan(expected) && std::isnan(found)) return true;
-        if (expected == found)
-            return tolerance_.signs_of_zero || std::signbit(expected) == std::signbit(found);
+        if (expected == found)  // zeros of both signs are
+            return tolerance_.relative > 0 || std::signbit(expected) == std::signbit(found);
         if (!std::isfinite(expected) || !std::isfinite(found)) return tolerance_.not_finite;
         const double size = std::max({1.0, std::abs(expected), std::abs(found)});
         return std::abs(expected - found) <= tolerance_.relative * size;

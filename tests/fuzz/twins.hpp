@@ -57,8 +57,7 @@ Story story(const ir::Program& program, const std::vector<Situation>& situations
 
 // In how far two stories may differ. Bools, ints and objects must be equal in any case.
 struct Tolerance {
-    bool signs_of_zero = false;
-    double relative = 0;      // of reals, or absolute of those below 1
+    double relative = 0;      // of reals, or absolute of those below 1; 0: bit for bit
     bool not_finite = false;  // what is nan or infinite in either may be anything
 };
 

@@ -1,8 +1,13 @@
 #include "ir/analysis.hpp"
 
+#include "ir/evaluator.hpp"
+#include "ir/print.hpp"
 #include "programs.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
 
 namespace rddlc::ir {
 namespace {
@@ -19,6 +24,79 @@ TEST_F(AnalysisTest, UniformIsWhatNoStateHasAPartIn) {
     EXPECT_FALSE(facts(w.at(w.running, w.c)).uniform);
     EXPECT_FALSE(facts(w.builder().load(w.connected, {w.load(w.count)})).uniform);
     EXPECT_FALSE(facts(w.bernoulli(w.real(0.5))).uniform);
+}
+
+TEST_F(AnalysisTest, KnowsWhatIsNeverNegativeZero) {
+    const NodeId x = w.load(w.level), one = w.real(1), zero = w.real(0);
+    const auto never = [&](NodeId id) {
+        return facts(id).never_negative_zero;
+    };
+    EXPECT_FALSE(never(x));
+    EXPECT_FALSE(never(w.real(-0.0)));
+    EXPECT_TRUE(never(w.builder().convert(w.load(w.count), Scalar::Real)));
+    EXPECT_TRUE(never(w.load(w.reboot_prob)));
+    EXPECT_TRUE(never(w.builder().reduce(Reduction::Sum, w.c, x)));
+    EXPECT_FALSE(never(w.builder().reduce(Reduction::Product, w.c, x)));
+    EXPECT_TRUE(never(w.apply(Operator::Add, x, one)));
+    EXPECT_TRUE(never(w.apply(Operator::Subtract, x, one)));
+    EXPECT_FALSE(never(w.apply(Operator::Subtract, x, zero)));
+    EXPECT_TRUE(never(w.apply(Operator::Multiply, x, x)));
+    EXPECT_FALSE(never(w.apply(Operator::Multiply, x, one)));
+    EXPECT_TRUE(never(w.apply(Operator::Maximum, zero, x)));
+    EXPECT_FALSE(never(w.apply(Operator::Maximum, x, zero)));
+}
+
+// All that is said never to be -0.0, and all that 0.0 + x becomes, with the numbers at which the
+// shortcuts go wrong.
+TEST_F(AnalysisTest, NoOperatorMakesNegativeZerosThatAreNotExpected) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    const NodeId x = w.load(w.level);
+    const NodeId count = w.builder().convert(w.load(w.count), Scalar::Real);
+    std::vector<NodeId> operands = {x, count, w.apply(Operator::Abs, x),
+                                    w.apply(Operator::Negate, x)};
+    for (const double value : {0.0, -0.0, 1.5, -1.5, 1e-300, -1e-300})
+        operands.push_back(w.real(value));
+    operands.push_back(w.builder().aggregated(Reduction::Sum, x));
+    std::vector<std::pair<NodeId, NodeId>> pairs;  // what an operator gives, and 0.0 plus it
+    for (const Operator op :
+         {Operator::Add, Operator::Subtract, Operator::Multiply, Operator::Divide,
+          Operator::Minimum, Operator::Maximum, Operator::Power, Operator::Hypot,
+          Operator::FloorModuloReal, Operator::Negate, Operator::Abs, Operator::Sqrt, Operator::Exp,
+          Operator::Sin, Operator::Cosh}) {
+        for (const NodeId a : operands) {
+            for (const NodeId b : operands) {
+                const bool is_unary = arity_of(op) == 1;
+                const NodeId whole = is_unary ? w.apply(op, a) : w.apply(op, a, b);
+                pairs.emplace_back(whole, w.builder().aggregated(Reduction::Sum, whole));
+                if (is_unary) break;
+            }
+        }
+    }
+    const Evaluator evaluator(w.program);
+    int checked = 0;
+    for (const double level : {0.0, -0.0, 2.0, -2.0, least, -least, 1e-300, -1e-300, infinity,
+                               -infinity, std::nan("")}) {
+        for (const std::int64_t n : {0, 1, -1}) {
+            const WorkbenchState state{{}, level, n};
+            Context context;
+            Evaluator::Frame frame(
+                evaluator,
+                Records().set(Storage::State, reinterpret_cast<const std::byte*>(&state)), context);
+            for (const auto& [whole, begun] : pairs) {
+                const double value = evaluator.value<double>(whole, frame);
+                const double sum = evaluator.value<double>(begun, frame);
+                const bool is_negative_zero = value == 0 && std::signbit(value);
+                EXPECT_FALSE(is_negative_zero && facts(whole).never_negative_zero)
+                    << print(w.program, whole) << " of " << level << ", " << n;
+                const double expected = 0.0 + value;
+                EXPECT_TRUE(identical(sum, expected) || (std::isnan(sum) && std::isnan(expected)))
+                    << print(w.program, begun) << " of " << level << ", " << n;
+                ++checked;
+            }
+        }
+    }
+    EXPECT_GT(checked, 10'000);
 }
 
 TEST_F(AnalysisTest, VariablesAreFreeUntilBound) {

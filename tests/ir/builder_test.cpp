@@ -94,10 +94,40 @@ TEST_F(BuilderTest, KnowsOnlyExactIdentitiesOfReals) {
     EXPECT_EQ(w.apply(Operator::Divide, level(), w.real(1)), level());
     EXPECT_EQ(w.apply(Operator::Subtract, level(), w.real(0)), level());
     EXPECT_EQ(w.apply(Operator::Add, level(), w.real(-0.0)), level());
-    // -0.0 + 0.0 is 0.0; 0.0 * inf is nan; nan is not nan.
+    // -0.0 + 0.0 is 0.0, 0.0 - 0.0 is not -0.0; 0.0 * inf is nan; nan is not nan.
     EXPECT_NE(w.apply(Operator::Add, level(), w.real(0)), level());
+    EXPECT_EQ(text(w.apply(Operator::Subtract, w.real(0), level())), "0.0 - state.level");
     EXPECT_NE(w.apply(Operator::Multiply, level(), w.real(0)), w.real(0));
     EXPECT_NE(w.apply(Operator::Equal, level(), level()), w.boolean(true));
+}
+
+TEST_F(BuilderTest, AddsZeroOnlyWhereItShows) {
+    const auto sum = [&](NodeId a, NodeId b) {
+        return w.apply(Operator::Add, a, b);
+    };
+    const NodeId zero = w.real(0.0), x = level(), begun = sum(zero, x);
+    EXPECT_EQ(text(begun), "0.0 + state.level");
+    EXPECT_EQ(sum(zero, begun), begun);
+    EXPECT_EQ(sum(begun, zero), begun);
+    const NodeId magnitude = w.apply(Operator::Abs, x);
+    EXPECT_EQ(sum(zero, magnitude), magnitude);
+    EXPECT_EQ(w.apply(Operator::Abs, begun), magnitude);
+    EXPECT_EQ(w.apply(Operator::Less, begun, w.real(1)), w.apply(Operator::Less, x, w.real(1)));
+    EXPECT_EQ(sum(begun, magnitude), sum(x, magnitude));
+    EXPECT_EQ(text(sum(begun, w.apply(Operator::Sin, x))),
+              "0.0 + (state.level + sin(state.level))");
+    EXPECT_EQ(text(w.apply(Operator::Subtract, begun, magnitude)),
+              "0.0 + (state.level - absolute(state.level))");
+    EXPECT_EQ(text(w.apply(Operator::Subtract, begun, w.real(2))), "state.level - 2.0");
+    EXPECT_EQ(text(w.apply(Operator::Subtract, w.real(2), begun)), "2.0 - state.level");
+    EXPECT_EQ(text(w.apply(Operator::Subtract, x, begun)), "state.level - (0.0 + state.level)");
+    EXPECT_EQ(text(w.apply(Operator::Maximum, zero, begun)), "maximum(0.0, state.level)");
+    EXPECT_EQ(text(w.apply(Operator::Maximum, begun, zero)), "maximum(0.0 + state.level, 0.0)");
+    EXPECT_EQ(text(w.apply(Operator::Minimum, zero, begun)), "minimum(0.0, state.level)");
+    EXPECT_EQ(text(w.apply(Operator::Maximum, w.real(-1), begun)),
+              "maximum(-1.0, 0.0 + state.level)");
+    EXPECT_EQ(text(w.apply(Operator::Negate, begun)), "-(0.0 + state.level)");
+    EXPECT_EQ(text(w.apply(Operator::Divide, w.real(1), begun)), "1.0 / (0.0 + state.level)");
 }
 
 TEST_F(BuilderTest, SimplifiesLogic) {
@@ -176,7 +206,9 @@ TEST_F(BuilderTest, KeepsReductionsOverAPart) {
 
 TEST_F(BuilderTest, FoldsReductionsOverOneOrNoObject) {
     EXPECT_EQ(w.builder().index(w.only), w.integer(0));
-    EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.only, level()), level());
+    EXPECT_EQ(text(w.builder().reduce(Reduction::Sum, w.only, level())), "0.0 + state.level")
+        << "a sum is never -0.0";
+    EXPECT_EQ(w.builder().reduce(Reduction::Product, w.only, level()), level());
     EXPECT_EQ(w.builder().reduce(Reduction::Sum, w.none, level()), w.real(0));
     EXPECT_EQ(w.builder().reduce(Reduction::Product, w.none, count()), w.integer(1));
     EXPECT_EQ(w.builder().reduce(Reduction::ForAll, w.none, up()), w.boolean(true));

@@ -40,8 +40,12 @@ TEST(IndexDirectly, TakesTheObjectThatIsEqual) {
     EXPECT_EQ(x.after, "real(state.q[state.at])");
     EXPECT_EQ(of("forall_{?c : color} [at == ?c => q(?c)]").after, "real(state.q[state.at])");
     EXPECT_EQ(of("forall_{?c : color} [~(at == ?c ^ q(?c))]").after, "real(!state.q[state.at])");
-    EXPECT_EQ(of("sum_{?c : color} [(at == ?c) * v(?c)]").after, "state.v[state.at]");
-    EXPECT_EQ(of("sum_{?c : color} [if (?c == at) then v(?c) else 0]").after, "state.v[state.at]");
+    EXPECT_EQ(of("sum_{?c : color} [(at == ?c) * v(?c)]").after, "0.0 + state.v[state.at]");
+    EXPECT_EQ(of("sum_{?c : color} [if (?c == at) then v(?c) else 0]").after,
+              "0.0 + state.v[state.at]")
+        << "a sum is never -0.0";
+    EXPECT_EQ(of("2.0 + sum_{?c : color} [(at == ?c) * v(?c)]").after, "2.0 + state.v[state.at]");
+    EXPECT_EQ(of("sum_{?c : color} [(at == ?c) * abs[v(?c)]]").after, "absolute(state.v[state.at])");
     EXPECT_EQ(of("prod_{?c : color} [if (?c == at) then v(?c) else 1]").after, "state.v[state.at]");
 }
 
@@ -61,7 +65,7 @@ TEST(IndexDirectly, TakesTheOnlyEntryOfARow) {
 
 TEST(IndexDirectly, LooksUpWhichObjectHasAValue) {
     EXPECT_EQ(of("sum_{?o : obj} [(CODE(?o) == n) * w(?o)]").after,
-              "select(state.n >= 10 && state.n <= 12, "
+              "0.0 + select(state.n >= 10 && state.n <= 12, "
               "state.w[CODE-object[minimum(maximum(state.n, 10), 12) - 10]], 0.0)");
     const Texts same = of("sum_{?o : obj} [(SAME(?o) == n) * w(?o)]");
     EXPECT_EQ(same.after, same.before) << "several objects have the value 7";

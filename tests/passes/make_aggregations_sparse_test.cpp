@@ -96,7 +96,7 @@ TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
     const std::string sum = "sum_{?o : obj} COST(?o) * exp[v(?o)] * exp[v(?o)]";
     EXPECT_EQ(sparse(sum), value_of_x(of_moderate_values(with_links(sum))));
     EXPECT_EQ(sparse("sum_{?o : obj} COST(?o) * v(?o) * v(?o) * v(?o)"),
-              "2.5 * state.v[2] * state.v[2] * state.v[2]");
+              "0.0 + 2.5 * state.v[2] * state.v[2] * state.v[2]");
 }
 
 TEST(MakeAggregationsSparse, TakesRealsAsFiniteWithFastMath) {

@@ -103,7 +103,7 @@ TEST(SearchIntervals, LeavesIntervalsThatAreOneFloat) {
 TEST(SearchIntervals, TakesTheObjectOfTheInterval) {
     const Searched x = searched("sum_{?s : obj} [(x >= LEFT(?s) ^ x < RIGHT(?s)) * (v(?s) + x)]");
     EXPECT_EQ(value_of_x(x.after),
-              "select(x-is-there[search(x-breaks, state.x)], "
+              "0.0 + select(x-is-there[search(x-breaks, state.x)], "
               "state.v[x-object[search(x-breaks, state.x)]] + state.x, 0.0)");
     EXPECT_EQ(table_text(x.after, "x-object"), "x-object[6]: int = {0 0 1 0 2 0}");
 }

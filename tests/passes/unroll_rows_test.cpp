@@ -33,9 +33,9 @@ const std::string inflow = "(sum_{?y : obj} [LINK(?x, ?y) * SHARE(?x, ?y) * dept
 
 TEST(UnrollRows, WritesTheTermsOfEachElement) {
     EXPECT_EQ(unrolled(inflow),
-              "next.depth[0] = 0.5 * state.depth[1] + 0.25 * state.depth[2]\n"
+              "next.depth[0] = 0.0 + (0.5 * state.depth[1] + 0.25 * state.depth[2])\n"
               "next.depth[1] = 0.0\n"
-              "next.depth[2] = 0.5 * state.depth[0]\n"
+              "next.depth[2] = 0.0 + 0.5 * state.depth[0]\n"
               "for x in obj\n"
               "    next.n[x] = state.n[x]\n"
               "next.shift = state.shift\n");
@@ -43,9 +43,9 @@ TEST(UnrollRows, WritesTheTermsOfEachElement) {
 
 TEST(UnrollRows, TakesAFewOperationsBesideTheSum) {
     EXPECT_EQ(unrolled(inflow + " - shift"),
-              "next.depth[0] = 0.5 * state.depth[1] + 0.25 * state.depth[2] - state.shift\n"
+              "next.depth[0] = 0.0 + (0.5 * state.depth[1] + 0.25 * state.depth[2] - state.shift)\n"
               "next.depth[1] = 0.0 - state.shift\n"
-              "next.depth[2] = 0.5 * state.depth[0] - state.shift\n"
+              "next.depth[2] = 0.0 + (0.5 * state.depth[0] - state.shift)\n"
               "for x in obj\n"
               "    next.n[x] = state.n[x]\n"
               "next.shift = state.shift\n");
@@ -57,8 +57,8 @@ TEST(UnrollRows, RunsOverAllObjectsOfNestedLoops) {
     problem.cpfs += "\nflow(?x, ?z) = " + inflow + " + depth(?z);";
     passes::Report report;
     const std::string step = unrolled(problem, report);
-    EXPECT_NE(step.find("scratch.flow[0, 2] = 0.5 * state.depth[1] + 0.25 * state.depth[2] + "
-                        "state.depth[2]\n"
+    EXPECT_NE(step.find("scratch.flow[0, 2] = 0.0 + (0.5 * state.depth[1] + 0.25 * "
+                        "state.depth[2] + state.depth[2])\n"
                         "scratch.flow[1, 0] = 0.0 + state.depth[0]\n"),
               std::string::npos)
         << step;

@@ -88,6 +88,10 @@ std::optional<PyRddlGymComparison> ask_pyrddlgym(const VerifyOptions& options,
     const double left =
         std::chrono::duration<double>(begin + duration(options.seconds) - Clock::now()).count();
     python.seconds = std::max(left, pyrddlgym_share * options.seconds);
+    python.rounded_otherwise = [&](const StepStart& start) {
+        return interpret_step_otherwise(problem.plain, problem.library.functions, start,
+                                        options.seed);
+    };
     return compare_with_pyrddlgym(problem.files, problem.description(), comparison, walk.samples,
                                   python);
 }

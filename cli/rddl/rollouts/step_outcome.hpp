@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,8 +75,11 @@ class OutcomeComparison {
     explicit OutcomeComparison(const rddl_problem& problem);
 
     // The first difference; none, but counted in `counts`, where all is within the tolerance.
+    // `otherwise` is what may be found, too, with other last digits: what lies among it, or no
+    // farther from `found` than it does, is no difference.
     std::optional<Difference> compare(const StepOutcome& expected, const StepOutcome& found,
-                                      Tolerance tolerance, ValueCounts& counts) const;
+                                      Tolerance tolerance, ValueCounts& counts,
+                                      std::span<const StepOutcome> otherwise = {}) const;
     // The values that the outcome has.
     void count(const StepOutcome& outcome, ValueCounts& counts) const;
 
@@ -86,7 +90,8 @@ class OutcomeComparison {
   private:
     std::optional<Difference> compare_records(Shown what, const RecordLayout& layout,
                                               const Record& expected, const Record& found,
-                                              Tolerance tolerance, ValueCounts& counts) const;
+                                              Tolerance tolerance, ValueCounts& counts,
+                                              const std::vector<const Record*>& otherwise) const;
     std::string name_of(Shown what, const RecordEntry& entry) const;
     Difference precondition(std::int32_t expected, std::int32_t found) const;
 

@@ -20,16 +20,24 @@ std::string fault_text(const ir::Program& program, const rddl::FaultRecord& faul
                        span.file, span.begin, fault.place.index, fault.value);
 }
 
+// Without the one for moderate values beside it, which would make most steps.
+ir::Program alone(ir::Program program) {
+    program.moderate.reset();
+    return program;
+}
+
 // The records of one environment.
 class Repetition {
   public:
     Repetition(const ir::Program& program, const ir::ExternalFunctions& functions,
                const StepStart& start, std::uint64_t seed)
-        : interpreter_(program, functions),
+        : interpreter_(alone(program), functions),
           start_(start),
           key_(rddl::stream_key(seed, static_cast<std::uint64_t>(start.environment),
                                 static_cast<std::uint64_t>(start.episode))),
           scratch_(interpreter_.scratch_size()) {}
+
+    void round_by(ir::Rounding& rounding) { interpreter_.round_by(rounding); }
 
     StepOutcome initial() const {
         StepOutcome outcome;
@@ -145,6 +153,20 @@ StepOutcome interpret_step(const ir::Program& program, const ir::ExternalFunctio
                            const StepStart& start, std::uint64_t seed) {
     Repetition repetition(program, functions, start, seed);
     return start.initial ? repetition.initial() : repetition.step();
+}
+
+std::vector<StepOutcome> interpret_step_otherwise(const ir::Program& program,
+                                                  const ir::ExternalFunctions& functions,
+                                                  const StepStart& start, std::uint64_t seed) {
+    constexpr std::uint64_t repetitions = 16;
+    std::vector<StepOutcome> outcomes;
+    for (std::uint64_t k = 0; k < repetitions; ++k) {
+        ir::Rounding rounding(k);
+        Repetition repetition(program, functions, start, seed);
+        repetition.round_by(rounding);
+        outcomes.push_back(repetition.step());
+    }
+    return outcomes;
 }
 
 std::optional<StepOutcome> repeat_step(const VerifiedEngine& engine, std::int64_t count,

@@ -53,6 +53,10 @@ std::optional<InvalidProgram> invalid_program(const ir::Program& plain, const Pi
 // share.
 StepOutcome interpret_step(const ir::Program& program, const ir::ExternalFunctions& functions,
                            const StepStart& start, std::uint64_t seed);
+// The same several times, with other last digits where another implementation may have them.
+std::vector<StepOutcome> interpret_step_otherwise(const ir::Program& program,
+                                                  const ir::ExternalFunctions& functions,
+                                                  const StepStart& start, std::uint64_t seed);
 // The step by an engine, in `count` environments that do the same. None: it cannot be reached,
 // since steps before it fault.
 std::optional<StepOutcome> repeat_step(const VerifiedEngine& engine, std::int64_t count,

@@ -138,7 +138,7 @@ class Answers {
 };
 
 void compare_answer(const json& answer, const StepSample& sample, const Answers& answers,
-                    const OutcomeComparison& comparison, Tolerance tolerance,
+                    const OutcomeComparison& comparison, const PyRddlGymOptions& options,
                     PyRddlGymComparison& result) {
     const bool refused = answer.contains("refused");
     const bool faulted = !sample.outcome.fault.empty();
@@ -155,7 +155,14 @@ void compare_answer(const json& answer, const StepSample& sample, const Answers&
     ++result.steps;
     StepOutcome theirs = answers.outcome(answer, sample.outcome);
     if (faulted) theirs.state = sample.outcome.state;
-    auto difference = comparison.compare(theirs, sample.outcome, tolerance, result.counts);
+    ValueCounts counts = result.counts;
+    auto difference = comparison.compare(theirs, sample.outcome, options.tolerance, counts);
+    if (difference && options.rounded_otherwise) {
+        counts = result.counts;
+        difference = comparison.compare(theirs, sample.outcome, options.tolerance, counts,
+                                        options.rounded_otherwise(sample.start));
+    }
+    result.counts = counts;
     if (difference)
         result.disagreement = PyRddlGymDisagreement{*std::move(difference), sample.start};
     else
@@ -215,7 +222,7 @@ PyRddlGymComparison compare_with_pyrddlgym(const ProblemFiles& files, const rddl
     const Answers answers(lines.front(), problem, comparison);
     result.random = answers.random();
     for (std::size_t i = 1; i < lines.size() && i <= samples.size() && !result.disagreement; ++i)
-        compare_answer(lines[i], samples[i - 1], answers, comparison, options.tolerance, result);
+        compare_answer(lines[i], samples[i - 1], answers, comparison, options, result);
     return result;
 }
 

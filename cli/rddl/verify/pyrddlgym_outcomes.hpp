@@ -6,6 +6,7 @@
 #include "verify/walk_in_step.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct PyRddlGymOptions {
     std::string python;  // the interpreter; empty: that of $VIRTUAL_ENV, else python3
     double seconds = 3;  // for its steps
     Tolerance tolerance{1e-9, false};
+    // The step here with other last digits; asked where pyRDDLGym's step differs.
+    std::function<std::vector<StepOutcome>(const StepStart&)> rounded_otherwise = {};
 };
 
 struct PyRddlGymDisagreement {
