@@ -185,9 +185,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._ended = self._batch.causes_of(0)
         if state is not None:
             self._restore(state)
-        if self._renderer is not None:
-            self._renderer.begin(self._batch, self.horizon)
-            self._show()
+        self._begin_pictures()
         info: dict[str, Any] = {}
         self._tell(self._ended, info)
         return self._reader.read(), info
@@ -278,6 +276,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         else:
             self._take_luck(int(self.np_random.integers(1 << 63)) if luck is None else luck)
         self._restore(state)
+        self._begin_pictures()
 
     def _take_luck(self, seed: int) -> None:
         """Random numbers of this seed until the episode ends; later ones have those of `_seed`."""
@@ -319,6 +318,12 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             return self._renderer.show()
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
+    def _begin_pictures(self) -> None:
+        """What is drawn begins where the environment stands."""
+        if self._renderer is not None:
+            self._renderer.begin(self._batch, self.horizon)
+            self._show()
+
     def _show(self) -> None:
         if self.render_mode == "human" and self._renderer is not None:
             self._renderer.show()
@@ -339,8 +344,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return self._remembered().page()
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
-        """Writes the episode so far, but no more than its last 1,000 steps, as a movie; of
-        environments with a render_mode."""
+        """Writes the episode so far (since the last set_state, if there was one), but no more than its
+        last 1,000 steps, as a movie; of environments with a render_mode."""
         self._remembered().write_gif(path)
 
     def _remembered(self) -> Renderer:
@@ -386,8 +391,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._np_random_seed = other._np_random_seed
         go_on_from(self.action_space, other.action_space)
         self.spec = other.spec
-        if self._renderer is not None and self._seed is not None:
-            self._renderer.begin(batch, self.horizon)
+        if self._seed is not None:
+            self._begin_pictures()
 
 
 def _unpickled(
@@ -407,6 +412,7 @@ def _unpickled(
         if luck is not None:
             env._take_luck(luck)
         env._restore(state)
+        env._begin_pictures()
     env._np_random, env._np_random_seed, action_space = random
     go_on_from(env.action_space, action_space)
     env.spec = spec

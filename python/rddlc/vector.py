@@ -11,7 +11,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from . import _native, causes
-from .arguments import SEEDS, options_of_reset, seed_of, seed_or_none, thread_count, whole
+from .arguments import SEEDS, one_of, options_of_reset, seed_of, seed_or_none, thread_count, whole
 from .errors import ArgumentError, EpisodeOver
 from .learning import ChoiceActions, FlatReader
 from .legal import legal_space
@@ -47,7 +47,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         copy: bool = True,
     ) -> None:
         """See `rddlc.make_vec`, which loads the problem, too."""
-        mode = AutoresetMode(autoreset_mode)
+        mode = _mode_of(autoreset_mode)
         num_envs = whole("num_envs", num_envs, 1)
         self.metadata = {**self.metadata, "autoreset_mode": mode}
         self.problem, self.num_envs = problem, num_envs
@@ -224,6 +224,12 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def __str__(self) -> str:
         return f"<RDDLVectorEnv {self.problem.name}, num_envs={self.num_envs}>"
+
+
+def _mode_of(given: Any) -> AutoresetMode:
+    if isinstance(given, AutoresetMode):
+        return given
+    return AutoresetMode(one_of("autoreset_mode", given, [each.value for each in AutoresetMode]))
 
 
 def _is_list(given: Any) -> bool:

@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 import PIL.Image
 import PIL.ImageSequence
@@ -314,6 +315,23 @@ class Masks(unittest.TestCase):
             self.assertNotEqual(env.action_space.sample(mask), 1)
 
 
+class Choices(unittest.TestCase):
+    def test_an_action_leaves_nothing_to_the_next(self) -> None:
+        """Whichever way each was given."""
+        forms = (lambda n: n, lambda n: {"action": n}, lambda n: np.array([n]), lambda n: np.int64(n))
+        for name in ("network", "robot"):
+            env, plain = (example(name, actions="simplified") for _ in range(2))
+            if not isinstance(env.action_space, gymnasium.spaces.Discrete):
+                continue
+            for each in (env, plain):
+                each.reset(seed=1)
+            last = int(env.action_space.n) - 1
+            for place, number in enumerate((1, last, 0, 2, last, 1, 0, last, 2, 1, 2, 0, last)):
+                form = forms[place % len(forms)]
+                np.testing.assert_equal(env.step(form(number)), plain.step(number))
+                np.testing.assert_array_equal(env._batch.action_values, plain._batch.action_values)
+
+
 class Processes(unittest.TestCase):
     def test_forked_and_spawned_processes_step(self) -> None:
         env = example("network")
@@ -362,6 +380,23 @@ class Pictures(unittest.TestCase):
         text = example("mountain_car", render_mode="ansi")
         text.reset(seed=1)
         self.assertIn("step 0", text.render())
+
+    def test_pictures_show_where_it_stands(self) -> None:
+        """Also after another state was set, in copies and in pickles."""
+        env = example("mountain_car", render_mode="rgb_array", render_size=(64, 64))
+        env.reset(seed=1)
+        start, first = env.get_state(), env.render()
+        for _ in range(30):
+            env.step({"throttle": 1.0})
+        later, shown = env.get_state(), env.render()
+        self.assertTrue((first != shown).any())
+        twins = [copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+        env.set_state(start)
+        np.testing.assert_array_equal(env.render(), first)
+        env.reset(options={"state": later})  # without the return until then
+        shown = env.render()
+        for twin in twins:
+            np.testing.assert_array_equal(twin.render(), shown)
 
     def test_movies_and_replay_pages(self) -> None:
         env = example("mountain_car", render_mode="rgb_array", render_size=(60, 40))
