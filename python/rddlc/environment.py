@@ -75,9 +75,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             values=observations != "dict",
         )
         self._seed: int | None = None
-        # Of an episode that goes on with other random numbers than its own:
-        self._luck: int | None = None  # their seed
-        self._own: _native.Batch | None = None  # a batch that has its own
+        # An episode may go on with other random numbers than its own.
+        self._luck: int | None = None  # the seed of these
+        self._own: _native.Batch | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:

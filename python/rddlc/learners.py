@@ -189,7 +189,7 @@ class Learner:
 
     @property
     def best_evaluation(self) -> Evaluation | None:
-        """What the best policy earned when it was chosen; None before the first evaluation."""
+        """The returns of the best policy when it was chosen; None before the first evaluation."""
         return None if self._best is None else self._best.evaluation
 
     def policy(self, *, deterministic: bool = True, seed: int = 0) -> _native.Policy:
@@ -224,7 +224,7 @@ class Learner:
         threads: int = 0,
         horizon: int | None = None,
     ) -> Evaluation:
-        """What it earns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
+        """Its returns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
         None: the instance's; 0: none. threads: 0: one for each core."""
         found = self.policy().evaluate(
             whole("episodes", episodes, 1, MOST_EPISODES),

@@ -79,7 +79,7 @@ class VecEnv(Base):
         return observations
 
     def _options_of_reset(self) -> dict[str, Any] | None:
-        """Of set_options: {"state": State} of each environment."""
+        """What set_options has for the next reset: {"state": State} of each environment."""
         if not any(self._options):
             return None
         refuse_unknown("option of reset", {name for each in self._options for name in each}, ("state",))

@@ -166,7 +166,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 self._batch.set_seeds(place, [its])
 
     def _seeds_of(self, seed: Any) -> list[int | None]:
-        """Of each environment; None: it goes on with its own."""
+        """One for each environment; None: it goes on with its own."""
         if not _is_list(seed):
             first = seed_of(seed)
             if first + self.num_envs > SEEDS:

@@ -86,7 +86,7 @@ class Learners(unittest.TestCase):
         model.learn(10_000, callback=lambda learner: seen.append(learner.steps) or len(seen) < 3)
         self.assertEqual(seen, [64, 128, 192])
 
-    def test_whoever_looks_meanwhile_sees_what_is_learned(self) -> None:
+    def test_looks_meanwhile_see_what_is_learned(self) -> None:
         """A look at the policy, in a callback, between calls of learn() or after a Ctrl-C, freezes
         nothing."""
         problem = example("mountain_car").problem

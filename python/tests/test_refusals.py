@@ -157,7 +157,7 @@ class Refusals(unittest.TestCase):
         )
 
     def test_of_states_of_other_problems(self) -> None:
-        """Of the same size, and of bools that are none."""
+        """They have the same size; and a bool has to be 0 or 1."""
         text = TEXTS["refuses_some"]
         problem = problem_of_text(text)
         others = [
@@ -223,7 +223,11 @@ class Numbers(unittest.TestCase):
 
     def test_of_environments(self) -> None:
         self.check("horizon", lambda n: rddlc.make(LOADED, horizon=n), SMALL | {"0", "2**31"})
-        self.check("render_size|16 to 8192", lambda n: rddlc.make(LOADED, render_size=(n, 90), render_mode="ansi"), set())
+        self.check(
+            "render_size|16 to 8192",
+            lambda n: rddlc.make(LOADED, render_size=(n, 90), render_mode="ansi"),
+            set(),
+        )
         self.check("horizon", lambda n: vector(horizon=n), SMALL | {"0", "2**31"})
         self.check("num_envs|environments", lambda n: vector(num_envs=n), SMALL)
         self.check("threads", lambda n: vector(threads=n), SMALL | {"0"})
