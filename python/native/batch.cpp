@@ -205,8 +205,26 @@ void Batch::read_state(std::int64_t environment, std::byte* record) {
     check(*simulator_, simulator_->get_state(live(), environment, 1, record));
 }
 
-void Batch::write_state(std::int64_t environment, const std::byte* record, std::int64_t steps) {
-    check(*simulator_, simulator_->set_state(live(), environment, 1, record, &steps));
+void Batch::write_states(std::span<const std::int64_t> places, const std::byte* records,
+                         std::span<const std::int64_t> steps) {
+    rddl_batch* const batch = live();
+    const std::int64_t size = simulator_->problem->state_size;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        check(*simulator_,
+              simulator_->set_state(batch, places[k], 1,
+                                    records + static_cast<std::int64_t>(k) * size, &steps[k]));
+    read_observations();
+}
+
+void Batch::become(Batch& other) {
+    if (other.simulator_ != simulator_ || other.settings_.environments != settings_.environments)
+        throw Refused("a batch becomes one of the same simulator and size");
+    check(*simulator_,
+          simulator_->copy_environments(live(), 0, settings_.environments, other.live(), nullptr));
+    read_observations();
+}
+
+void Batch::read_observations() {
     if (settings_.shows_records)
         check(*simulator_, simulator_->get_observation(batch_.get(), 0, settings_.environments,
                                                        arrays_.observations.data()));

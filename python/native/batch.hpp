@@ -68,7 +68,12 @@ class Batch {
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
     void read_state(std::int64_t environment, std::byte* record);
-    void write_state(std::int64_t environment, const std::byte* record, std::int64_t steps);
+    // States, one behind the other, of the environments at these places, after so many steps.
+    void write_states(std::span<const std::int64_t> places, const std::byte* records,
+                      std::span<const std::int64_t> steps);
+    // Its environments, and what they will draw, are those of the other, which has as many of the
+    // same simulator.
+    void become(Batch& other);
     void read_interm(std::int64_t environment, std::byte* record);
     std::pair<std::int64_t, std::int64_t> progress(std::int64_t environment);  // steps, episodes
     std::uint8_t causes(std::int64_t environment);
@@ -99,6 +104,7 @@ class Batch {
     std::size_t number_size() const { return settings_.doubles ? sizeof(double) : sizeof(float); }
     rddl_batch* live();
     void read_values();
+    void read_observations();  // records, and values
     bool has_ended() const;
 
     cli::Simulator simulator_;  // outlives the batch

@@ -20,6 +20,7 @@ using Array = nb::ndarray<nb::numpy>;
 using Bytes = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using ConstBytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Records = nb::ndarray<const std::uint8_t, nb::c_contig, nb::device::cpu>;
+using Integers = nb::ndarray<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Values = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 
 // The memory belongs to the batch, which lives as long as the array.
@@ -122,9 +123,23 @@ void add_states(nb::class_<Batch>& batch) {
                 const std::int64_t size = self.simulator().problem->state_size;
                 if (static_cast<std::int64_t>(record.size()) != size)
                     throw Refused(fmt::format("a state has {} bytes, not {}", size, record.size()));
-                self.write_state(environment, reinterpret_cast<const std::byte*>(record.data()),
-                                 steps);
+                self.write_states({&environment, 1},
+                                  reinterpret_cast<const std::byte*>(record.data()), {&steps, 1});
             })
+        .def(
+            "write_states",
+            [](Batch& self, const Integers& places, const Records& records, const Integers& steps) {
+                const std::size_t count = places.size();
+                const auto size = static_cast<std::size_t>(self.simulator().problem->state_size);
+                if (steps.size() != count || records.size() != count * size)
+                    throw Refused(fmt::format("{} states have {} bytes, not {}", count,
+                                              count * size, records.size()));
+                self.write_states({places.data(), count},
+                                  reinterpret_cast<const std::byte*>(records.data()),
+                                  {steps.data(), count});
+            },
+            nb::arg("places"), nb::arg("records"), nb::arg("steps"))
+        .def("become", &Batch::become, nb::arg("other"))
         .def("read_interm",
              [](Batch& self, std::int64_t environment, const Bytes& record) {
                  self.read_interm(environment,

@@ -3,6 +3,7 @@
 #include "engines/external_library.hpp"
 #include "engines/load_simulator.hpp"
 #include "ir/interpreter.hpp"
+#include "native/paths.hpp"
 #include "native/problem.hpp"
 
 #include <fmt/format.h>
@@ -88,8 +89,8 @@ class Enumeration {
     std::vector<std::byte> scratch_, observation_;
 };
 
-Enumeration enumeration_of(const cli::LoadedProblem& problem,
-                           const std::vector<std::string>& externs) {
+Enumeration enumeration_of(const cli::LoadedProblem& problem, const nb::object& headers) {
+    const std::vector<std::string> externs = paths_of(headers);
     cli::LoadOptions options;
     options.engine = cli::Engine::Interpreter;
     options.externs = {externs.begin(), externs.end()};

@@ -4,6 +4,7 @@
 #include "native/batch.hpp"
 #include "native/long_calls.hpp"
 #include "native/options.hpp"
+#include "native/paths.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
@@ -12,6 +13,7 @@
 #include "support/files.hpp"
 
 #include <fmt/format.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -61,11 +63,13 @@ class Policy {
     }
 
     // Ctrl-C ends it.
-    solvers::Summary evaluate(std::int64_t episodes, std::uint64_t seed, int threads) const {
+    solvers::Summary evaluate(std::int64_t episodes, std::uint64_t seed, int threads,
+                              std::optional<std::int64_t> horizon) const {
         solvers::EpisodeOptions options;
         options.episodes = episodes;
         options.seed = seed;
         options.threads = threads;
+        options.horizon = horizon;
         if (episodes < 1)
             throw Refused(fmt::format("an evaluation takes one episode or more, not {}", episodes));
         std::atomic<bool> stops = false;
@@ -215,9 +219,9 @@ std::string formula_of_text(const LoadedProblem& problem, const std::string& tex
     return solvers::program_formula(found->scope, found->genome);
 }
 
-void write_policy(const std::string& path, const std::string& text) {
+void write_policy(const nb::object& path, const std::string& text) {
     UsedFiles used;
-    write_file(path, text, used);
+    write_file(path_of(path), text, used);
 }
 
 nb::dict summary_dict(const solvers::Summary& summary) {
@@ -247,10 +251,12 @@ void add_learners(nb::module_& module) {
         .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",
-            [](const Policy& policy, std::int64_t episodes, std::uint64_t seed, int threads) {
-                return summary_dict(policy.evaluate(episodes, seed, threads));
+            [](const Policy& policy, std::int64_t episodes, std::uint64_t seed, int threads,
+               std::optional<std::int64_t> horizon) {
+                return summary_dict(policy.evaluate(episodes, seed, threads, horizon));
             },
-            nb::arg("episodes"), nb::arg("seed"), nb::arg("threads"));
+            nb::arg("episodes"), nb::arg("seed"), nb::arg("threads"),
+            nb::arg("horizon").none() = nb::none());
     nb::class_<Learner>(module, "Learner", "A learner at work.")
         .def_prop_ro("done", &Learner::done)
         .def_prop_ro("steps", &Learner::steps)

@@ -1,6 +1,7 @@
 #include "native/painter.hpp"
 
 #include "native/batch.hpp"
+#include "native/paths.hpp"
 #include "native/problem.hpp"
 
 #include <fmt/format.h>
@@ -174,9 +175,10 @@ void add_painter(nb::module_& module) {
         .def("png", png)
         .def("text", &Painter::text)
         .def("write_gif",
-             [](Painter& painter, const std::string& path, double frames_per_second) {
+             [](Painter& painter, const nb::object& path, double frames_per_second) {
+                 const std::string file = path_of(path);  // before anything is drawn
                  UsedFiles used;
-                 write_file(path, painter.gif(frames_per_second), used);
+                 write_file(file, painter.gif(frames_per_second), used);
              })
         .def("page", &Painter::page);
 }

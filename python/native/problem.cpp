@@ -3,6 +3,7 @@
 #include "driver/cpp_compiler.hpp"
 #include "driver/version.hpp"
 #include "native/describe.hpp"
+#include "native/paths.hpp"
 #include "problems/problem_lookup.hpp"
 #include "support/failure.hpp"
 #include "support/render.hpp"
@@ -36,16 +37,18 @@ std::string text_of(const Compilation& compilation) {
     return text;
 }
 
-LoadedProblem load(const std::string& domain, const std::string& instance,
-                   const std::string& repository, bool interpreted,
-                   const std::vector<std::string>& externs, bool extended, bool details) {
+LoadedProblem load(const nb::object& domain, const nb::object& instance,
+                   const nb::object& repository, bool interpreted, const nb::object& externs,
+                   bool extended, bool details) {
+    const std::string names[] = {path_of(domain), path_of(instance), path_of(repository)};
+    const std::vector<std::string> headers = paths_of(externs);
     try {
         const nb::gil_scoped_release released;
-        cli::ProblemFiles files = files_of(domain, instance, repository);
+        cli::ProblemFiles files = files_of(names[0], names[1], names[2]);
         if (extended) files.standard = Standard::Rddlc;
         cli::LoadOptions options;
         options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
-        options.externs = {externs.begin(), externs.end()};
+        options.externs = {headers.begin(), headers.end()};
         options.details = details;
         options.remembers = true;
         if (auto known = cli::load_known(files, options)) return *std::move(known);
@@ -59,9 +62,9 @@ LoadedProblem load(const std::string& domain, const std::string& instance,
     }
 }
 
-nb::list problems_in(const std::string& repository) {
+nb::list problems_in(const nb::object& repository) {
     nb::list all;
-    for (const cli::RepositoryProblem& problem : cli::scan_repository(repository).problems)
+    for (const cli::RepositoryProblem& problem : cli::scan_repository(path_of(repository)).problems)
         all.append(nb::make_tuple(problem.name, nb::cast(problem.instances), problem.description));
     return all;
 }
@@ -127,7 +130,9 @@ void add_problem(nb::module_& module) {
                nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"), nb::arg("details"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
-    module.def("is_path", cli::is_path, "Whether the text means a file or a folder.");
+    module.def(
+        "is_path", [](const nb::object& text) { return cli::is_path(path_of(text)); },
+        nb::arg("text"), "Whether the text means a file or a folder.");
     module.def("cpp_compiler", cpp_compiler, "The words of the C++ compiler's command.");
 }
 

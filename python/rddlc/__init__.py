@@ -10,18 +10,21 @@ import os
 from typing import Any
 
 from . import _native, causes
-from .environment import RDDLEnv, State
-from .errors import ActionError, CompileError, EpisodeOver, Error
+from .arguments import keywords_of, refuse_unknown
+from .environment import RDDLEnv
+from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
 from .learners import CGP, PPO, Estimate, Evaluation, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
 from .registration import register_environments
+from .states import State
 from .vector import RDDLVectorEnv
 
 __version__: str = _native.version
 
 __all__ = [
     "ActionError",
+    "ArgumentError",
     "CGP",
     "CompileError",
     "Condition",
@@ -66,13 +69,13 @@ def make(
     enforce_action_count_non_bool: max-nondef-actions counts ints, objects and reals, too.
     action_mask: info["action_mask"] tells which actions satisfy the preconditions, in the form that
         action_space.sample(mask) takes.
-    horizon: steps; None: the instance's; 0: none.
+    horizon: steps, not negative; None: the instance's; 0: none.
     render_mode: None, "rgb_array", "ansi" or "human" (a window, with pygame).
     render_size: width and height in pixels (600, 400). visualizer: see `rddl render`.
 
     Raises CompileError with the compiler's diagnostics, and Error where files are missing.
     """
-    return RDDLEnv(_problem_of(domain, instance, options), **options)
+    return RDDLEnv(_problem_of(domain, instance, options, RDDLEnv), **options)
 
 
 def make_vec(
@@ -91,13 +94,21 @@ def make_vec(
     copy: whether arrays are copies; else they may be the engine's own memory, which the next step
         changes.
     """
-    return RDDLVectorEnv(_problem_of(domain, instance, options), num_envs, **options)
+    problem = _problem_of(domain, instance, options, RDDLVectorEnv)
+    return RDDLVectorEnv(problem, num_envs, **options)
 
 
-def _problem_of(domain: Any, instance: Any, options: dict[str, Any]) -> Problem:
-    """Takes what is about loading out of the options."""
+def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type[Any]) -> Problem:
+    """Takes what is about loading out of the options. Refuses those that neither a problem nor
+    `taker` has."""
+    refuse_unknown("option", options, (*_OF_PROBLEM, *keywords_of(taker.__init__)))
     of_problem = {key: options.pop(key) for key in _OF_PROBLEM if key in options}
-    return domain if isinstance(domain, Problem) else Problem(domain, instance, **of_problem)
+    if not isinstance(domain, Problem):
+        return Problem(domain, instance, **of_problem)
+    if instance is not None or of_problem:
+        given = ", ".join([*of_problem, *(["instance"] if instance is not None else [])])
+        raise ArgumentError(f"the problem is loaded already: give {given} to rddlc.Problem")
+    return domain
 
 
 register_environments()

@@ -18,6 +18,7 @@ from pyRDDLGym.core.env import RDDLEnv
 from pyRDDLGym.core.simulator import RDDLSimulator as Interpreted
 
 from . import _native, causes
+from .arguments import seed_or_none
 from .model import Fluent
 from .problems import NO_HORIZON, Problem
 from .records import lifted_views
@@ -57,6 +58,7 @@ class RDDLSimulator(Interpreted):
         self.seed(int(self.rng.integers(1 << 32)))
 
     def seed(self, seed: int | None) -> None:
+        seed = seed_or_none(seed)
         super().seed(seed)
         if seed is None:
             seed = int(self.rng.integers(1 << 32))

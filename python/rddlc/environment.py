@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 import gymnasium
@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, causes
+from .arguments import one_of, options_of_reset, seed_of, seed_or_none, whole, whole_or_none
 from .dictionaries import DictionaryActions, GroundedReader, LiftedReader
-from .errors import ActionError, EpisodeOver, Error
+from .errors import ActionError, ArgumentError, EpisodeOver, Error
 from .learning import ChoiceActions, FlatReader
 from .legal import go_on_from, legal_space
 from .masks import ActionMasks
@@ -21,19 +22,10 @@ from .model import Model
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
+from .states import State
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
-
-
-@dataclass(frozen=True)
-class State:
-    """Where an episode stands: the bytes of the true state's record, the steps made, and why it is
-    over (`rddlc.causes`; 0: it runs)."""
-
-    record: bytes
-    steps: int
-    causes: int = 0
 
 
 class RDDLEnv(gymnasium.Env[Any, Any]):
@@ -63,19 +55,19 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """See `rddlc.make`, which loads the problem, too."""
         self._forms = {
             "vectorized": vectorized,
-            "observations": _one_of("observations", observations, OBSERVATIONS),
-            "actions": _one_of("actions", actions, ACTIONS),
+            "observations": one_of("observations", observations, OBSERVATIONS),
+            "actions": one_of("actions", actions, ACTIONS),
             "normalize": normalize,
             "enforce_action_constraints": enforce_action_constraints,
             "enforce_action_count_non_bool": enforce_action_count_non_bool,
             "action_mask": action_mask,
-            "horizon": horizon,
+            "horizon": whole_or_none("horizon", horizon, 0),
             "render_mode": render_mode,
-            "render_size": render_size,
+            "render_size": _size_of(render_size),
             "visualizer": visualizer,
         }
         self.problem = problem
-        self.render_mode = _one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
+        self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self._batch = _native.Batch(
             problem.simulator,
             horizon=batch_horizon(horizon),
@@ -83,6 +75,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             values=observations != "dict",
         )
         self._seed: int | None = None
+        # An episode may go on with other random numbers than its own.
+        self._luck: int | None = None  # the seed of these
+        self._own: _native.Batch | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
@@ -174,9 +169,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
         """Starts an episode: the first one of `seed`, or the next one. Before the first seed one is
-        drawn. options: {"state": State} starts it there."""
-        state = _state_in(options)
+        drawn. options: {"state": State} starts it there; what it draws is the new episode's."""
+        seed = seed_or_none(seed)
+        state = options_of_reset(options, ("state",)).get("state")
+        if state is not None:
+            self.problem.state_form.record_of(state)
         super().reset(seed=seed)
+        self._take_own_luck()
         if seed is None and self._seed is None:
             seed = int(self.np_random.integers(1 << 63))
         if seed is not None:
@@ -186,9 +185,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._ended = self._batch.causes_of(0)
         if state is not None:
             self._restore(state)
-        if self._renderer is not None:
-            self._renderer.begin(self._batch, self.horizon)
-            self._show()
+        self._begin_pictures()
         info: dict[str, Any] = {}
         self._tell(self._ended, info)
         return self._reader.read(), info
@@ -257,20 +254,44 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """To go back to, or on from, in any environment of the same problem."""
         record = np.zeros(self.model.state_size, np.uint8)
         self._batch.read_state(0, record)
-        return State(record.tobytes(), self.timestep, self._ended)
+        return State(record.tobytes(), self.timestep, self._ended, self.problem.state_form.problem)
 
-    def set_state(self, state: State) -> None:
-        """The episode goes on from there. The random numbers of a step depend on seed, episode and
-        the number of the step: those that follow are this episode's own."""
-        if not isinstance(state, State):
-            raise TypeError(f"a state is an rddlc.State, not a {type(state).__name__}")
+    def set_state(self, state: State, *, seed: int | None = None, replay: bool = False) -> None:
+        """The episode goes on from there, with new random numbers each time: a planner that tries an
+        action several times sees several successors, and never the one that is to come. They are
+        drawn from `np_random`, so that the same seed of reset() and the same calls give the same.
+
+        seed: of the random numbers that follow: the same seed gives the same successors.
+        replay: the numbers are this episode's own, which depend on its seed, its number and the
+            number of the step alone: the same actions lead to what they have led to before.
+        """
+        self.problem.state_form.record_of(state)
+        if seed is not None and replay:
+            raise ArgumentError("set_state takes a seed or replay=True, not both")
+        luck = None if seed is None else seed_of(seed)
         if self._seed is None:
             self.reset()
+        if replay:
+            self._take_own_luck()
+        else:
+            self._take_luck(int(self.np_random.integers(1 << 63)) if luck is None else luck)
         self._restore(state)
+        self._begin_pictures()
+
+    def _take_luck(self, seed: int) -> None:
+        """Random numbers of this seed until the episode ends; later ones have those of `_seed`."""
+        if self._own is None:
+            self._own = self._batch.copy()
+        self._luck = seed
+        self._batch.set_seed(seed)
+
+    def _take_own_luck(self) -> None:
+        if self._own is not None:
+            self._batch.become(self._own)
+        self._luck = self._own = None
 
     def _restore(self, state: State) -> None:
-        record = np.frombuffer(state.record, np.uint8)
-        self._batch.write_state(0, record, state.steps)
+        self._batch.write_state(0, self.problem.state_form.record_of(state), state.steps)
         self._ended = state.causes
 
     def interm_fluents(self) -> dict[str, NDArray[np.generic]]:
@@ -297,6 +318,12 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             return self._renderer.show()
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
+    def _begin_pictures(self) -> None:
+        """What is drawn begins where the environment stands."""
+        if self._renderer is not None:
+            self._renderer.begin(self._batch, self.horizon)
+            self._show()
+
     def _show(self) -> None:
         if self.render_mode == "human" and self._renderer is not None:
             self._renderer.show()
@@ -317,9 +344,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return self._remembered().page()
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
-        """Writes the episode so far, but no more than its last 1,000 steps, as a movie; of
-        environments with a render_mode."""
-        self._remembered().write_gif(os.fspath(path))
+        """Writes the episode so far (since the last set_state, if there was one), but no more than its
+        last 1,000 steps, as a movie; of environments with a render_mode."""
+        self._remembered().write_gif(path)
 
     def _remembered(self) -> Renderer:
         if self._renderer is None or self._seed is None:
@@ -336,20 +363,21 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- copies
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RDDLEnv:
-        """What follows is the same in both as long as the actions are."""
+        """What follows is the same in both as long as the actions are: the copy draws what this one
+        will draw. `set_state(env.get_state(), seed=...)` gives it random numbers of its own."""
         copy = type(self)(self.problem, **self._forms)
         copy._take(self, self._batch.copy())
         return copy
 
     def __reduce__(self) -> tuple[Any, ...]:
-        episode = self._batch.progress(0)[1]
+        episode = (self._batch if self._own is None else self._own).progress(0)[1]
         state = None if self._seed is None else self.get_state()
         random = (self._np_random, self._np_random_seed, self.action_space)
         return _unpickled, (
             type(self),
             self.problem,
             self._forms,
-            (self._seed, episode, state),
+            (self._seed, episode, self._luck, state),
             random,
             self.spec,
         )
@@ -357,47 +385,43 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def _take(self, other: RDDLEnv, batch: _native.Batch) -> None:
         self._batch = batch
         self._connect()
-        self._seed, self._ended = other._seed, other._ended
-        self._np_random, self._np_random_seed = other._np_random, other._np_random_seed
+        self._seed, self._ended, self._luck = other._seed, other._ended, other._luck
+        self._own = None if other._own is None else other._own.copy()
+        self._np_random = deepcopy(other._np_random)  # else both draw from one
+        self._np_random_seed = other._np_random_seed
         go_on_from(self.action_space, other.action_space)
         self.spec = other.spec
-        if self._renderer is not None and self._seed is not None:
-            self._renderer.begin(batch, self.horizon)
+        if self._seed is not None:
+            self._begin_pictures()
 
 
 def _unpickled(
     kind: type[RDDLEnv],
     problem: Problem,
     forms: dict[str, Any],
-    position: tuple[int | None, int, State | None],
+    position: tuple[int | None, int, int | None, State | None],
     random: Any,
     spec: Any,
 ) -> RDDLEnv:
     env = kind(problem, **forms)
-    seed, episode, state = position
+    seed, episode, luck, state = position
     if seed is not None and state is not None:
         env.reset(seed=seed)
         for _ in range(episode):
             env._batch.reset()
+        if luck is not None:
+            env._take_luck(luck)
         env._restore(state)
+        env._begin_pictures()
     env._np_random, env._np_random_seed, action_space = random
     go_on_from(env.action_space, action_space)
     env.spec = spec
     return env
 
 
-def _state_in(options: Mapping[str, Any] | None) -> Any:
-    """A State, or None."""
-    if options is not None and not isinstance(options, Mapping):
-        raise TypeError(f"options are a dictionary, not a {type(options).__name__}")
-    state = (options or {}).get("state")
-    if state is not None and not isinstance(state, State):
-        raise TypeError(f"a state is an rddlc.State, not a {type(state).__name__}")
-    return state
-
-
-def _one_of(what: str, given: Any, known: tuple[Any, ...]) -> Any:
-    if given not in known:
-        names = ", ".join(repr(each) for each in known)
-        raise ValueError(f"{what} is {given!r}, which is none of {names}")
-    return given
+def _size_of(given: Any) -> tuple[int, int]:
+    """Width and height in pixels; the painter knows how many there may be."""
+    if not isinstance(given, (Sequence, np.ndarray)) or isinstance(given, str) or len(given) != 2:
+        raise ArgumentError(f"render_size is {given!r}, which is not a width and a height")
+    most = (1 << 31) - 1
+    return whole("render_size", given[0], -most, most), whole("render_size", given[1], -most, most)

@@ -12,7 +12,10 @@ from importlib.util import find_spec
 from typing import Any
 
 from . import _native
+from .arguments import one_of, whole_or_none
+from .errors import ArgumentError
 from .model import Model, model_of
+from .states import StateForm
 
 ENGINES = ("compiled", "interpreter")
 NO_HORIZON = -1  # of a batch; its 0 is the instance's
@@ -20,7 +23,8 @@ NO_HORIZON = -1  # of a batch; its 0 is the instance's
 
 def batch_horizon(horizon: int | None) -> int:
     """What a batch takes where people say None for the instance's horizon, and 0 for none."""
-    return 0 if horizon is None else horizon or NO_HORIZON
+    given = whole_or_none("horizon", horizon, 0)
+    return 0 if given is None else given or NO_HORIZON
 
 
 @dataclass(frozen=True)
@@ -56,26 +60,27 @@ class Problem:
 
         Raises CompileError with the compiler's diagnostics, and Error where files are missing.
         """
-        if engine not in ENGINES:
-            raise ValueError(f"engine is '{engine}', which is none of {', '.join(ENGINES)}")
+        one_of("engine", engine, ENGINES)
+        if isinstance(externs, (str, bytes, os.PathLike)):
+            raise ArgumentError(f"externs is a list of headers, not {externs!r}")
         self._options: dict[str, Any] = {
             "engine": engine,
-            "externs": tuple(os.fspath(each) for each in externs),
+            "externs": tuple(os.fsdecode(each) for each in externs),
             "extended": extended,
             "details": details,
         }
         self.engine = _engine_at_hand(engine)
         self.simulator = self._load(
-            os.fspath(domain),
-            "" if instance is None else str(instance),
-            is_path=_native.is_path(os.fspath(domain)),
+            domain,
+            _name_of(instance),
+            is_path=_native.is_path(domain),
             interpreted=self.engine == "interpreter",
             details=details,
         )
         self.name: str = self.simulator.name
 
     def _load(
-        self, domain: str, instance: str, *, is_path: bool, interpreted: bool, details: bool
+        self, domain: Any, instance: Any, *, is_path: bool, interpreted: bool, details: bool
     ) -> _native.Simulator:
         return _native.load(
             domain,
@@ -102,6 +107,10 @@ class Problem:
     def model(self) -> Model:
         return model_of(self.simulator.describe())
 
+    @cached_property
+    def state_form(self) -> StateForm:
+        return StateForm(self.model)
+
     @property
     def files(self) -> list[str]:
         """The domain's and, unless it is the same, the instance's."""
@@ -122,6 +131,13 @@ class Problem:
 
     def __repr__(self) -> str:
         return f"Problem({self.name!r}, engine={self.engine!r})"
+
+
+def _name_of(instance: Any) -> str | bytes | os.PathLike[str]:
+    """A path, a name or a number."""
+    if instance is None:
+        return ""
+    return instance if isinstance(instance, (bytes, os.PathLike)) else str(instance)
 
 
 def _load_again(files: list[str], options: dict[str, Any]) -> Problem:

@@ -46,23 +46,19 @@ def _writer_of_value(plan: ActionPlan, row: Array) -> QuickWriter:
 def _writer_of_change(plan: ActionPlan, row: Array) -> QuickWriter:
     count = plan.category_counts[0]
     columns, values = plan.columns.tolist(), plan.values.tolist()
-    defaults = plan.defaults.tolist()
-    row[:] = plan.defaults
-    changed = -1
+    defaults = plan.defaults.astype(row.dtype)
 
     def write(action: Any) -> bool:
-        nonlocal changed
         try:
             category = index(action)
         except TypeError:
             return False
         if not 0 <= category < count:
             return False
-        row[changed] = defaults[changed]
+        row[:] = defaults  # whatever was written there, and by whom
         column = columns[category]
         if column >= 0:
             row[column] = values[category]
-        changed = column
         return True
 
     return write

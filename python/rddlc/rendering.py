@@ -50,7 +50,7 @@ class Renderer:
         """The replay page of the episode (docs/pictures.md): an HTML file of its own."""
         return self._painter.page(float(self._fps))
 
-    def write_gif(self, path: str) -> None:
+    def write_gif(self, path: str | bytes | os.PathLike[str]) -> None:
         """A movie of the episode."""
         self._painter.write_gif(path, float(self._fps))
 

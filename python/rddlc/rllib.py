@@ -18,9 +18,8 @@ from typing import Any
 
 from ray.tune.registry import register_env
 
-from . import make
+from . import _problem_of, make
 from .environment import RDDLEnv
-from .problems import Problem
 
 NAME = "rddlc"
 FORMS: dict[str, Any] = {"observations": "flat", "actions": "box", "normalize": True}
@@ -35,8 +34,7 @@ def env_config(
     """The `env_config` of a problem: domain, instance and options as `rddlc.make` takes them. Of files
     it holds the texts, so that machines of a cluster need not share a file system; headers of
     external functions are named by their paths."""
-    of_problem = {key: options[key] for key in ("engine", "externs", "extended") if key in options}
-    problem = Problem(domain, instance, **of_problem)
+    problem = _problem_of(domain, instance, dict(options), RDDLEnv)
     texts = {Path(file).name: Path(file).read_text() for file in problem.files}
     if len(texts) < len(problem.files):  # two files of one name, in two folders
         texts = {f"{place}-{Path(file).name}": Path(file).read_text()

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv as Base
 
 from . import _problem_of
+from .arguments import refuse_unknown
 from .environment import RDDLEnv
 from .errors import Error
 from .vector import RDDLVectorEnv
@@ -29,7 +30,7 @@ def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
     """`rddlc.make` with flat observations, and actions that Stable-Baselines3 takes: simplified where
     these are Discrete, MultiDiscrete or a Box with bounds, else "box" (it takes no dictionaries of
     actions, and no numbers without bounds). Options go before that."""
-    problem = _problem_of(domain, instance, options)
+    problem = _problem_of(domain, instance, options, RDDLEnv)
     options = {"observations": "flat", "actions": "simplified", **options}
     env = RDDLEnv(problem, **options)
     return env if takes_actions(env.action_space) else RDDLEnv(problem, **options | {"actions": "box"})
@@ -37,7 +38,7 @@ def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
 
 def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecEnv:
     """The same of many environments in one batch (`rddlc.make_vec`)."""
-    problem = _problem_of(domain, instance, options)
+    problem = _problem_of(domain, instance, options, RDDLVectorEnv)
     options = {"actions": "simplified", "autoreset_mode": "SameStep", **options}
     envs = RDDLVectorEnv(problem, num_envs, **options)
     if not takes_actions(envs.single_action_space):
@@ -69,11 +70,20 @@ class VecEnv(Base):
     def reset(self) -> Any:
         seeds = [None if seed is None else int(seed) for seed in self._seeds]
         is_seeded = any(seed is not None for seed in seeds)
-        observations, _ = self.env.reset(seed=seeds if is_seeded else None)
+        observations, _ = self.env.reset(
+            seed=seeds if is_seeded else None, options=self._options_of_reset()
+        )
         self.reset_infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         self._reset_seeds()
         self._reset_options()
         return observations
+
+    def _options_of_reset(self) -> dict[str, Any] | None:
+        """What set_options has for the next reset: {"state": State} of each environment."""
+        if not any(self._options):
+            return None
+        refuse_unknown("option of reset", {name for each in self._options for name in each}, ("state",))
+        return {"state": [each.get("state") for each in self._options]}
 
     def step_async(self, actions: NDArray[Any]) -> None:
         self._actions = actions

@@ -19,10 +19,12 @@ from skdecide.core import DiscreteDistribution
 from skdecide.domains import GoalMDPDomain, RLDomain, StatelessSimulatorDomain
 from skdecide.hub.space.gym import GymSpace, ListSpace
 
-from . import make
-from .environment import RDDLEnv, State
+from . import _problem_of, make
+from .arguments import finite
+from .environment import RDDLEnv
 from .errors import Error
 from .problems import Problem
+from .states import State
 from .transitions import Outcome, Transitions
 
 COST_ERROR = 1e-9  # relative
@@ -106,11 +108,9 @@ class _Planning(Domain):  # what the two below have in common
         self,
         domain: str | os.PathLike[str] | Problem,
         instance: str | int | os.PathLike[str] | None = None,
-        *,
-        engine: str = "compiled",
         **options: Any,
     ) -> None:
-        problem = domain if isinstance(domain, Problem) else Problem(domain, instance, engine=engine)
+        problem = _problem_of(domain, instance, options, Transitions)
         self.transitions = Transitions(problem, **options)
         self._pictures: RDDLEnv | None = None
 
@@ -176,7 +176,7 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
         """most_reward: no step earns more. levels, samples, horizon, seed, most_outcomes: see
         `Transitions`."""
         super().__init__(domain, instance, **options)
-        self._most_reward = most_reward
+        self._most_reward = finite("most_reward", most_reward)
         transitions = self.transitions
         if not transitions.horizon:
             raise Error("the problem has no horizon: say horizon=N")

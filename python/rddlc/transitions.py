@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native, causes
+from . import _native
+from .arguments import seed_of, shown, whole, whole_or_none
 from .choices import ActionPlan, plan_of
-from .environment import State
-from .errors import EpisodeOver, Error
+from .errors import ActionError, Error
 from .problems import Problem, batch_horizon
 from .records import columns_of, grounded_view
+from .states import State
 
 MOST_ACTIONS = 10_000
 MOST_REMEMBERED = 100_000
@@ -34,7 +35,8 @@ class Outcome:
 
 
 class Transitions:
-    """A problem with finitely many actions, which are numbers from 0 on, stepped from any state.
+    """A problem with finitely many actions, which are numbers from 0 on, stepped from any state. Each
+    draw has new random numbers; the same `seed` and the same calls give the same ones.
 
     A state is over if its `causes` are not 0. It knows the steps made, so the horizon ends episodes,
     and the same fluents at another step are another state.
@@ -62,20 +64,22 @@ class Transitions:
         if problem.model.partially_observed:
             raise Error("the problem is partially observed: planners would see what is hidden")
         self._options: dict[str, Any] = {
-            "levels": levels,
-            "samples": samples,
-            "horizon": horizon,
-            "seed": seed,
-            "most_outcomes": most_outcomes,
+            "levels": whole("levels", levels, 2, MOST_ACTIONS),
+            "samples": whole("samples", samples, 0),
+            "horizon": whole_or_none("horizon", horizon, 0),
+            "seed": seed_of(seed),
+            "most_outcomes": whole("most_outcomes", most_outcomes, 1),
         }
         self.problem = problem
-        self.horizon = problem.model.horizon if horizon is None else horizon
-        self._values = _action_values(problem, levels)
+        given = self._options["horizon"]
+        self.horizon: int = problem.model.horizon if given is None else given
+        self._values = _action_values(problem, self._options["levels"])
         self._records = _action_records(problem, self._values)
         self._single = self._new_batch(1)
-        self._drawn = 0
-        self.outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
-        self.applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
+        # Seeds in a row would be those of the next `seed`, too.
+        self._seeds = np.random.default_rng(self._options["seed"])
+        self._outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
+        self._applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
 
     def _new_batch(self, environments: int) -> _native.Batch:
         return _native.Batch(
@@ -85,6 +89,18 @@ class Transitions:
             records=False,
             values=False,
         )
+
+    def _number_of(self, action: Any) -> int:
+        count = self.action_count
+        if isinstance(action, (bool, np.bool_)) or not isinstance(action, (int, np.integer)):
+            raise ActionError(f"an action is a number from 0 to {count - 1}, not {shown(action)}")
+        if not 0 <= action < count:
+            raise ActionError(f"action {shown(action)} is not from 0 to {count - 1}")
+        return int(action)
+
+    def _refuse_end(self, state: Any) -> None:
+        self.problem.state_form.record_of(state)
+        state.refuse_end()
 
     @property
     def action_count(self) -> int:
@@ -97,6 +113,7 @@ class Transitions:
 
     def action(self, number: int) -> dict[str, Any]:
         """The action as environments with actions="dict" take it."""
+        number = self._number_of(number)
         columns = columns_of(self.problem.model.actions)
         return {
             column.name: value if column.fluent.scalar == "real" else round(value)
@@ -111,18 +128,22 @@ class Transitions:
 
     def sample(self, state: State, action: int) -> Outcome:
         """One draw of what the action leads to."""
-        _refuse_end(state)
-        self._drawn += 1
+        action = self._number_of(action)
+        self._refuse_end(state)
         batch = self._single
-        batch.set_seed(self._options["seed"] + self._drawn)
+        batch.set_seed(int(self._seeds.integers(1 << 63)))
         self._step(batch, state, self._records[action])
         return Outcome(self._state_of(batch, 0, int(batch.causes[0])), 1.0, float(batch.rewards[0]))
 
-    def _new_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
+    def outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
         """All that the action may lead to, the likeliest first; with `samples` what so many draws have
         led to, the same ones each time. Raises Error where something is drawn from infinitely many
         values, or there are too many combinations."""
-        _refuse_end(state)
+        action = self._number_of(action)
+        self._refuse_end(state)
+        return self._outcomes(state, action)
+
+    def _new_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
         if not self.problem.model.stochastic:
             return (self.sample(state, action),)
         if self.is_exact:
@@ -141,14 +162,14 @@ class Transitions:
 
     def _exact_outcomes(self, state: State, action: int) -> tuple[Outcome, ...]:
         found = self._enumeration.next_states(
-            state.record,
+            self.problem.state_form.record_of(state).tobytes(),
             state.steps,
             self._records[action].tobytes(),
             self.horizon,
             self._options["most_outcomes"],
         )
         outcomes = (
-            Outcome(State(record, state.steps + 1, ended), probability, reward)
+            Outcome(State(record, state.steps + 1, ended, state.problem), probability, reward)
             for record, ended, probability, reward in found
         )
         return tuple(sorted(outcomes, key=lambda each: -each.probability))
@@ -157,8 +178,12 @@ class Transitions:
     def _enumeration(self) -> _native.Enumeration:
         return _native.enumeration(self.problem.simulator, list(self.problem.externs))
 
-    def _new_applicable(self, state: State) -> tuple[int, ...]:
+    def applicable(self, state: State) -> tuple[int, ...]:
         """The actions that satisfy the preconditions; none after the end."""
+        self.problem.state_form.record_of(state)
+        return self._applicable(state)
+
+    def _new_applicable(self, state: State) -> tuple[int, ...]:
         if state.causes:
             return ()
         if not self.problem.model.preconditions:
@@ -190,14 +215,17 @@ class Transitions:
         batch.step()
 
     def _enter(self, batch: _native.Batch, state: State) -> None:
-        record = np.frombuffer(state.record, np.uint8)
-        for place in range(len(batch.rewards)):
-            batch.write_state(place, record, state.steps)
+        record = self.problem.state_form.record_of(state)
+        count = len(batch.rewards)
+        batch.write_states(
+            np.arange(count), np.tile(record, (count, 1)), np.full(count, state.steps)
+        )
 
     def _state_of(self, batch: _native.Batch, place: int, cause: int) -> State:
         record = np.zeros(self.problem.model.state_size, np.uint8)
         batch.read_state(place, record)
-        return State(record.tobytes(), batch.progress(place)[0], cause)
+        steps = batch.progress(place)[0]
+        return State(record.tobytes(), steps, cause, self.problem.state_form.problem)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (self.problem, self._options)
@@ -205,11 +233,6 @@ class Transitions:
 
 def _again(problem: Problem, options: dict[str, Any]) -> Transitions:
     return Transitions(problem, **options)
-
-
-def _refuse_end(state: State) -> None:
-    if state.causes:
-        raise EpisodeOver(f"nothing follows this state: the episode is over ({causes.text_of(state.causes)})")
 
 
 def _action_values(problem: Problem, levels: int) -> NDArray[np.float64]:

@@ -11,13 +11,15 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from . import _native, causes
-from .errors import EpisodeOver
+from .arguments import SEEDS, one_of, options_of_reset, seed_of, seed_or_none, thread_count, whole
+from .errors import ArgumentError, EpisodeOver
 from .learning import ChoiceActions, FlatReader
 from .legal import legal_space
 from .lifted import LiftedActions, LiftedRows
 from .masks import ActionMasks
 from .model import Model
 from .problems import Problem, batch_horizon
+from .states import State
 
 AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMode.SAME_STEP: 2}
 CAUSE_TEXTS = np.array(causes.TEXTS, object)
@@ -45,13 +47,14 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         copy: bool = True,
     ) -> None:
         """See `rddlc.make_vec`, which loads the problem, too."""
-        mode = AutoresetMode(autoreset_mode)
+        mode = _mode_of(autoreset_mode)
+        num_envs = whole("num_envs", num_envs, 1)
         self.metadata = {**self.metadata, "autoreset_mode": mode}
         self.problem, self.num_envs = problem, num_envs
         self._batch = _native.Batch(
             problem.simulator,
             environments=num_envs,
-            threads=threads,
+            threads=thread_count(threads),
             autoreset=AUTORESET[mode],
             horizon=batch_horizon(horizon),
             records=observations == "dict",
@@ -85,7 +88,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             return LiftedRows(
                 self.problem.model.observed, batch.observations, batch.final_observations
             )
-        raise ValueError(f"observations is {observations!r}, which is neither 'flat' nor 'dict'")
+        raise ArgumentError(f"observations is {observations!r}, which is neither 'flat' nor 'dict'")
 
     def _new_writer(self, actions: str, normalize: bool) -> Any:
         if actions == "dict":
@@ -93,7 +96,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if actions in ("simplified", "box"):
             box = actions == "box"
             return ChoiceActions(self.problem, self._batch, box=box, normalize=normalize)
-        raise ValueError(f"actions is {actions!r}, which is none of 'simplified', 'box' and 'dict'")
+        raise ArgumentError(f"actions is {actions!r}, which is none of 'simplified', 'box' and 'dict'")
 
     @property
     def model(self) -> Model:
@@ -106,27 +109,72 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         options: Mapping[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
         """Starts episodes: of seed + i, or of the i-th seed; without seeds the next ones. options:
-        {"reset_mask": (num_envs,) bool} starts them only there."""
-        mask = None if options is None else options.get("reset_mask")
-        if mask is not None and np.shape(mask) != (self.num_envs,):
-            raise ValueError(f"reset_mask has the shape {np.shape(mask)}, not ({self.num_envs},)")
+        {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts them in that
+        state, each with random numbers of its own, and {"state": [State or None, ...]} each in its
+        own state, or in its initial one."""
+        given = options_of_reset(options, ("reset_mask", "state"))
+        mask = self._mask_of(given.get("reset_mask"))
+        chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
+        states = self._states_of(given.get("state"), chosen)
         if seed is None and not self._has_begun:
             seed = int(self.np_random.integers(1 << 62))
         if seed is not None:
-            self._set_seeds(seed, mask)
+            self._set_seeds(seed, chosen)
         self._batch.reset(mask)
+        if states:
+            self._enter(states)
         self._has_begun = True
         return self._reader.rows(copy=self._copies), {}
 
-    def _set_seeds(self, seed: int | Sequence[int | None], mask: NDArray[np.bool_] | None) -> None:
-        if isinstance(seed, (int, np.integer)):
-            self._np_random, self._np_random_seed = np.random.default_rng(seed), int(seed)
-            seed = [int(seed) + i for i in range(self.num_envs)]
+    def _mask_of(self, given: Any) -> NDArray[np.bool_] | None:
+        if given is None:
+            return None
+        mask = np.ascontiguousarray(given)
+        if mask.shape != (self.num_envs,) or mask.dtype != np.bool_:
+            raise ArgumentError(
+                f"reset_mask has the shape {mask.shape} of {mask.dtype}, not ({self.num_envs},) of bool"
+            )
+        return mask
+
+    def _states_of(self, given: Any, chosen: NDArray[np.int64]) -> dict[int, State]:
+        """By the places of environments; a state that is over starts no episode."""
+        if isinstance(given, State):
+            states: Any = [given] * self.num_envs
+        elif given is None or isinstance(given, (list, tuple)):
+            states = given or []
+        else:
+            raise ArgumentError(f"a state is an rddlc.State, not a {type(given).__name__}")
+        if given is not None and len(states) != self.num_envs:
+            raise ArgumentError(f"there are {len(states)} states for {self.num_envs} environments")
+        entered = {place: states[place] for place in chosen.tolist() if states and states[place] is not None}
+        for state in {id(each): each for each in entered.values()}.values():
+            self.problem.state_form.record_of(state)
+            state.refuse_end()
+        return entered
+
+    def _enter(self, states: Mapping[int, State]) -> None:
+        records = [self.problem.state_form.record_of(each) for each in states.values()]
+        steps = np.array([each.steps for each in states.values()], np.int64)
+        self._batch.write_states(np.array(list(states), np.int64), np.array(records), steps)
+
+    def _set_seeds(self, seed: Any, chosen: NDArray[np.int64]) -> None:
+        seeds = self._seeds_of(seed)
+        if not _is_list(seed):
+            self._np_random, self._np_random_seed = np.random.default_rng(seeds[0]), seeds[0]
+        for place in chosen.tolist():
+            if (its := seeds[place]) is not None:
+                self._batch.set_seeds(place, [its])
+
+    def _seeds_of(self, seed: Any) -> list[int | None]:
+        """One for each environment; None: it goes on with its own."""
+        if not _is_list(seed):
+            first = seed_of(seed)
+            if first + self.num_envs > SEEDS:
+                raise ArgumentError(f"seed is {first}: seed + {self.num_envs - 1} is beyond 64 bits")
+            return [first + place for place in range(self.num_envs)]
         if len(seed) != self.num_envs:
-            raise ValueError(f"there are {len(seed)} seeds for {self.num_envs} environments")
-        for place, each in enumerate(seed):
-            if each is not None and (mask is None or mask[place]):
-                self._batch.set_seeds(place, [each])
+            raise ArgumentError(f"there are {len(seed)} seeds for {self.num_envs} environments")
+        return [seed_or_none(each) for each in seed]
 
     def step(
         self, actions: Any
@@ -176,3 +224,13 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def __str__(self) -> str:
         return f"<RDDLVectorEnv {self.problem.name}, num_envs={self.num_envs}>"
+
+
+def _mode_of(given: Any) -> AutoresetMode:
+    if isinstance(given, AutoresetMode):
+        return given
+    return AutoresetMode(one_of("autoreset_mode", given, [each.value for each in AutoresetMode]))
+
+
+def _is_list(given: Any) -> bool:
+    return isinstance(given, Sequence) or (isinstance(given, np.ndarray) and given.ndim == 1)

@@ -30,6 +30,15 @@ def pair(name: str, **options: object) -> tuple[pyRDDLGym.RDDLEnv, pyRDDLGym.RDD
 
 
 class Backend(unittest.TestCase):
+    def test_a_refused_seed_changes_nothing(self) -> None:
+        (ours, _), (kept, _) = pair("MarsRover_ippc2023"), pair("MarsRover_ippc2023")
+        for env in (ours, kept):
+            env.reset(seed=1)
+        with self.assertRaisesRegex(rddlc.Error, "seed"):
+            ours.sampler.seed(1 << 64)
+        np.testing.assert_equal(ours.reset(), kept.reset())
+        np.testing.assert_equal(ours.step({}), kept.step({}))
+
     def test_steps_are_those_of_its_own_simulator(self) -> None:
         for name in PROBLEMS:
             for vectorized in (False, True):

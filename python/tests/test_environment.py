@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 import PIL.Image
 import PIL.ImageSequence
@@ -153,6 +154,94 @@ class States(unittest.TestCase):
         np.testing.assert_equal(env.state, shown)
         np.testing.assert_equal(env.step(action), first)
 
+    def test_states_have_no_luck(self) -> None:
+        """Who goes back to a state again and again sees what may come, and not what will."""
+        env = example("network")
+        steps_of(env, 5, 3)
+        state = env.get_state()
+        env.step({})
+        to_come = env.get_state()
+
+        def successors(**luck: Any) -> list[rddlc.State]:
+            found = []
+            for _ in range(20):
+                env.set_state(state, **luck)
+                env.step({})
+                found.append(env.get_state())
+            return found
+
+        several = successors()
+        self.assertGreater(len(set(several)), 3)
+        self.assertGreater(len(set(successors()) - set(several)), 0)
+        self.assertEqual(len(set(successors(seed=3))), 1)
+        self.assertNotEqual(successors(seed=3), successors(seed=4))
+        self.assertEqual(set(successors(replay=True)), {to_come})
+        other = example("network")
+        other.set_state(state, seed=3)
+        other.step({})
+        self.assertEqual([other.get_state()], successors(seed=3)[:1])
+
+    def test_the_same_calls_have_the_same_luck(self) -> None:
+        found = []
+        for _ in range(2):
+            env = example("network")
+            states = []
+            env.reset(seed=5)
+            for _ in range(10):
+                env.set_state(env.get_state())
+                env.step({})
+                states.append(env.get_state())
+            found.append(states)
+        self.assertEqual(found[0], found[1])
+
+    def test_later_episodes_are_those_of_the_seed(self) -> None:
+        """Whatever luck an episode before them was given."""
+        for changes in (
+            lambda env: env.set_state(env.get_state()),
+            lambda env: env.set_state(env.get_state(), seed=7),
+            lambda env: env.set_state(env.get_state(), replay=True),
+        ):
+            env, plain = example("network"), example("network")
+            for each in (env, plain):
+                each.reset(seed=5)
+                each.reset()
+                each.step({})
+            changes(env)
+            env.step({})
+            twins = [env, copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+            plain.reset()
+            expected = [plain.step({}) for _ in range(5)]
+            for twin in twins:
+                twin.reset()
+                np.testing.assert_equal([twin.step({}) for _ in range(5)], expected)
+
+    def test_copies_and_pickles_keep_luck_that_was_given(self) -> None:
+        for luck in ({}, {"seed": 7}):
+            env = example("network")
+            steps_of(env, 5, 3)
+            env.set_state(env.get_state(), **luck)
+            env.step({})
+            twins = [copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+            expected = [env.step({}) for _ in range(5)]
+            state = env.get_state()
+            env.set_state(state)
+            after = env.step({})
+            for twin in twins:
+                np.testing.assert_equal([twin.step({}) for _ in range(5)], expected)
+                twin.set_state(state)
+                np.testing.assert_equal(twin.step({}), after)
+
+    def test_episodes_that_begin_in_a_state_have_luck_of_their_own(self) -> None:
+        env = example("network")
+        steps_of(env, 5, 3)
+        state = env.get_state()
+        found = set()
+        for _ in range(20):
+            env.reset(options={"state": state})
+            env.step({})
+            found.add(env.get_state())
+        self.assertGreater(len(found), 3)
+
     def test_interm_fluents_of_the_last_step(self) -> None:
         env = example("mountain_car")
         env.reset(seed=1)
@@ -226,6 +315,23 @@ class Masks(unittest.TestCase):
             self.assertNotEqual(env.action_space.sample(mask), 1)
 
 
+class Choices(unittest.TestCase):
+    def test_an_action_leaves_nothing_to_the_next(self) -> None:
+        """Whichever way each was given."""
+        forms = (lambda n: n, lambda n: {"action": n}, lambda n: np.array([n]), lambda n: np.int64(n))
+        for name in ("network", "robot"):
+            env, plain = (example(name, actions="simplified") for _ in range(2))
+            if not isinstance(env.action_space, gymnasium.spaces.Discrete):
+                continue
+            for each in (env, plain):
+                each.reset(seed=1)
+            last = int(env.action_space.n) - 1
+            for place, number in enumerate((1, last, 0, 2, last, 1, 0, last, 2, 1, 2, 0, last)):
+                form = forms[place % len(forms)]
+                np.testing.assert_equal(env.step(form(number)), plain.step(number))
+                np.testing.assert_array_equal(env._batch.action_values, plain._batch.action_values)
+
+
 class Processes(unittest.TestCase):
     def test_forked_and_spawned_processes_step(self) -> None:
         env = example("network")
@@ -274,6 +380,23 @@ class Pictures(unittest.TestCase):
         text = example("mountain_car", render_mode="ansi")
         text.reset(seed=1)
         self.assertIn("step 0", text.render())
+
+    def test_pictures_show_where_it_stands(self) -> None:
+        """Also after another state was set, in copies and in pickles."""
+        env = example("mountain_car", render_mode="rgb_array", render_size=(64, 64))
+        env.reset(seed=1)
+        start, first = env.get_state(), env.render()
+        for _ in range(30):
+            env.step({"throttle": 1.0})
+        later, shown = env.get_state(), env.render()
+        self.assertTrue((first != shown).any())
+        twins = [copy.deepcopy(env), pickle.loads(pickle.dumps(env))]
+        env.set_state(start)
+        np.testing.assert_array_equal(env.render(), first)
+        env.reset(options={"state": later})  # without the return until then
+        shown = env.render()
+        for twin in twins:
+            np.testing.assert_array_equal(twin.render(), shown)
 
     def test_movies_and_replay_pages(self) -> None:
         env = example("mountain_car", render_mode="rgb_array", render_size=(60, 40))

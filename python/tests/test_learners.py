@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 import tempfile
 import threading
 import time
@@ -83,6 +85,107 @@ class Learners(unittest.TestCase):
         model = rddlc.PPO(example("network"), environments=4, rollout=16, minibatch=64)
         model.learn(10_000, callback=lambda learner: seen.append(learner.steps) or len(seen) < 3)
         self.assertEqual(seen, [64, 128, 192])
+
+    def test_looks_meanwhile_see_what_is_learned(self) -> None:
+        """A look at the policy, in a callback, between calls of learn() or after a Ctrl-C, freezes
+        nothing."""
+        problem = example("mountain_car").problem
+        options = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
+        env = rddlc.make(problem)
+        seen: list[str] = []
+
+        def looks(model: rddlc.Learner) -> None:
+            env.reset(seed=1)
+            model.predict(env)
+            model.evaluate(1)
+            seen.append(model.policy_text)
+
+        kept = rddlc.PPO(problem, **options).learn(640)
+        looked = rddlc.PPO(problem, **options).learn(640, callback=looks)
+        self.assertEqual(len(set(seen)), 10)  # each update makes another policy
+        self.assertEqual(looked.policy_text, seen[-1])
+        self.assertEqual(looked.policy_text, kept.policy_text)
+        self.assertEqual(looked.evaluate(3), kept.evaluate(3))
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(looked.save(Path(folder) / "x").read_text(), kept.policy_text)
+        env.reset(seed=1)
+        fresh, _ = rddlc.PPO(problem, **options).learn(640).predict(env)
+        self.assertEqual(looked.predict(env)[0], fresh)
+
+    def test_an_error_in_a_callback_leaves_what_is_learned(self) -> None:
+        problem = example("mountain_car").problem
+        options = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
+
+        def fails(model: rddlc.Learner) -> None:
+            model.evaluate(1)
+            if model.steps == 128:
+                raise KeyError
+
+        model = rddlc.PPO(problem, **options)
+        with self.assertRaises(KeyError):
+            model.learn(640, callback=fails)
+        kept = rddlc.PPO(problem, **options).learn(640, callback=lambda m: m.steps < 128)
+        self.assertEqual(model.policy_text, kept.policy_text)
+
+    def test_the_best_policy_is_kept_beside_the_last(self) -> None:
+        """With a step size that spoils what was learned."""
+        problem = example("cart_pole").problem
+        model = rddlc.PPO(
+            problem, environments=4, rollout=32, minibatch=128, learning_rate=0.05,
+            schedule="constant", seed=1,
+        )  # fmt: skip
+        found: list[tuple[float, str]] = []
+        model.learn(128 * 20, callback=lambda m: found.append((m.progress["eval/mean_reward"], m.policy_text)))
+        returns = [each for each, _ in found]
+        self.assertEqual(len(found), 20)
+        self.assertLess(returns[-1], max(returns))
+        self.assertEqual(model.best_evaluation.returns.mean, max(returns))
+        best = model.best
+        self.assertIn(best.policy_text, [text for each, text in found if each == max(returns)])
+        self.assertEqual(model.policy_text, found[-1][1])
+        self.assertIsInstance(best, rddlc.PPO)
+        self.assertGreater(best.evaluate(20, seed=9).returns.mean, model.evaluate(20, seed=9).returns.mean)
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(model.save(Path(folder) / "b", best=True).read_text(), best.policy_text)
+            last = model.save(Path(folder) / "l")
+            self.assertEqual(last.read_text(), model.policy_text)
+            loaded = rddlc.PPO.load(last, problem)
+            self.assertEqual(loaded.best.policy_text, loaded.policy_text)
+        before = model.best_evaluation
+        model.learn(128)  # the best of all, not of the last call
+        self.assertFalse(before.is_better_than(model.best_evaluation))
+        self.assertTrue(model.best_evaluation == before or model.best_evaluation.is_better_than(before))
+
+    def test_learning_that_evaluates_nothing_has_no_best(self) -> None:
+        model = rddlc.CGP(example("mountain_car"), children=4, nodes=20).learn(5, evaluations=0)
+        self.assertIsNone(model.best_evaluation)
+        self.assertEqual(model.best.policy_text, model.policy_text)
+
+    def test_evaluations_change_nothing_that_is_learned(self) -> None:
+        for name in ("mountain_car", "network"):
+            texts = {
+                rddlc.CGP(example(name), children=4, nodes=20, seed=1)
+                .learn(60, evaluations=count)
+                .policy_text
+                for count in (0, 1, 20)
+            }
+            self.assertEqual(len(texts), 1)
+
+    def test_pickles_and_copies_learn_on_alike(self) -> None:
+        for model in self.models():
+            env = rddlc.make(model.problem)
+            env.reset(seed=1)
+            model.predict(env)
+            twins = [pickle.loads(pickle.dumps(model)), copy.deepcopy(model)]
+            amount = 64 if isinstance(model, rddlc.PPO) else 5
+            model.learn(amount)
+            for twin in twins:
+                self.assertNotEqual(twin.steps, model.steps)
+                twin.learn(amount)
+                self.assertEqual((twin.steps, twin.policy_text), (model.steps, model.policy_text))
+                self.assertEqual(twin.best_evaluation, model.best_evaluation)
+            loaded = pickle.loads(pickle.dumps(model.best))
+            self.assertEqual(loaded.policy_text, model.best.policy_text)
 
     def test_formulas_are_told(self) -> None:
         formula = str(self.models()[1])

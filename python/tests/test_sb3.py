@@ -96,6 +96,23 @@ class StableBaselines(unittest.TestCase):
             chosen, _ = model.predict(seen, action_masks=env.action_masks(), deterministic=False)
             env.step(chosen)  # raises for what is not allowed
 
+    def test_options_of_reset_are_taken_or_refused(self) -> None:
+        env = example("network")
+        env.reset(seed=1)
+        env.step({})
+        envs = vector("network", num_envs=3)
+        envs.seed(4)
+        envs.set_options([{"state": env.get_state()}, {}, {"state": env.get_state()}])
+        envs.reset()
+        self.assertEqual([envs.env._batch.progress(place)[0] for place in range(3)], [1, 0, 1])
+        envs.reset()  # options are for one reset
+        self.assertEqual([envs.env._batch.progress(place)[0] for place in range(3)], [0, 0, 0])
+        envs.set_options({"stat": env.get_state()})
+        with self.assertRaisesRegex(rddlc.Error, "'stat'; there are state"):
+            envs.reset()
+        with self.assertRaisesRegex(rddlc.Error, "'horizn'; there are .*horizon"):
+            sb3.make("network", 1, horizn=3)
+
     def test_other_autoreset_modes_are_refused(self) -> None:
         with self.assertRaisesRegex(rddlc.Error, "SameStep"):
             VecEnv(rddlc.make_vec(example("network").problem, num_envs=2))

@@ -192,6 +192,17 @@ class Planners(unittest.TestCase):
             chosen = domain.action(solver.sample_action(start))
         self.assertEqual(chosen, {"good": 1, "bad": 0})
 
+    def test_options_that_cannot_be_are_refused(self) -> None:
+        problem = problem_of_text(SURE)
+        for options, pattern in (
+            ({"level": 3}, "'level'; there are .*levels"),
+            ({"engine": "interpreter"}, "loaded already"),
+            ({"horizon": -1}, "horizon is -1"),
+            ({"most_reward": float("nan")}, "most_reward is nan"),
+        ):
+            with self.assertRaisesRegex(rddlc.Error, pattern):
+                RDDLPlanning(problem, **options)
+
     def test_a_wrong_bound_of_rewards_is_told(self) -> None:
         domain = RDDLPlanning(problem_of_text(SURE))
         state = domain.transitions.start()

@@ -176,6 +176,17 @@ class TransitionsTest(unittest.TestCase):
             self.assertEqual(state.steps, steps)
         self.assertEqual(rddlc.causes.text_of(state.causes), "horizon")
 
+    def test_draws_are_new_and_those_of_the_seed(self) -> None:
+        def drawn(seed: int) -> list[rddlc.State]:
+            transitions = Transitions(problem_of_text(COINS), seed=seed)
+            both = number_of(transitions, toss___a=1, toss___b=1)
+            start = transitions.start()
+            return [transitions.sample(start, both).state for _ in range(200)]
+
+        self.assertEqual(len(set(drawn(1))), 4)
+        self.assertEqual(drawn(1), drawn(1))
+        self.assertNotEqual(drawn(1)[1:], drawn(2)[:-1])  # seeds in a row share no draws
+
     def test_it_can_be_pickled(self) -> None:
         transitions = Transitions(example("mountain_car").problem, levels=5)
         again = pickle.loads(pickle.dumps(transitions))

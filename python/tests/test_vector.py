@@ -105,6 +105,74 @@ class Ends(unittest.TestCase):
         self.assertFalse(envs.step(np.zeros(COUNT, int))[3][mask].any())
 
 
+class States(unittest.TestCase):
+    def state(self) -> rddlc.State:
+        env = example("network")
+        env.reset(seed=9)
+        for _ in range(3):
+            env.step({})
+        return env.get_state()
+
+    def rows_of(self, envs: rddlc.RDDLVectorEnv) -> list[bytes]:
+        record = np.zeros(envs.model.state_size, np.uint8)
+        found = []
+        for place in range(envs.num_envs):
+            envs._batch.read_state(place, record)
+            found.append((record.tobytes(), envs._batch.progress(place)[0]))
+        return found
+
+    def test_all_environments_begin_in_a_state(self) -> None:
+        state = self.state()
+        for form in FORMS:
+            envs = vector(**form)
+            scales = form.get("normalize", False)
+            single = rddlc.make(envs.problem, observations="flat", normalize=scales)
+            expected, _ = single.reset(seed=1, options={"state": state})
+            observations, _ = envs.reset(seed=1, options={"state": state})
+            self.assertEqual(self.rows_of(envs), [(state.record, state.steps)] * COUNT)
+            if not isinstance(observations, dict):
+                np.testing.assert_array_equal(observations, np.tile(expected, (COUNT, 1)))
+            envs.action_space.seed(1)
+            envs.step(envs.action_space.sample())
+            self.assertGreater(len(set(self.rows_of(envs))), 5)  # each has luck of its own
+
+    def test_some_environments_begin_in_states(self) -> None:
+        state, envs, plain = self.state(), vector(), vector()
+        mask = np.arange(COUNT) % 2 == 0
+        for each in (envs, plain):
+            each.reset(seed=1)
+            each.step(np.zeros(COUNT, int))
+        before = self.rows_of(envs)
+        envs.reset(options={"reset_mask": mask, "state": state})
+        for place, row in enumerate(self.rows_of(envs)):
+            self.assertEqual(row, (state.record, 3) if mask[place] else before[place])
+        start = self.rows_of(vector_reset(plain))[0]
+        states = [state if place == 4 else None for place in range(COUNT)]
+        envs.reset(options={"state": states})
+        self.assertEqual(self.rows_of(envs)[4], (state.record, 3))
+        self.assertEqual(self.rows_of(envs)[5], start)
+
+    def test_a_refused_reset_changes_nothing(self) -> None:
+        envs, plain = vector(), vector()
+        for each in (envs, plain):
+            each.reset(seed=1)
+        for call in (
+            lambda: envs.reset(seed=2, options={"stat": 1}),
+            lambda: envs.reset(seed=2, options={"state": 1}),
+            lambda: envs.reset(seed=[5] * (COUNT - 1) + [1 << 64]),
+            lambda: envs.reset(seed=2, options={"reset_mask": np.ones(3, bool)}),
+        ):
+            with self.assertRaises(rddlc.Error):
+                call()
+        for _ in range(5):
+            np.testing.assert_equal(envs.step(np.zeros(COUNT, int)), plain.step(np.zeros(COUNT, int)))
+
+
+def vector_reset(envs: rddlc.RDDLVectorEnv) -> rddlc.RDDLVectorEnv:
+    envs.reset()
+    return envs
+
+
 class Arrays(unittest.TestCase):
     def test_copies_stay_and_views_change(self) -> None:
         for copies in (True, False):

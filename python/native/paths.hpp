@@ -1,0 +1,17 @@
+// Paths that Python gives.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+#include <vector>
+
+namespace rddlc::python {
+
+// A str, bytes or os.PathLike. Every native call takes its paths through this: a path that is cut
+// at a NUL character, or that Python and C++ write differently, is another file. Throws Refused for
+// a NUL character and for a name that is not UTF-8.
+std::string path_of(nanobind::handle given);
+std::vector<std::string> paths_of(nanobind::handle list);
+
+}  // namespace rddlc::python

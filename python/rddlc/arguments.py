@@ -1,0 +1,113 @@
+"""Arguments that cannot be are refused before anything is done, with what they are and what may be."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from operator import index
+from typing import Any
+
+import numpy as np
+
+from .errors import ArgumentError
+
+MOST_INT64 = (1 << 63) - 1
+MOST_THREADS = 4096  # that of `rddl --threads`
+SEEDS = 1 << 64  # a seed is below that
+
+
+def whole(name: str, given: Any, least: int, most: int = MOST_INT64) -> int:
+    """An int, of Python or numpy, from `least` to `most`."""
+    number = _int_of(name, given)
+    if number < least:
+        words = {0: "zero", 1: "one"}
+        raise ArgumentError(f"{name} is {shown(number)}: {words.get(least, least)} or more")
+    if number > most:
+        raise ArgumentError(f"{name} is {shown(number)}: no more than {most}")
+    return number
+
+
+def _int_of(name: str, given: Any) -> int:
+    """A bool is refused: it is another argument, in the wrong place. So is an array, however small."""
+    try:
+        if isinstance(given, (bool, np.bool_, np.ndarray)):
+            raise TypeError
+        return index(given)
+    except TypeError:
+        raise ArgumentError(f"{name} is {shown(given)}, which is not a whole number") from None
+
+
+def whole_or_none(name: str, given: Any, least: int, most: int = MOST_INT64) -> int | None:
+    return None if given is None else whole(name, given, least, most)
+
+
+def seed_of(given: Any) -> int:
+    """A seed of 64 bits."""
+    number = _int_of("seed", given)
+    if not 0 <= number < SEEDS:
+        raise ArgumentError(f"seed is {shown(number)}: greater or equal to zero, and below 2^64")
+    return number
+
+
+def seed_or_none(given: Any) -> int | None:
+    return None if given is None else seed_of(given)
+
+
+def thread_count(given: Any) -> int:
+    """0: one for each core."""
+    return whole("threads", given, 0, MOST_THREADS)
+
+
+def finite(name: str, given: Any) -> float:
+    """A number that is neither nan nor infinite."""
+    is_number = isinstance(given, (int, float, np.integer, np.floating))
+    try:
+        number = float(given) if is_number and not isinstance(given, bool) else math.nan
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise ArgumentError(f"{name} is {shown(given)}, which is not a finite number")
+    return number
+
+
+def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
+    if not any(given is each or (isinstance(given, str) and given == each) for each in known):
+        raise ArgumentError(f"{name} is {shown(given)}, which is none of {_listed(map(repr, known))}")
+    return given
+
+
+def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> None:
+    """what: "option". Else a misspelt name would be a setting that does nothing."""
+    for name in given:
+        if name not in known:
+            raise ArgumentError(f"there is no {what} {shown(name)}; there are {_listed(known)}")
+
+
+def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:
+    """The `options` of a reset; empty for None."""
+    if options is None:
+        return {}
+    if not isinstance(options, Mapping):
+        raise ArgumentError(f"options are a dictionary, not a {type(options).__name__}")
+    refuse_unknown("option of reset", options, known)
+    return options
+
+
+def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:
+    """What it takes by name alone."""
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(each.name for each in parameters if each.kind is each.KEYWORD_ONLY)
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(names)
+
+
+def shown(given: Any) -> str:
+    """For a message: not too long."""
+    try:
+        text = repr(given)
+    except ValueError:  # Python writes no int of thousands of digits
+        text = f"a number of {given.bit_length()} bits"
+    return text if len(text) <= 40 else text[:37] + "..."
