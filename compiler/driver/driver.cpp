@@ -178,6 +178,8 @@ void run_stages(Run& run) {
     });
     if (diagnostics.has_errors()) return;
     grounded->real = run.options.real;
+    if (!grounded->externals.empty())
+        grounded->fingerprint = with_extern_headers(grounded->fingerprint, run.options);
     run.show(Form::Ir, [&] { return ir::print(*grounded); });
     if (run.ends_after(Stage::Ground)) return;
 

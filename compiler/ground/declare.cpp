@@ -1,5 +1,7 @@
 #include "ground/declare.hpp"
 
+#include "model/fingerprint.hpp"
+
 #include <utility>
 
 namespace rddlc::grounding {
@@ -97,6 +99,7 @@ Declarations declare(const model::Model& model, const Finiteness& finiteness) {
     ir::Program& program = result.program;
     program.domain_name = model.domain_name;
     program.instance_name = model.instance_name;
+    program.fingerprint = model::fingerprint(model);
     program.horizon = model.horizon;
     program.discount = model.discount;
     program.max_nondef_actions = model.max_nondef_actions;
