@@ -120,14 +120,14 @@ class Learner:
 
     def predict(self, env: RDDLEnv | RDDLVectorEnv) -> tuple[Any, None]:
         """The action, as env.step takes it, for where `env` stands; None, as Stable-Baselines3 has a
-        second result. `env` is of the same problem and has actions="dict". Call it once before
-        each step."""
+        second result. `env` is of any instance that the policy may act in, and has actions="dict".
+        Call it once before each step."""
         if self._policy is None:
             self._policy, self._acts_in = self.policy(), None
         batch = env._batch
         self._policy.act(batch, self._acts_in is not env)
         self._acts_in = env
-        fluents = self.problem.model.actions
+        fluents = env.problem.model.actions
         if isinstance(env, RDDLVectorEnv):
             return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True), None
         if env._forms["actions"] != "dict":

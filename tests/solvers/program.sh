@@ -46,5 +46,4 @@ done
 test ! -e "$folder/x"
 # The preset comes first wherever it stands, and every option is there.
 "$ppo" train --out "$folder/preset" --steps 4096 --minibatch 128 --preset sb3 --epochs 1 --squash on --noise white
-"$cgp" train --out "$folder/functions" --gens 5 --functions add,sub,const --time-input --fitness min 2> "$folder/err" ||
-  grep "'const' is no function of CGP" "$folder/err"
+"$cgp" train --out "$folder/functions" --gens 5 --functions add,logic --time-input --fitness min
