@@ -401,6 +401,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 0,
     .terminations = terminations,
     .termination_count = 1,
+    .fingerprint = 0x45b7121cd5d97afa,
 };
 
 inline constexpr rddl::SiteVariable scope_v[] = {{"v", &types[1]}};

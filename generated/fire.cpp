@@ -406,6 +406,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 1,
     .terminations = nullptr,
     .termination_count = 0,
+    .fingerprint = 0x683d75749be8cc5d,
 };
 
 inline constexpr rddl::SiteVariable scope_c_r[] = {{"c", &types[0]}, {"r", &types[1]}};

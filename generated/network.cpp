@@ -218,6 +218,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 0,
     .terminations = nullptr,
     .termination_count = 0,
+    .fingerprint = 0xf03c15b9a1e51eaa,
 };
 
 inline constexpr rddl::SiteVariable scope_c[] = {{"c", &types[0]}};

@@ -290,6 +290,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 0,
     .terminations = nullptr,
     .termination_count = 0,
+    .fingerprint = 0x451c96289249a0b0,
 };
 
 // clang-format off

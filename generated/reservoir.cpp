@@ -433,6 +433,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 2,
     .terminations = nullptr,
     .termination_count = 0,
+    .fingerprint = 0x427c050fd0c49cd2,
 };
 
 inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};

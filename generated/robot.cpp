@@ -464,6 +464,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 0,
     .terminations = terminations,
     .termination_count = 1,
+    .fingerprint = 0xba23d4c650198368,
 };
 
 inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};

@@ -283,6 +283,7 @@ inline constexpr rddl_problem problem = {
     .invariant_count = 0,
     .terminations = terminations,
     .termination_count = 1,
+    .fingerprint = 0xf2eeac6efe15191f,
 };
 
 // clang-format off

@@ -1,14 +1,10 @@
 #include "command_line/command_line.hpp"
+#include "support/number_word.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <sstream>
-#include <string_view>
-#include <type_traits>
 #include <utility>
 
 namespace rddlc::cli {
@@ -25,27 +21,6 @@ Option& add(Command& command, OptionKind kind, const std::string& names,
     option.explanation = explanation;
     option.take = std::move(take);
     return command.options.emplace_back(std::move(option));
-}
-
-template <class Number>
-bool reads_as(std::string_view word, Number& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc{} && end == word.data() + word.size();
-}
-
-// 1e6 is an int, too; beyond 2^53 a double is none.
-template <class Number>
-bool reads_as_number(std::string_view word, Number& value) {
-    if (reads_as(word, value)) return true;
-    if constexpr (std::is_integral_v<Number>) {
-        double real = 0;
-        if (!reads_as(word, real) || std::trunc(real) != real || std::abs(real) >= 0x1p53)
-            return false;
-        if (!std::in_range<Number>(static_cast<std::int64_t>(real))) return false;
-        value = static_cast<Number>(real);
-        return true;
-    }
-    return false;
 }
 
 }  // namespace
@@ -110,14 +85,8 @@ Option& add_flag(Command& command, const std::string& names, const std::string& 
 
 template <class Number>
 Number number_of(const std::string& option, const std::string& word, Number least, Number most) {
-    Number value{};
-    if (reads_as_number(word, value) && value >= least && value <= most) return value;
-    if (std::is_integral_v<Number> && most == std::numeric_limits<Number>::max() && least >= 0 &&
-        least <= 1)
-        throw UsageError(fmt::format("{}: '{}' is not {}", option, word,
-                                     least == 0 ? "an int from 0 on" : "a positive int"));
-    throw UsageError(fmt::format("{}: '{}' is not {} from {} to {}", option, word,
-                                 std::is_integral_v<Number> ? "an int" : "a number", least, most));
+    if (const auto value = number_in_word<Number>(word, least, most)) return *value;
+    throw UsageError(fmt::format("{}: {}", option, no_number_in_word<Number>(word, least, most)));
 }
 template int number_of(const std::string&, const std::string&, int, int);
 template std::int64_t number_of(const std::string&, const std::string&, std::int64_t, std::int64_t);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <deque>
@@ -112,9 +113,16 @@ std::vector<std::string> command_names(const Command& program) {
     return names;
 }
 
+// A handful of commands are listed, if none of them is meant.
 std::string unknown_command(const std::string& name, const Command& program) {
-    return fmt::format("no command is called '{}'{}", name,
-                       did_you_mean_text(name, command_names(program)));
+    constexpr std::size_t handful = 4;
+    std::string end = did_you_mean_text(name, command_names(program));
+    if (end.empty() && program.commands.size() <= handful) {
+        std::vector<std::string> names;
+        for (const Command& command : program.commands) names.push_back(command.name);
+        end = fmt::format("; '{}' has {}", program.name, fmt::join(names, " and "));
+    }
+    return fmt::format("no command is called '{}'{}", name, end);
 }
 
 // What is wrong with words that CLI11 does not take, in words that help.

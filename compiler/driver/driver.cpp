@@ -191,6 +191,8 @@ void run_stages(Run& run) {
     });
     if (diagnostics.has_errors()) return;
     set_real(*grounded, run.options.real);
+    if (!grounded->externals.empty())
+        grounded->fingerprint = with_extern_headers(grounded->fingerprint, run.options);
     run.show(Form::Ir, [&] { return ir::print(*grounded); });
     if (run.ends_after(Stage::Ground)) return;
 

@@ -3,6 +3,7 @@
 #include "driver/codes.hpp"
 #include "driver/files.hpp"
 #include "ir/analysis.hpp"
+#include "support/text_hash.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -122,6 +124,16 @@ std::vector<fs::path> with_included_files(const std::vector<fs::path>& headers) 
         waiting.insert(waiting.end(), included.rbegin(), included.rend());
     }
     return files;
+}
+
+std::uint64_t with_extern_headers(std::uint64_t fingerprint, const CompileOptions& options) {
+    TextHash hash;
+    hash.add(fingerprint);
+    for (const fs::path& file : with_included_files(options.extern_headers)) {
+        std::ifstream stream(file, std::ios::binary);
+        hash.add(std::string(std::istreambuf_iterator<char>(stream), {}));
+    }
+    return hash.value();
 }
 
 }  // namespace rddlc

@@ -5,6 +5,7 @@
 #include "ir/ir.hpp"
 #include "support/diagnostic.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ void report_undefined_externals(const ir::Program& program, const CompileOptions
 // The headers as #include finds them from the folder of the output; as given without one,
 // and in full for a shared object.
 std::vector<std::string> include_paths(const CompileOptions& options);
+
+// A fingerprint of dynamics, to which those of the headers are added.
+std::uint64_t with_extern_headers(std::uint64_t fingerprint, const CompileOptions& options);
 
 // The headers and the files that they #include by "name", as far as these exist: what an emitted
 // file depends on.

@@ -347,6 +347,7 @@ class Describer {
         table("preconditions", "precondition_count", program.preconditions.size());
         table("invariants", "invariant_count", program.invariants.size());
         table("terminations", "termination_count", program.terminations.size());
+        field("fingerprint", fmt::format("0x{:016x}", program.fingerprint));
         add(text + "};\n");
     }
 

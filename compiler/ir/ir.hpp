@@ -299,6 +299,7 @@ struct Policy {
 struct Program {
     std::string domain_name;
     std::string instance_name;
+    std::uint64_t fingerprint = 0;  // of the dynamics (model/fingerprint.hpp)
     // Of emitted code. Constants are those of doubles here, and rounded where they are written.
     RealType real = RealType::Double;
     // --fast-math: reals that are computed are taken to be never inf or nan.

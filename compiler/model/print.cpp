@@ -118,7 +118,7 @@ std::string policy_text(const Model& model, const Policy& policy) {
 
 }  // namespace
 
-std::string print(const Model& model) {
+std::string print_problem(const Model& model) {
     std::string text = header(model);
     if (!model.types.empty()) text += "\ntypes\n";
     for (const Type& type : model.types) text += type_line(type);
@@ -131,6 +131,11 @@ std::string print(const Model& model) {
     text += conditions(model, "action-preconditions", model.action_preconditions);
     text += conditions(model, "state-invariants", model.state_invariants);
     text += conditions(model, "termination", model.terminations);
+    return text;
+}
+
+std::string print(const Model& model) {
+    std::string text = print_problem(model);
     if (model.policy) text += policy_text(model, *model.policy);
     return text;
 }

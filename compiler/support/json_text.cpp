@@ -42,6 +42,13 @@ nlohmann::json json_if_valid(std::string_view text) {
     return nlohmann::json::parse(text, nullptr, false);
 }
 
+std::string json_excerpt(const nlohmann::json& value) {
+    constexpr std::size_t most = 40;
+    if (value.is_structured()) return value.is_array() ? "an array" : "an object";
+    const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    return text.size() > most ? text.substr(0, most) + "..." : text;
+}
+
 std::string json_line(const nlohmann::ordered_json& value) {
     return text_of(value, -1);
 }

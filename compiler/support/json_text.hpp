@@ -26,6 +26,10 @@ nlohmann::ordered_json parse_ordered_json(std::string_view text);
 // What other programs wrote: `discarded` (nlohmann's word) where it is no JSON.
 nlohmann::json json_if_valid(std::string_view text);
 
+// The beginning of a value that somebody else wrote, for messages: ASCII without control
+// characters.
+std::string json_excerpt(const nlohmann::json& value);
+
 // Names of files may hold bytes that are not UTF-8: these become U+FFFD.
 // Without line breaks.
 std::string json_line(const nlohmann::ordered_json& value);

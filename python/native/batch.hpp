@@ -48,6 +48,7 @@ class Batch {
     Batch& operator=(const Batch&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
+    const cli::Simulator& shared_simulator() const { return simulator_; }
     const BatchSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 

@@ -6,9 +6,11 @@
 #include "native/options.hpp"
 #include "native/paths.hpp"
 #include "solvers/cgp/formula.hpp"
+#include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/evaluation/summary.hpp"
+#include "solvers/ppo/option_table.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "support/files.hpp"
 
@@ -39,15 +41,19 @@ using cli::Simulator;
 // A policy, which acts in one batch at a time.
 class Policy {
   public:
-    Policy(Simulator simulator, solvers::Policy policy)
-        : simulator_(std::move(simulator)), policy_(std::move(policy)) {}
+    // The policy as it acts in a simulator; throws where it is of other spaces.
+    using Make = std::function<solvers::Policy(const rddl_simulator&)>;
+
+    Policy(Simulator simulator, Make make)
+        : simulator_(std::move(simulator)), make_(std::move(make)), policy_(make_(*simulator_)) {}
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
     void act(Batch& batch, bool begins) {
+        const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
-        if (begins || !actor_ || running_.size() != count) {
-            actor_ = policy_.start(batch.settings().environments);
+        if (begins || is_bound || !actor_ || running_.size() != count) {
+            actor_ = acting_->start(batch.settings().environments);
             running_.assign(count, 1);
             violated_.assign(count, -1);
             episodes_.assign(count, 0);
@@ -85,8 +91,23 @@ class Policy {
     }
 
   private:
-    Simulator simulator_;  // outlives the policy
+    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // unless it acts there already. A policy that does not fit leaves everything as it is.
+    bool bind(const Batch& batch) {
+        if (acting_ && acts_in_ == batch.shared_simulator()) return false;
+        const Simulator simulator = batch.shared_simulator();
+        solvers::Policy policy = make_(*simulator);
+        actor_ = nullptr;
+        acting_ = std::move(policy);
+        acts_in_ = simulator;
+        return true;
+    }
+
+    Simulator simulator_;  // that it was learned in; outlives the policy
+    Make make_;
     solvers::Policy policy_;
+    Simulator acts_in_;  // outlives all that follows
+    std::optional<solvers::Policy> acting_;
     solvers::Actor actor_;
     std::vector<std::uint8_t> running_;
     std::vector<std::int64_t> episodes_, steps_;
@@ -109,11 +130,16 @@ class Learner {
         : simulator_(std::move(simulator)), trainee_(std::move(trainee)), stop_(std::move(stop)) {}
 
     bool done() { return trainee().done(); }
-    // Ctrl-C ends it early, and leaves what has been learned by then.
+    // Ctrl-C ends it early, and leaves what was learned before it.
     void update() {
         calls_.finish();
         *stop_ = false;
-        calls_.run([this] { trainee_.update(); }, {}, [this] { *stop_ = true; });
+        const auto work = [this] {
+            const std::string before = trainee_.save();
+            trainee_.update();
+            if (*stop_) trainee_.load(before);
+        };
+        calls_.run(work, {}, [this] { *stop_ = true; });
     }
     std::int64_t steps() { return trainee().steps(); }
     std::string policy_text() { return trainee().policy_text(); }
@@ -143,75 +169,43 @@ class Learner {
     LongCalls calls_{true};  // the last one: an update that goes on works with the others
 };
 
-Learner ppo(const LoadedProblem& problem, const std::string& preset, const nb::dict& given) {
-    const auto known = solvers::preset(preset);
-    if (!known) throw Refused(fmt::format("there is no preset '{}': fast, sb3, rllib", preset));
-    solvers::PpoOptions ppo = *known;
+// What command lines have by other means.
+template <class Options>
+solvers::OptionTable<Options> with_common(solvers::OptionTable<Options> table) {
+    table.push_back(solvers::seed_option<Options>());
+    table.push_back(solvers::memory_option<Options>());
+    return table;
+}
+solvers::OptionTable<solvers::PpoOptions> ppo_keywords() {
+    return with_common(solvers::ppo_option_table());
+}
+solvers::OptionTable<solvers::CgpOptions> cgp_keywords() {
+    return with_common(solvers::cgp_option_table());
+}
+
+Learner ppo(const LoadedProblem& problem, const nb::dict& given) {
+    solvers::PpoOptions ppo;
+    set_options(ppo_keywords(), given, ppo);
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     ppo.stops = asks(stop);
-    Options options(given);
-    options.take("steps", ppo.steps);
-    options.take("environments", ppo.environments);
-    options.take("rollout", ppo.rollout);
-    options.take("epochs", ppo.epochs);
-    options.take("minibatch", ppo.minibatch);
-    options.take("learning_rate", ppo.learning_rate);
-    options.take("schedule", ppo.schedule,
-                 {{"linear", solvers::LearningRate::Linear},
-                  {"constant", solvers::LearningRate::Constant},
-                  {"kl", solvers::LearningRate::Kl}});
-    options.take("gamma", ppo.gamma);
-    options.take("gae_lambda", ppo.lambda);
-    options.take("clip", ppo.clip);
-    options.take("value_weight", ppo.value_weight);
-    options.take("gradient_norm", ppo.gradient_norm);
-    options.take("hidden", ppo.hidden);
-    options.take("activation", ppo.activation,
-                 {{"tanh", solvers::Activation::Tanh}, {"relu", solvers::Activation::Relu}});
-    options.take("stack", ppo.observations.stack);
-    options.take("recurrent", ppo.recurrent);
-    options.take("segment", ppo.segment);
-    options.take("seed", ppo.seed);
-    options.take("threads", ppo.threads);
-    options.finish();
     const nb::gil_scoped_release released;
     return {problem.simulator, solvers::ppo_trainee(*problem.simulator, ppo), stop};
 }
 
 Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
     solvers::CgpOptions cgp;
+    set_options(cgp_keywords(), given, cgp);
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     cgp.stops = asks(stop);
-    std::vector<std::string> functions;
-    Options options(given);
-    options.take("generations", cgp.generations);
-    options.take("children", cgp.children);
-    options.take("nodes", cgp.nodes);
-    options.take("constants", cgp.constants);
-    options.take("functions", functions);
-    options.take("episodes", cgp.episodes);
-    options.take("measure", cgp.measure,
-                 {{"mean", solvers::Measure::Mean},
-                  {"median", solvers::Measure::Median},
-                  {"min", solvers::Measure::Minimum},
-                  {"cvar", solvers::Measure::WorstFifth}});
-    options.take("restart_after", cgp.restart_after);
-    options.take("tune_every", cgp.tune_every);
-    options.take("islands", cgp.islands);
-    options.take("threads", cgp.threads);
-    options.take("time", cgp.time);
-    options.take("compat", cgp.skdecide, {{"none", false}, {"skdecide", true}});
-    options.take("seed", cgp.seed);
-    options.finish();
-    if (!functions.empty()) cgp.functions = solvers::functions_named(functions);
     const nb::gil_scoped_release released;
     return {problem.simulator, solvers::cgp_trainee(*problem.simulator, cgp), stop};
 }
 
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
                       std::uint64_t seed) {
-    return {problem.simulator,
-            cli::policy_of_text(*problem.simulator, text, random, seed, "learned")};
+    return {problem.simulator, [text, random, seed](const rddl_simulator& simulator) {
+                return cli::policy_of_text(simulator, text, random, seed, "learned");
+            }};
 }
 
 std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {
@@ -266,8 +260,10 @@ void add_learners(nb::module_& module) {
         .def("summary", &Learner::summary)
         .def("save", &Learner::save)
         .def("load", &Learner::load);
-    module.def("ppo", ppo, nb::arg("simulator"), nb::arg("preset"), nb::arg("options"));
+    module.def("ppo", ppo, nb::arg("simulator"), nb::arg("options"));
     module.def("cgp", cgp, nb::arg("simulator"), nb::arg("options"));
+    module.def("ppo_options", [] { return options_help(ppo_keywords()); });
+    module.def("cgp_options", [] { return options_help(cgp_keywords()); });
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
     module.def("write_file", write_policy, nb::arg("path"), nb::arg("text"));
     module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),

@@ -1,59 +1,63 @@
-// Options that Python gives by their names.
+// Options of learners that Python gives by their keywords.
 #pragma once
 
 #include "native/problem.hpp"
+#include "solvers/options/options.hpp"
 
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rddlc::python {
 
-class Options {
-  public:
-    explicit Options(nanobind::dict given) : given_(std::move(given)) {}
+// A value as a command line would have it.
+inline std::string word_of(nanobind::handle value) {
+    if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "on" : "off";
+    return nanobind::str(value).c_str();
+}
 
-    // Leaves the target as it is where the option is not given.
-    template <class T>
-    void take(const char* name, T& target) {
-        if (!given_.contains(name)) return;
-        const nanobind::object value = given_[name];
-        if (!nanobind::try_cast(value, target))
-            throw Refused(fmt::format("{} cannot be {}", name, nanobind::repr(value).c_str()));
-        PyDict_DelItemString(given_.ptr(), name);
-    }
+inline std::vector<std::string> words_of(nanobind::handle value, bool is_list) {
+    const bool is_one =
+        nanobind::isinstance<nanobind::str>(value) || !PySequence_Check(value.ptr());
+    if (!is_list || is_one) return {word_of(value)};
+    std::vector<std::string> words;
+    for (const nanobind::handle each : nanobind::iter(value)) words.push_back(word_of(each));
+    return words;
+}
 
-    // One of these words.
-    template <class T>
-    void take(const char* name, T& target, const std::vector<std::pair<std::string, T>>& words) {
-        std::string given;
-        take(name, given);
-        if (given.empty()) return;
-        std::string known;
-        for (const auto& [word, value] : words) {
-            if (word == given) {
-                target = value;
-                return;
-            }
-            known += known.empty() ? word : ", " + word;
+// Throws Refused, with the keyword, where one is not known, or has a value that it does not take.
+template <class Options>
+void set_options(const solvers::OptionTable<Options>& table, const nanobind::dict& given,
+                 Options& options) {
+    std::vector<std::string> known;
+    for (const solvers::LearnerOption<Options>& option : table) {
+        known.push_back(option.keyword);
+        if (!given.contains(option.keyword.c_str())) continue;
+        const nanobind::object value = given[option.keyword.c_str()];
+        try {
+            option.set(options, words_of(value, option.is_list));
+        } catch (const solvers::OptionRefused& refused) {
+            throw Refused(fmt::format("{}: {}", option.keyword, refused.what()));
         }
-        throw Refused(fmt::format("{} is '{}', which is none of {}", name, given, known));
     }
-
-    // Refuses what nobody has taken.
-    void finish() const {
-        for (const auto [name, value] : given_)
-            throw Refused(
-                fmt::format("there is no option '{}'", nanobind::cast<std::string>(name)));
+    for (const auto [name, value] : given) {
+        const auto keyword = nanobind::cast<std::string>(name);
+        if (std::ranges::find(known, keyword) == known.end())
+            throw Refused(solvers::unknown_option(keyword, known));
     }
+}
 
-  private:
-    nanobind::dict given_;
-};
+// A line for each option: its keyword, its values and what it is.
+template <class Options>
+std::string options_help(const solvers::OptionTable<Options>& table) {
+    std::string text;
+    for (const solvers::LearnerOption<Options>& option : table)
+        text += fmt::format("    {}: {}\n", option.keyword, option.help);
+    return text;
+}
 
 }  // namespace rddlc::python

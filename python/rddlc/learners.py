@@ -201,14 +201,14 @@ class Learner:
 
     def predict(self, env: RDDLEnv | RDDLVectorEnv) -> tuple[Any, None]:
         """The action, as env.step takes it, for where `env` stands; None, as Stable-Baselines3 has a
-        second result. `env` is of the same problem and has actions="dict". Call it once before
-        each step."""
+        second result. `env` is of any instance that the policy may act in, and has actions="dict".
+        Call it once before each step."""
         if self._actor is None:
-            self._actor = self.policy()
+            self._actor, self._acts_in = self.policy(), None
         batch = env._batch
         self._actor.act(batch, self._acts_in is not env)
         self._acts_in = env
-        fluents = self.problem.model.actions
+        fluents = env.problem.model.actions
         if isinstance(env, RDDLVectorEnv):
             return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True), None
         if env._forms["actions"] != "dict":
@@ -279,30 +279,32 @@ class Learner:
 class PPO(Learner):
     """Proximal policy optimisation: a neural network.
 
-    preset: "fast", "sb3" (Stable-Baselines3's defaults) or "rllib". options, as `rddl help train ppo`
-    tells them: environments, rollout, epochs, minibatch, learning_rate, schedule ("linear",
-    "constant", "kl"), gamma, gae_lambda, clip, value_weight, gradient_norm, hidden (a list),
-    activation ("tanh", "relu"), stack, recurrent, segment, seed, threads.
+    Options are keywords, with the values that `rddl help train ppo` lists; lists are Python's, and
+    True and False are on and off:
+
     """
+
+    __doc__ = (__doc__ or "") + _native.ppo_options()
 
     extension, total = ".json", "steps"
 
-    def __init__(self, env_or_problem: Solvable, *, preset: str = "fast", **options: Any) -> None:
+    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
         super().__init__(env_or_problem, **options)
-        self._preset = preset
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        return _native.ppo(self.problem.simulator, self._preset, options)
+        return _native.ppo(self.problem.simulator, options)
 
 
 class CGP(Learner):
     """Cartesian genetic programming: a formula, which str() tells.
 
-    options, as `rddl help train cgp` tells them: children, nodes, constants, functions (a list of
-    names or groups), episodes, measure ("mean", "median", "min", "cvar"), restart_after, tune_every,
-    islands, threads, time, compat ("skdecide": programs as scikit-decide has them), seed.
+    Options are keywords, with the values that `rddl help train cgp` lists; lists are Python's, and
+    True and False are on and off:
+
     """
+
+    __doc__ = (__doc__ or "") + _native.cgp_options()
 
     extension, total = ".cgp", "generations"
 

@@ -9,6 +9,7 @@ import threading
 import time
 import unittest
 from pathlib import Path
+from typing import Any
 
 from support import example
 
@@ -199,6 +200,102 @@ class Learners(unittest.TestCase):
                 rddlc.PPO(problem, **options)
         with self.assertRaisesRegex(rddlc.Error, "learn"):
             rddlc.PPO(problem).evaluate()
+
+    def test_options_beyond_their_ranges_are_refused_by_their_keywords(self) -> None:
+        problem = example("network").problem
+        ppo: dict[str, list[Any]] = {
+            "minibatch": [0, -3, "many", None, 1.5], "epochs": [-1, 0], "clip": [float("nan"), -1],
+            "gamma": [2, float("inf")], "rollout": [0], "environments": [0, 2**40], "stack": [0, 2000],
+            "threads": [0], "hidden": [[0], [64, -1], []], "recurrent": [-1], "segment": [1],
+            "learning_rate": [-1], "squash": ["maybe", 1], "seed": [-1, 2**64], "memory_limit": [0],
+            "log_std": [99], "preset": ["x"], "noise": [3], "value_clip": [-1],
+        }  # fmt: skip
+        cgp: dict[str, list[Any]] = {
+            "nodes": [-1, 0], "children": [0, -2], "islands": [0, 99_999], "levels_back": [-1],
+            "episodes": [0], "constants": [-1, 1e9], "measure": ["best"], "lifted": [None],
+            "restart_after": [-1], "time": ["perhaps"], "compat": [True], "functions": [[]],
+        }  # fmt: skip
+        for learner, wrong in ((rddlc.PPO, ppo), (rddlc.CGP, cgp)):
+            for keyword, values in wrong.items():
+                for value in values:
+                    with self.subTest(keyword=keyword, value=value):
+                        with self.assertRaisesRegex(rddlc.Error, f"^{keyword}: "):
+                            learner(problem, **{keyword: value})
+
+    def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
+        problem = example("network").problem
+        with self.assertRaisesRegex(rddlc.Error, "'minibach'; did you mean 'minibatch'"):
+            rddlc.PPO(problem, minibach=5)
+        with self.assertRaisesRegex(rddlc.Error, "'node'; did you mean 'nodes'"):
+            rddlc.CGP(problem, node=5)
+
+    def test_every_option_of_the_command_line_is_a_keyword(self) -> None:
+        problem = example("network").problem
+        rddlc.PPO(
+            problem, environments=4, rollout=16, epochs=1, minibatch=32, learning_rate=1e-3,
+            schedule="kl", gamma=0.9, gae_lambda=1, clip=0.1, value_clip=1.0, value_weight=1,
+            entropy=0.01, gradient_norm=0, target_kl=0.1, noise="sde", sde_steps=4, correlation=0.5,
+            log_std=-1.0, squash=True, curiosity=False, hidden=(8, 8), activation="relu", stack=2,
+            recurrent=0, segment=4, time_input="on", bootstrap=True, threads=1, seed=2**64 - 1,
+            memory_limit=2**30, preset="sb3",
+        ).learn(128)  # fmt: skip
+        rddlc.CGP(
+            problem, children=4, nodes=9, constants=0, levels_back=3, mutation="gene",
+            functions=["add", "logic"], episodes=2, measure="min", restart_after=0, tune_every=0,
+            lifted="off", parsimony=False, time=True, compat="none", islands=1, migrate_every=0,
+            threads=1, seed=3, memory_limit=2**30,
+        ).learn(2)  # fmt: skip
+        for learner in rddlc.PPO, rddlc.CGP:
+            self.assertIn("\n    memory_limit: ", str(learner.__doc__))
+
+    def test_policies_do_not_act_in_other_problems(self) -> None:
+        others = [rddlc.make(example(name).problem) for name in ("reservoir", "network", "t_maze")]
+        for model in self.models():
+            for env in others:
+                env.reset(seed=1)
+                with self.assertRaisesRegex(rddlc.Error, "mountain_car"):
+                    model.predict(env)
+            car = rddlc.make(model.problem)
+            expected = played(model, car, 3)
+            with self.assertRaises(rddlc.Error):
+                model.predict(others[0])
+            self.assertAlmostEqual(played(model, car, 3), expected)
+
+    def test_lifted_programs_read_the_non_fluents_of_where_they_act(self) -> None:
+        domain = """domain d { types { tank : object; };
+            pvariables { LEAK(tank) : { non-fluent, real, default = -1.0 };
+                water(tank) : { state-fluent, real, default = 5.0 };
+                pump(tank) : { action-fluent, bool, default = false }; };
+            cpfs { water'(?t) = water(?t) - LEAK(?t) + pump(?t); };
+            reward = sum_{?t : tank} [water(?t) * LEAK(?t)]; }"""
+        instance = """non-fluents n { domain = d; objects { tank : { %s }; };
+            non-fluents { LEAK(%s) = 1.0; }; }
+            instance i { domain = d; non-fluents = n; horizon = 9; discount = 1.0; }"""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "domain.rddl").write_text(domain)
+
+            def problem(tanks: list[str], leaking: str) -> rddlc.Problem:
+                file = folder / f"{leaking}{len(tanks)}.rddl"
+                file.write_text(instance % (", ".join(tanks), leaking))
+                return rddlc.make(str(folder / "domain.rddl"), str(file)).problem
+
+            model = rddlc.CGP(problem(["t1", "t2"], "t1"), lifted="on", children=4, nodes=9).learn(1)
+            lines = model.policy_text.splitlines()
+            inputs = [line for line in lines if line.startswith("input ")]
+            leak = next(i for i, line in enumerate(inputs) if line.endswith(" LEAK(?tank)"))
+            begin = lines.index(inputs[0])
+            program = [line for line in lines[:begin] if not line.startswith("#")]
+            program += ["input 0 1 " + line.split(" ", 3)[3] for line in inputs]
+            program += ["constants 0", "nodes 0", "outputs 1", f"output {leak} pump(?tank)", "end"]
+            (folder / "leak.cgp").write_text("\n".join(program) + "\n")
+            model = rddlc.CGP.load(folder / "leak.cgp", model.problem)
+            for tanks in (["t1", "t2"], ["t1", "t2", "t3"]):
+                for leaking in tanks:
+                    env = rddlc.make(problem(tanks, leaking))
+                    env.reset(seed=0)
+                    action = model.predict(env)[0]
+                    self.assertEqual({k for k, v in action.items() if v}, {f"pump___{leaking}"})
 
     def test_other_threads_run_meanwhile(self) -> None:
         model = rddlc.PPO(example("network"), environments=64, rollout=128, epochs=10)

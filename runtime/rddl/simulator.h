@@ -125,6 +125,10 @@ typedef struct {
     int32_t invariant_count;
     const rddl_condition* terminations;
     int32_t termination_count;
+    /* Of everything that a trajectory depends on: CPFs, reward, conditions, non-fluents, objects,
+     * initial state, horizon, discount. The same for each simulator of a problem, whatever it was
+     * compiled with. The first simulators of version 3 have none: struct_size tells. */
+    uint64_t fingerprint;
 } rddl_problem;
 
 /* Elements of the arrays above, whatever their size. */

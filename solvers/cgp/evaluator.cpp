@@ -110,13 +110,15 @@ double* ProgramActor::room_for(const Program& program, std::size_t number, int l
 }
 
 Evaluator::Evaluator(const rddl_simulator& simulator, const ProgramScope& scope,
-                     std::int64_t programs, std::int64_t episodes)
+                     std::int64_t programs, std::int64_t episodes, const Stops* stops)
     : simulator_(simulator),
       space_(scope.observations),
       room_(programs),
       episodes_(episodes),
+      stops_(stops),
       batch_(create_batch(simulator, batch_options(simulator, programs * episodes))),
       actor_(simulator, scope, programs, episodes) {
+    actor_.set_stops(stops_);
     const auto environments = static_cast<std::size_t>(programs * episodes);
     observations_.resize(environments *
                          static_cast<std::size_t>(scope.observations.column_count()));
@@ -168,6 +170,7 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
         std::fill(steps_.begin(), steps_.end(), step);
         actor_.act(batch_.get(), programs_, running_, observations_.data(), steps_,
                    actions_.data());
+        if (is_stopped(stops_)) return;
         require_done(simulator_, simulator_.step_values(batch_.get(), RDDL_FLOAT, actions_.data(),
                                                         observations_.data(), &out));
         if (reach) follow_reach();

@@ -24,6 +24,8 @@ class ProgramActor {
     ProgramActor(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
                  std::int64_t episodes);
 
+    void set_stops(const Stops* stops) { chooser_.set_stops(stops); }
+
     // Reads rows of the simulator's observed values, writes rows of action values. Programs whose
     // `running` is 0 are left out, their actions are what they were. steps: that each program's
     // episodes have made.
@@ -49,8 +51,9 @@ class ProgramActor {
 
 class Evaluator {
   public:
+    // Evaluations end early where `stops`, which must outlive this, says so.
     Evaluator(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
-              std::int64_t episodes);
+              std::int64_t episodes, const Stops* stops = nullptr);
 
     // At most as many programs as there is room for. Episode e of each begins with seeds[e].
     // Returns and lengths are program by program, as is the reach, unless it is NULL: the sum over
@@ -69,6 +72,7 @@ class Evaluator {
     const rddl_simulator& simulator_;
     const ObservationSpace& space_;
     std::int64_t room_, episodes_;
+    const Stops* stops_;
     Batch batch_;
     ProgramActor actor_;
     std::vector<float> observations_, actions_;

@@ -8,6 +8,20 @@
 
 namespace rddlc::solvers {
 
+bool is_sound(const Genome& genome) {
+    if (genome.inputs < 0) return false;
+    const std::int64_t first = genome.inputs + std::ssize(genome.constants);
+    const std::int64_t all = first + std::ssize(genome.nodes);
+    for (std::int64_t n = 0; n < std::ssize(genome.nodes); ++n) {
+        const Node& node = genome.nodes[static_cast<std::size_t>(n)];
+        if (static_cast<int>(node.function) >= function_count) return false;
+        for (const int argument : node.arguments)
+            if (argument < 0 || argument >= (genome.delayed ? all : first + n)) return false;
+    }
+    return std::ranges::all_of(genome.outputs,
+                               [&](int output) { return output >= 0 && output < all; });
+}
+
 std::uint64_t Random::bits() {
     using namespace rddl::philox;
     const auto words =

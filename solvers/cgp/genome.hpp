@@ -33,6 +33,10 @@ struct Genome {
     int first_node() const { return inputs + static_cast<int>(constants.size()); }
 };
 
+// Whether a genome that was read is one: its functions and addresses are there, and unless it is
+// delayed, nodes read what stands before them.
+bool is_sound(const Genome& genome);
+
 // Random numbers, all of them a function of seed and stream.
 class Random {
   public:

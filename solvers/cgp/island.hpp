@@ -4,6 +4,7 @@
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/room.hpp"
 #include "solvers/cgp/search.hpp"
+#include "support/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -79,6 +80,8 @@ void archive_genome(Archive& archive, Genome& genome) {
     archive(genome.nodes);
     archive(genome.outputs);
     archive(genome.delayed);
+    if constexpr (Archive::is_loading)
+        if (!is_sound(genome)) throw Failure("a program in it is damaged");
 }
 
 // A program, and how good it is.
@@ -97,13 +100,13 @@ class Island {
                  options.levels_back, options.functions, options.skdecide},
           random_(options.seed, static_cast<std::uint64_t>(number)),
           sizes_(evaluator_sizes(options)),
-          first_round_(simulator, scope, sizes_[0].programs, sizes_[0].episodes),
+          first_round_(simulator, scope, sizes_[0].programs, sizes_[0].episodes, &options.stops),
           most_remembered_(most_remembered(options)) {
         if (is_noisy()) {
             others_ = std::make_unique<Evaluator>(simulator, scope, sizes_[1].programs,
-                                                  sizes_[1].episodes);
+                                                  sizes_[1].episodes, &options.stops);
             confirmation_ = std::make_unique<Evaluator>(simulator, scope, sizes_[2].programs,
-                                                        sizes_[2].episodes);
+                                                        sizes_[2].episodes, &options.stops);
         }
         father_ = random_genome(shape_, random_);
         record_ = father_;
@@ -150,8 +153,10 @@ class Island {
     template <class Archive>
     void archive(Archive& archive) {
         archive(random_);
-        archive_genome(archive, father_);
-        archive_genome(archive, record_);
+        for (Genome* const genome : {&father_, &record_}) {
+            archive_genome(archive, *genome);
+            if constexpr (Archive::is_loading) require_shape(*genome);
+        }
         archive(fitness_);
         archive(record_fitness_);
         archive(has_record_);
@@ -166,6 +171,13 @@ class Island {
     }
 
   private:
+    void require_shape(const Genome& genome) const {
+        if (genome.inputs != shape_.inputs || std::ssize(genome.constants) != shape_.constants ||
+            std::ssize(genome.nodes) != shape_.nodes ||
+            std::ssize(genome.outputs) != shape_.outputs || genome.delayed != shape_.delayed)
+            throw Failure("a program in it is of another size");
+    }
+
     // Known programs are not run again.
     std::vector<Fitness> evaluate_all(const std::vector<Genome>& genomes) {
         std::vector<Fitness> all(genomes.size());
@@ -195,6 +207,7 @@ class Island {
         const std::uint64_t seed = options_.seed;
         first_round_.evaluate(pointers, {&seed, 1}, returns.data(), lengths.data(),
                               is_exploring() ? reach.data() : nullptr);
+        if (is_stopped(&options_.stops)) return all;  // nothing of it is to be remembered
         episodes_ += static_cast<std::int64_t>(programs.size());
         if (known_.size() >= most_remembered_) known_.clear();
         for (std::size_t p = 0; p < programs.size(); ++p) {
@@ -335,7 +348,7 @@ class Island {
         for (std::size_t c = 0; c < father_.constants.size(); ++c)
             if (activity.used[static_cast<std::size_t>(father_.inputs) + c]) used.push_back(c);
         if (used.empty()) return;
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 0; round < rounds && !is_stopped(&options_.stops); ++round) {
             std::vector<Genome> candidates{father_};
             for (int c = 0; c < options_.children; c += 2) {
                 Genome plus = father_, minus = father_;  // mirrored

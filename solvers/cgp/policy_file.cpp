@@ -4,11 +4,15 @@
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/skdecide.hpp"
+#include "solvers/files/fingerprint.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace rddlc::solvers {
 
@@ -46,21 +50,36 @@ class Lines {
     }
     static std::int64_t number(std::istream& rest, const std::string& word, std::int64_t least,
                                std::int64_t most) {
-        std::int64_t value = 0;
-        if (!(rest >> value) || value < least || value > most)
-            throw Failure(fmt::format("the number behind '{}' is none, or too large", word));
-        return value;
+        return in_whole<std::int64_t>(rest, word, least, most);
     }
     static double real(std::istream& rest, const std::string& word) {
-        double value = 0;
-        if (!(rest >> value)) throw Failure(fmt::format("the number behind '{}' is none", word));
-        return value;
+        constexpr double most = std::numeric_limits<double>::max();
+        return in_whole<double>(rest, word, -most, most);
     }
 
   private:
+    // The next word, all of which is a number between these: neither 1.7 nor 1e400 is an int.
+    template <class Number>
+    static Number in_whole(std::istream& rest, const std::string& word, Number least, Number most) {
+        std::string text;
+        rest >> text;
+        Number value{};
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (text.empty() || error != std::errc{} || stop != end || !(value >= least) ||
+            !(value <= most))
+            throw Failure(
+                std::is_integral_v<Number>
+                    ? fmt::format("the number behind '{}' is not an int from {} to {}", word, least,
+                                  most)
+                    : fmt::format("what stands behind '{}' is not a finite number", word));
+        return value;
+    }
+
     std::istringstream stream_;
 };
 
+// Files of scikit-decide's programs do not say what is seen and done.
 void require_problem(const rddl_simulator& simulator, const std::string& domain,
                      const std::string& instance) {
     const rddl_problem& problem = *simulator.problem;
@@ -84,6 +103,7 @@ struct FoundActor {
           actions(programs.size() * static_cast<std::size_t>(found->scope.actions.column_count)) {}
 
     void act(Decision& decision) {
+        actor.set_stops(decision.stops);
         require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
                                                                  observations.data()));
         for (std::size_t i = 0; i < running.size(); ++i) running[i] = decision.running[i];
@@ -179,17 +199,18 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
                                   version, file_version));
     const std::string domain = lines.text("domain"), instance = lines.text("instance");
     const bool lifted = lines.number("lifted", 0, 1) != 0, time = lines.number("time", 0, 1) != 0;
-    if (!lifted)
-        require_problem(simulator, domain, instance);
-    else if (domain != simulator.problem->domain)
+    // Of any instance in which the same is seen and done: of a lifted program, by each object.
+    if (domain != simulator.problem->domain)
         throw Failure(
             fmt::format("it is of the domain {}, not of {}", domain, simulator.problem->domain));
     const auto found = std::make_shared<FoundProgram>();
     found->scope = program_scope(simulator, lifted ? Lifting::On : Lifting::Off, time, 0);
     ProgramScope& scope = found->scope;
     Genome& genome = found->genome;
-    const auto other = [] {
-        return Failure("it is of another version of the problem: what is seen or done has changed");
+    const auto other = [&] {
+        return Failure(
+            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
+                        instance, simulator.problem->instance));
     };
     if (lines.number("inputs", 0, many) != scope.input_count()) throw other();
     for (ProgramInput& input : scope.inputs) {
@@ -201,34 +222,42 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
         if (name != input.name) throw other();
     }
     genome.inputs = scope.input_count();
-    genome.constants.resize(static_cast<std::size_t>(lines.number("constants", 0, many)));
-    for (double& constant : genome.constants) {
+    // They get room line by line: a file says how many there are before it shows them.
+    const std::int64_t constants = lines.number("constants", 0, many);
+    for (std::int64_t c = 0; c < constants; ++c) {
         std::istringstream rest = lines.next("constant");
-        constant = Lines::real(rest, "constant");
+        genome.constants.push_back(Lines::real(rest, "constant"));
     }
-    genome.nodes.resize(static_cast<std::size_t>(lines.number("nodes", 0, many)));
-    for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
+    const std::int64_t nodes = lines.number("nodes", 0, many);
+    for (std::int64_t n = 0; n < nodes; ++n) {
         std::istringstream rest = lines.next("node");
         std::string name;
         rest >> name;
         const auto function = function_named(name);
         if (!function) throw Failure(fmt::format("'{}' is no function of CGP", name));
-        genome.nodes[n].function = *function;
-        for (int& argument : genome.nodes[n].arguments)
+        Node& node = genome.nodes.emplace_back();
+        node.function = *function;
+        for (int& argument : node.arguments)
             argument = static_cast<int>(
                 Lines::number(rest, "node", 0, genome.first_node() + static_cast<int>(n) - 1));
     }
     if (lines.number("outputs", 0, many) != scope.output_count()) throw other();
-    for (int o = 0; o < scope.output_count(); ++o)
-        genome.outputs.push_back(static_cast<int>(lines.number(
-            "output", 0, genome.first_node() + static_cast<int>(genome.nodes.size()) - 1)));
+    for (const std::string& output : scope.outputs) {
+        std::istringstream rest = lines.next("output");
+        genome.outputs.push_back(static_cast<int>(Lines::number(
+            rest, "output", 0, genome.first_node() + static_cast<int>(genome.nodes.size()) - 1)));
+        std::string name;
+        std::getline(rest >> std::ws, name);
+        if (name != output) throw other();
+    }
     lines.next("end");
     return found;
 }
 
 Policy program_policy(const rddl_simulator& simulator, std::shared_ptr<const FoundProgram> program,
                       std::string name) {
-    return {std::move(name), [&simulator, program](std::int64_t environments) -> Actor {
+    return {std::move(name), spaces_of(simulator),
+            [&simulator, program](std::int64_t environments) -> Actor {
                 const auto actor = std::make_shared<FoundActor>(simulator, program, environments);
                 return [actor](Decision& decision) {
                     actor->act(decision);

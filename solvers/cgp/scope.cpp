@@ -106,7 +106,8 @@ std::int64_t steps_to_watch(const rddl_problem& problem, std::int64_t values) {
 }
 
 // Mean and deviation of inputs without bounds, as random actions show them.
-void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uint64_t seed) {
+void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uint64_t seed,
+                  const Stops& stops) {
     constexpr std::int64_t environments = 16;
     const auto is_known = [](const ProgramInput& input) {
         return input.is_known;
@@ -120,6 +121,7 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
     const Batch batch = create_batch(simulator, options);
     RandomPolicy policy(*simulator.problem, seed);
     RandomActions random(simulator, policy, environments);
+    random.set_stops(&stops);
     std::vector<std::byte> actions(
         static_cast<std::size_t>(environments * simulator.problem->action_size));
     const auto columns = static_cast<std::size_t>(scope.observations.column_count());
@@ -129,7 +131,7 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
     std::vector<Seen> seen(scope.inputs.size());
     const std::int64_t steps =
         steps_to_watch(*simulator.problem, environments * scope.actions.column_count);
-    for (std::int64_t t = 0; t < steps; ++t) {
+    for (std::int64_t t = 0; t < steps && !is_stopped(&stops); ++t) {
         require_done(simulator,
                      simulator.get_observation_values(batch.get(), RDDL_FLOAT, values.data()));
         for (std::int64_t e = 0; e < environments; ++e) {
@@ -167,15 +169,15 @@ int bin_of(double value, int count) {
 }  // namespace
 
 ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, bool time,
-                           std::uint64_t seed) {
+                           std::uint64_t seed, const Stops& stops) {
     ProgramScope scope;
     ObservationOptions options;
     options.time = time ? ObservationOptions::Time::On : ObservationOptions::Time::Off;
     scope.observations = observation_space(simulator, options);
-    scope.actions = action_space(simulator);
+    scope.actions = action_space(simulator, stops);
     scope.lifted = is_lifted(simulator, lifting);
     scope.lifted ? lift(simulator, scope) : make_ground(scope);
-    learn_scales(simulator, scope, seed);
+    learn_scales(simulator, scope, seed, stops);
     return scope;
 }
 

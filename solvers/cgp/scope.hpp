@@ -58,9 +58,10 @@ struct ProgramScope {
     int sum_count() const { return static_cast<int>(sum_ends.size()); }
 };
 
-// Learns shifts and scales of unbounded inputs by some random episodes.
+// Learns shifts and scales of unbounded inputs by some random episodes; ends early where `stops`
+// says so.
 ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, bool time,
-                           std::uint64_t seed);
+                           std::uint64_t seed, const Stops& stops = {});
 
 // Reads one environment's features: inputs of unit u, input i to inputs[(i * units + u) * stride].
 // `sums` is room for sum_count() numbers.

@@ -18,7 +18,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 4};
+const CheckpointKind checkpoint{"CGP", "rddl cgp checkpoint", 5};
 
 // Options that it brings itself may not be given.
 void take_skdecide(CgpOptions& options) {
@@ -61,9 +61,9 @@ struct CgpSearch::State {
         : simulator(its_simulator),
           ranks(its_ranks),
           options(completed(its_options, *simulator.problem, ranks)),
-          scope(options.skdecide
-                    ? skdecide_scope(simulator)
-                    : program_scope(simulator, options.lifting, options.time, options.seed)),
+          scope(options.skdecide ? skdecide_scope(simulator)
+                                 : program_scope(simulator, options.lifting, options.time,
+                                                 options.seed, options.stops)),
           share(rddl::share_of(ranks.number, ranks.count, options.islands, 1)),
           team(std::min(options.threads, static_cast<int>(share.end - share.begin))) {
         require_room(simulator, scope, options, share.end - share.begin);
@@ -221,6 +221,7 @@ struct CgpSearch::State {
     }
 
     const rddl_simulator& simulator;
+    const Fingerprint problem = fingerprint(simulator);
     Ranks ranks;
     CgpOptions options;
     ProgramScope scope;
@@ -257,14 +258,14 @@ std::int64_t CgpSearch::steps_of_generation() const {
 
 std::string CgpSearch::save() const {
     SavingArchive archive;
-    begin_checkpoint(archive, checkpoint, state_->simulator);
+    begin_checkpoint(archive, checkpoint, state_->problem);
     state_->archive(archive);
     return archive.bytes();
 }
 
 void CgpSearch::load(std::string_view bytes) {
     LoadingArchive archive(bytes);
-    begin_checkpoint(archive, checkpoint, state_->simulator);
+    begin_checkpoint(archive, checkpoint, state_->problem);
     state_->archive(archive);
     state_->report();
 }

@@ -50,7 +50,8 @@ struct CgpOptions {
     // is given. Its evaluation is not: one lucky episode does not make a record here.
     bool skdecide = false;
     std::uint64_t seed = 0;
-    // Asked by all threads, between generations: whether run() shall end early. May be empty.
+    // Asked by all threads, often: whether run() shall end early. What it has done by then is no
+    // state of a whole run. May be empty.
     std::function<bool()> stops;
 };
 

@@ -1,6 +1,7 @@
 #include "solvers/cgp/trainee.hpp"
 
 #include "solvers/cgp/formula.hpp"
+#include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
 
 #include <fmt/format.h>
@@ -33,46 +34,11 @@ std::string cgp_status(const CgpSearch& search) {
         search.best().delayed ? "" : short_formula(simplified(search.best()), search.scope(), 60));
 }
 
-const char* name_of(Measure measure) {
-    return measure == Measure::Median    ? "median"
-           : measure == Measure::Minimum ? "min"
-           : measure == Measure::Mean    ? "mean"
-                                         : "cvar";
-}
-
-const char* name_of(Lifting lifting) {
-    return lifting == Lifting::Auto ? "auto" : lifting == Lifting::On ? "on" : "off";
-}
-
-// All but --gens, by which a run may go on for longer, and --threads.
-Settings cgp_settings(const CgpOptions& o) {
-    const auto number_or_auto = [](std::int64_t number) {
-        return number == 0 ? "auto" : std::to_string(number);
-    };
-    std::string functions;
-    for (const Function function : o.functions)
-        functions += (functions.empty() ? "" : ",") + std::string(info_of(function).name);
-    return {{"--compat", o.skdecide ? "skdecide" : "none"},
-            {"--lambda", number_or_auto(o.children)},
-            {"--cols", std::to_string(o.nodes)},
-            {"--constants", std::to_string(o.constants)},
-            {"--levels-back", std::to_string(o.levels_back)},
-            {"--mutation", o.mutation == Mutation::Single ? "single" : "gene"},
-            {"--functions", functions},
-            {"--episodes", number_or_auto(o.episodes)},
-            {"--fitness", name_of(o.measure)},
-            {"--restart", std::to_string(o.restart_after)},
-            {"--tune", std::to_string(o.tune_every)},
-            {"--migrate", std::to_string(o.migrate_every)},
-            {"--lifted", name_of(o.lifting)},
-            {"--parsimony", o.parsimony ? "on" : "off"},
-            {"--time-input", o.time ? "on" : "off"}};
-}
-
 }  // namespace
 
 Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
                     const Ranks& ranks) {
+    require_ranges(cgp_option_table(), options);
     const auto search = std::make_shared<CgpSearch>(simulator, options, ranks);
     // So many at once that to look at what came of them costs nothing, and that the time is looked
     // at soon enough where episodes are long or actions large.
@@ -87,7 +53,7 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
     };
     Trainee trainee;
     trainee.solver = "cgp";
-    trainee.settings = cgp_settings(options);
+    trainee.settings = settings_of(cgp_option_table(), options);
     trainee.ends_early = static_cast<bool>(options.stops);
     trainee.update = [=] {
         search->run(std::min(some, left()));

@@ -99,6 +99,7 @@ Chooser::Chooser(const rddl_simulator& simulator, const ActionSpace& space, Nois
     if (space.masked)
         choice_masks_.resize(count *
                              static_cast<std::size_t>(simulator.action_choice_count(&simulator)));
+    if (space.picks > 0) picked_.resize(static_cast<std::size_t>(space.column_count));
     if (space.may_be_illegal) mending_ = MendingRoom(simulator, space, environments);
 }
 
@@ -125,7 +126,7 @@ void Chooser::choose_all(rddl_batch* batch, const float* outputs, int output_row
 
     const int reals = space_.real_count(), indices = space_.index_count();
     const int mask = space_.mask_size();
-    for (std::int64_t i = 0; i < environments_; ++i) {
+    for (std::int64_t i = 0; i < environments_ && !is_stopped(stops_); ++i) {
         const float* const numbers = chosen.numbers + i * reals;
         const std::int32_t* const index = chosen.indices + i * indices;
         write_action(space_, numbers, index, actions + i * space_.column_count);
@@ -219,7 +220,7 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
     const auto logits = static_cast<std::size_t>(space_.logit_count);
     std::fill_n(chosen.indices, keys_.size() * picks, -1);
     bool picking = true;
-    for (int p = 0; p < space_.picks && picking; ++p) {
+    for (int p = 0; p < space_.picks && picking && !is_stopped(stops_); ++p) {
         if (p > 0) {
             for (std::size_t i = 0; i < keys_.size(); ++i)
                 write_action(space_,
@@ -261,24 +262,26 @@ void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
         i * static_cast<std::size_t>(simulator_.action_choice_count(&simulator_));
     const std::int32_t* const index = chosen.indices + i * picks;
     std::uint8_t* const mask = chosen.masks + (i * picks + static_cast<std::size_t>(pick)) * logits;
+    const auto set_picked = [&](std::uint8_t is_picked) {
+        for (int p = 0; p < pick; ++p) {
+            const int column = space_.choices[static_cast<std::size_t>(index[p])].column;
+            if (column >= 0) picked_[static_cast<std::size_t>(column)] = is_picked;
+        }
+    };
+    const auto is_picked = [&](std::size_t c) {
+        return c > 0 && picked_[static_cast<std::size_t>(space_.choices[c].column)] != 0;
+    };
+    set_picked(1);
     bool any = false;
     for (std::size_t c = 0; c < logits; ++c) {
         const Choice& choice = space_.choices[c];
-        mask[c] = choice.of_mask < 0 || allowed[choice.of_mask];
-        for (int p = 0; p < pick && c > 0; ++p)
-            if (space_.choices[static_cast<std::size_t>(index[p])].column == choice.column)
-                mask[c] = 0;
+        mask[c] = (choice.of_mask < 0 || allowed[choice.of_mask]) && !is_picked(c);
         any |= mask[c] != 0;
     }
+    for (std::size_t c = 0; c < logits && !any; ++c) mask[c] = !is_picked(c) && (c > 0 || pick > 0);
+    set_picked(0);
     if (any) return;
-    for (std::size_t c = 0; c < logits; ++c) {
-        bool picked = false;
-        for (int p = 0; p < pick && c > 0; ++p)
-            picked |= space_.choices[static_cast<std::size_t>(index[p])].column ==
-                      space_.choices[c].column;
-        mask[c] = !picked && (c > 0 || pick > 0);
-        any |= mask[c] != 0;
-    }
+    any = std::any_of(mask, mask + logits, [](std::uint8_t allows) { return allows != 0; });
     if (!any) mask[0] = 1;
 }
 

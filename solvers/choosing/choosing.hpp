@@ -1,6 +1,7 @@
 // From the outputs of a policy's network to actions: at random as it says, or the likeliest.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
 #include "solvers/spaces/actions.hpp"
 #include "solvers/spaces/mending.hpp"
 
@@ -62,6 +63,9 @@ class Chooser {
         choose_all(batch, outputs, output_row, deviations, chosen, actions);
     }
 
+    // Where choosing ends early; what it points to must outlive this.
+    void set_stops(const Stops* stops) { stops_ = mending_.stops = stops; }
+
     // The next choice of the environment is the first of an episode.
     void begin_episode(std::int64_t environment);
 
@@ -96,7 +100,9 @@ class Chooser {
     std::vector<std::uint8_t> has_noise_;
     std::vector<std::byte> actions_;          // records
     std::vector<std::uint8_t> choice_masks_;  // as the simulator writes them
+    std::vector<std::uint8_t> picked_;        // columns, while an environment's mask is made
     MendingRoom mending_;
+    const Stops* stops_ = nullptr;
     std::int64_t mended_ = 0;
 };
 

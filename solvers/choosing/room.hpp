@@ -13,7 +13,7 @@ inline double bytes_of_chooser(const rddl_simulator& simulator, const ActionSpac
     if (space.masked) bytes += static_cast<double>(simulator.action_choice_count(&simulator));
     if (space.may_be_illegal)
         bytes += sizeof(float) * (2.0 * space.column_count + 1) + sizeof(MendingSearch) +
-                 sizeof(RandomPolicy::Search);
+                 sizeof(RandomPolicy::Search) + sizeof(std::uint32_t) * 1.0 * space.column_count;
     return bytes;
 }
 

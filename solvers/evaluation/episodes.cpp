@@ -96,13 +96,13 @@ class EpisodeBatch {
     }
 
     // Of the next step; those that violate a precondition are treated as the options say.
-    void choose_actions() {
+    void choose_actions(const Stops& stops) {
         for (std::size_t i = 0; i < episodes_.size(); ++i) {
             running_[i] = !episodes_[i].finished;
             steps_[i] = episodes_[i].length;
         }
         Decision decision{batch_.get(),    running_,  numbers_, steps_,
-                          actions_.data(), violated_, false};
+                          actions_.data(), violated_, false,    &stops};
         actor_(decision);
         // Where a policy block faults, the episode is over, and the action does not matter.
         require_done(simulator_, simulator_.get_causes(batch_.get(), 0,
@@ -285,7 +285,8 @@ class Rollout {
         const std::unique_ptr<Recorder> recorder = watch_.record ? watch_.record(count) : nullptr;
         std::int64_t steps = 0;
         for (; batch.running() && !stops(); ++steps) {
-            batch.choose_actions();
+            batch.choose_actions(watch_.stops);
+            if (stops()) break;  // they need not be chosen to the end
             recorder ? batch.step(*recorder) : batch.step();
             if (steps_at_most_ > 0) advance(count);
         }
@@ -355,6 +356,7 @@ std::int64_t steps_at_most(const rddl_simulator& simulator, const EpisodeOptions
 
 Rollouts run_episodes(const rddl_simulator& simulator, const Policy& policy,
                       const EpisodeOptions& options, const Watch& watch) {
+    require_spaces(policy, simulator);
     Rollouts rollouts;
     EpisodeOptions chosen = options;
     rollouts.threads =

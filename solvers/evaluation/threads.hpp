@@ -7,6 +7,9 @@
 
 namespace rddlc::solvers {
 
+// That anybody may ask for.
+inline constexpr int most_threads = 4096;
+
 // Threads that work beside the calling one: so many, or fewer if the system gives no more. Where it
 // does not, half of those that it gave are ended again before they work, so that something is left
 // for the work itself. `work` must not throw; the caller joins.

@@ -30,6 +30,11 @@ class SavingArchive {
         (*this)(static_cast<std::uint64_t>(text.size()));
         bytes_.append(text);
     }
+    // A vector whose size says nothing: it is known to who loads it.
+    template <class T>
+    void fixed(const std::vector<T>& values) {
+        (*this)(values);
+    }
     // What another archive has saved.
     void append(std::string_view bytes) { bytes_.append(bytes); }
     const std::string& bytes() const { return bytes_; }
@@ -38,7 +43,8 @@ class SavingArchive {
     std::string bytes_;
 };
 
-// Throws a Failure where the bytes end before the values do.
+// Throws a Failure where the bytes end before the values do. Nothing gets more room than there are
+// bytes.
 class LoadingArchive {
   public:
     static constexpr bool is_loading = true;
@@ -55,6 +61,12 @@ class LoadingArchive {
     void operator()(std::string& text) {
         text.resize(size_of_next(1));
         take(text.data(), text.size());
+    }
+    template <class T>
+    void fixed(std::vector<T>& values) {
+        if (size_of_next(sizeof(T)) != values.size())
+            throw Failure("it does not fit what is learned: it is damaged, or of another version");
+        take(values.data(), values.size() * sizeof(T));
     }
     bool at_end() const { return bytes_.empty(); }
 

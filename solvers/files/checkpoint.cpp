@@ -1,6 +1,5 @@
 #include "solvers/files/checkpoint.hpp"
 
-#include "solvers/files/fingerprint.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -8,24 +7,28 @@
 namespace rddlc::solvers {
 
 void begin_checkpoint(SavingArchive& archive, const CheckpointKind& kind,
-                      const rddl_simulator& simulator) {
+                      const Fingerprint& problem) {
     archive(kind.magic);
     archive(kind.version);
-    archive(fingerprint(simulator));
+    Fingerprint(problem).archive(archive);
 }
 
 void begin_checkpoint(LoadingArchive& archive, const CheckpointKind& kind,
-                      const rddl_simulator& simulator) {
+                      const Fingerprint& problem) {
     std::string magic;
-    std::uint64_t version = 0, problem = 0;
+    std::uint64_t version = 0;
+    Fingerprint its;
     archive(magic);
     if (magic != kind.magic) throw Failure(fmt::format("it is no checkpoint of {}", kind.solver));
     archive(version);
     if (version != kind.version)
         throw Failure(fmt::format("it is of version {}, and this program reads version {}", version,
                                   kind.version));
-    archive(problem);
-    if (problem != fingerprint(simulator)) throw Failure("it is of another problem");
+    its.archive(archive);
+    if (const std::string what = difference(its, problem); !what.empty())
+        throw Failure(what,
+                      "continue with the files that the run began with, or begin a new run "
+                      "with another --out");
 }
 
 }  // namespace rddlc::solvers

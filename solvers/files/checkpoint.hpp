@@ -2,8 +2,7 @@
 #pragma once
 
 #include "solvers/files/archive.hpp"
-
-#include <rddl/simulator.h>
+#include "solvers/files/fingerprint.hpp"
 
 #include <cstdint>
 #include <string>
@@ -17,9 +16,9 @@ struct CheckpointKind {
 };
 
 void begin_checkpoint(SavingArchive& archive, const CheckpointKind& kind,
-                      const rddl_simulator& simulator);
+                      const Fingerprint& problem);
 // Throws a Failure where it is of another kind, version or problem.
 void begin_checkpoint(LoadingArchive& archive, const CheckpointKind& kind,
-                      const rddl_simulator& simulator);
+                      const Fingerprint& problem);
 
 }  // namespace rddlc::solvers

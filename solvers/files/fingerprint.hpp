@@ -4,12 +4,43 @@
 #include <rddl/simulator.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace rddlc::solvers {
 
-// Of the names of domain, instance and fluents, their sizes, the horizon and the discount.
-std::uint64_t fingerprint(const rddl_simulator& simulator);
+// Of what a policy sees and of what it chooses from: fluents that are observed and actions, with
+// their types, objects and bounds. A policy acts in every simulator of the same spaces.
+std::uint64_t spaces_of(const rddl_simulator& simulator);
+
+// Of everything that a trajectory depends on, in parts, so that a message can say which one has
+// changed.
+struct Fingerprint {
+    std::string domain, instance;
+    std::uint64_t spaces = 0;
+    std::int64_t horizon = 0;
+    double discount = 1;
+    std::uint64_t initial_state = 0;
+    std::uint64_t dynamics = 0;  // of all; 0: a simulator that does not say it
+
+    template <class Archive>
+    void archive(Archive& archive) {
+        archive(domain);
+        archive(instance);
+        archive(spaces);
+        archive(horizon);
+        archive(discount);
+        archive(initial_state);
+        archive(dynamics);
+    }
+};
+
+Fingerprint fingerprint(const rddl_simulator& simulator);
+
+// What differs, in a sentence about what is of `other`: "it is of the problem ..."; "" if nothing
+// does.
+std::string difference(const Fingerprint& other, const Fingerprint& own);
 
 // Changes with any single byte. Against bad luck, not bad will.
 std::uint64_t checksum(std::string_view bytes);

@@ -2,6 +2,8 @@
 // a recorded plan. Batch in, batch out.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
+
 #include <rddl/simulator.h>
 
 #include <cstddef>
@@ -24,6 +26,7 @@ struct Decision {
     // writes it and says so.
     std::span<std::int32_t> violated;
     bool knows_violated = false;
+    const Stops* stops = nullptr;  // where choosing ends early
 };
 
 // Acts in one batch, whose episodes have just begun, once for each step; remembers what it needs of
@@ -32,18 +35,24 @@ using Actor = std::function<void(Decision&)>;
 
 struct Policy {
     std::string name;
+    std::uint64_t spaces;  // that it acts in (spaces_of); run_episodes refuses others
     // An actor for so many environments. Several may be at work in different threads.
     std::function<Actor(std::int64_t environments)> start;
+    std::int64_t plans = 0;  // that it plays, one after the other; 0: it is not recorded
 };
+
+// Throws a Failure where the policy is of other spaces than those of the simulator.
+void require_spaces(const Policy& policy, const rddl_simulator& simulator);
 
 // `simulator` must outlive these policies.
 Policy random_policy(const rddl_simulator& simulator, std::uint64_t seed);
 Policy noop_policy(const rddl_simulator& simulator);
 // The simulator's policy block, which must be there.
 Policy block_policy(const rddl_simulator& simulator);
-// A recorded plan: the t-th of these action records in step t of each episode, whatever the state;
-// after the last of them the default action.
+// Recorded plans: the t-th of a plan's action records in step t of an episode, whatever the state;
+// after the last of them the default action. Episode e plays plan e; after the last plan comes the
+// first one again, so that one plan is played in all episodes.
 Policy plan_policy(const rddl_simulator& simulator, std::string name,
-                   std::vector<std::byte> actions);
+                   std::vector<std::vector<std::byte>> plans);
 
 }  // namespace rddlc::solvers

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solvers/batches/batch.hpp"
+#include "solvers/batches/stops.hpp"
 #include "solvers/policies/random_policy.hpp"
 
 #include <rddl/simulator.h>
@@ -22,6 +23,9 @@ class RandomActions {
           violated_(static_cast<std::size_t>(environments), -1),
           searches_(violated_.size()) {}
 
+    // Where a search for legal actions ends early; what it points to must outlive this.
+    void set_stops(const Stops* stops) { stops_ = stops; }
+
     // Writes the action with which environment i leaves its state wherever is_running(i); legal
     // where the policy finds such an action. The policy knows that environment and timestep as
     // `environment_of(i)` and `step_of(i)`.
@@ -37,8 +41,8 @@ class RandomActions {
 
         // All environments make their tries side by side, since the simulator is asked about all
         // of them at once.
-        std::fill(searches_.begin(), searches_.end(), RandomPolicy::Search{});
-        for (bool searching = true; searching;) {
+        for (RandomPolicy::Search& search : searches_) search.restart();
+        for (bool searching = true; searching && !is_stopped(stops_);) {
             require_done(*simulator_,
                          simulator_->violated_preconditions(batch, actions, violated_.data()));
             searching = false;
@@ -57,6 +61,7 @@ class RandomActions {
     RandomPolicy* policy_;
     std::vector<std::int32_t> violated_;
     std::vector<RandomPolicy::Search> searches_;
+    const Stops* stops_ = nullptr;
 };
 
 }  // namespace rddlc::solvers

@@ -80,8 +80,8 @@ struct RandomPolicy::Draws {
     }
 };
 
-RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
-    : problem_(&problem), seed_(seed) {
+RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed, Groups groups)
+    : problem_(&problem), seed_(seed), groups_(std::move(groups)) {
     for (std::int32_t f = 0; f < problem.fluent_count; ++f) {
         const rddl_fluent& fluent = problem.fluents[f];
         if (fluent.role != RDDL_ACTION) continue;
@@ -94,6 +94,11 @@ RandomPolicy::RandomPolicy(const rddl_problem& problem, std::uint64_t seed)
     order_.resize(entries_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     partners_.resize(drawn_per_step_);
+    std::vector<std::uint8_t> is_grouped(entries_.size());
+    for (const std::vector<int>& group : groups_.columns)
+        for (const int column : group) is_grouped[static_cast<std::size_t>(column)] = 1;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (!is_grouped[i]) alone_.push_back(static_cast<std::uint32_t>(i));
 }
 
 RandomPolicy::Entry RandomPolicy::entry_of(const rddl_problem& problem, std::int32_t number,
@@ -140,7 +145,8 @@ void RandomPolicy::act(std::int64_t environment, std::int64_t step, std::byte* a
 // Into the default action.
 void RandomPolicy::draw_action(const Draws& draws, std::byte* action) {
     if (drawn_per_step_ == entries_.size()) {
-        for (std::size_t i = 0; i < entries_.size(); ++i) draw(entries_[i], draws, i, action);
+        for (const std::uint32_t i : alone_) draw(entries_[i], draws, i, action);
+        draw_groups(draws, action);
         return;
     }
     // The first steps of a Fisher-Yates shuffle choose a subset; swapping back restores the order.
@@ -153,21 +159,33 @@ void RandomPolicy::draw_action(const Draws& draws, std::byte* action) {
     for (std::size_t i = drawn_per_step_; i-- > 0;) std::swap(order_[i], order_[partners_[i]]);
 }
 
+void RandomPolicy::draw_groups(const Draws& draws, std::byte* action) const {
+    const std::uint64_t none = groups_.may_be_none ? 1 : 0;
+    for (const std::vector<int>& group : groups_.columns) {
+        const auto first = static_cast<std::size_t>(group.front());
+        const std::uint64_t chosen = below(group.size() + none, draws.bits(Draws::Value, first));
+        if (chosen == group.size()) continue;
+        std::byte& value = action[entries_[static_cast<std::size_t>(group[chosen])].offset];
+        value = static_cast<std::byte>(value == std::byte{0});
+    }
+}
+
 bool RandomPolicy::try_another(std::int64_t environment, std::int64_t step, Search& search,
                                std::byte* action) {
-    const auto changed = [&](const Entry& entry) {
-        return is_changed(entry, action);
-    };
-    const auto count =
-        static_cast<std::uint64_t>(std::count_if(entries_.begin(), entries_.end(), changed));
-    if (count > 0) {
-        reset_some(count, draws_of(environment, step, search.sample), search, action);
+    if (!search.knows_changed) {
+        search.changed.clear();
+        for (std::uint32_t i = 0; i < entries_.size(); ++i)
+            if (is_changed(entries_[i], action)) search.changed.push_back(i);
+        search.knows_changed = true;
+    }
+    if (!search.changed.empty()) {
+        reset_some(draws_of(environment, step, search.sample), search, action);
         return true;
     }
     const std::size_t last =
         most_samples + std::min<std::size_t>(entries_.size(), most_single_changes) - 1;
     if (drawn_per_step_ == 0 || search.sample == last) return false;
-    search = {search.sample + 1, 0};
+    search.begin_sample(search.sample + 1);
     if (search.sample < most_samples)
         draw_action(draws_of(environment, step, search.sample), action);
     else
@@ -184,18 +202,21 @@ void RandomPolicy::draw_single_change(std::int64_t environment, std::int64_t ste
     draw(entries_[chosen], draws_of(environment, step, sample), chosen, action);
 }
 
-// Goes through all `changed` values once and chooses each with the probability that makes every
+// Goes through all changed values once and chooses each with the probability that makes every
 // subset of the wanted size equally likely.
-void RandomPolicy::reset_some(std::uint64_t changed, const Draws& draws, Search& search,
-                              std::byte* action) const {
-    std::uint64_t wanted = std::max<std::uint64_t>(changed / 8, 1);
-    for (const Entry& entry : entries_) {
-        if (wanted == 0) return;
-        if (!is_changed(entry, action)) continue;
-        if (below(changed--, draws.bits(Draws::Reset, search.draws++)) >= wanted) continue;
+void RandomPolicy::reset_some(const Draws& draws, Search& search, std::byte* action) const {
+    std::uint64_t left = search.changed.size(), wanted = std::max<std::uint64_t>(left / 8, 1);
+    std::size_t kept = 0;
+    for (const std::uint32_t number : search.changed) {
+        const Entry& entry = entries_[number];
+        if (wanted == 0 || below(left--, draws.bits(Draws::Reset, search.draws++)) >= wanted) {
+            search.changed[kept++] = number;
+            continue;
+        }
         std::copy_n(default_action() + entry.offset, entry.size(), action + entry.offset);
         --wanted;
     }
+    search.changed.resize(kept);
 }
 
 bool RandomPolicy::is_changed(const Entry& entry, const std::byte* action) const {

@@ -4,11 +4,14 @@
 // reals bounded on one side at an exponential distance (mean 1) from the bound; unbounded reals
 // standard normal; ints that are not bounded on both sides as the reals, rounded toward the
 // inside. With a limit of k non-default values, k values chosen at random are drawn and the
-// others keep their default.
+// others keep their default. Of each group of bools that it is told of, one that is chosen at
+// random changes, or none where that is allowed.
 //
 // The policy does not know which actions are legal: whoever knows asks it for another one until one
 // is (`try_another`). The caller may do so for many environments side by side.
 #pragma once
+
+#include "solvers/spaces/groups.hpp"
 
 #include <rddl/simulator.h>
 
@@ -20,8 +23,8 @@ namespace rddlc::solvers {
 
 class RandomPolicy {
   public:
-    // `problem` must outlive the policy.
-    RandomPolicy(const rddl_problem& problem, std::uint64_t seed);
+    // `problem` must outlive the policy. Groups are of action values by their places in a row.
+    RandomPolicy(const rddl_problem& problem, std::uint64_t seed, Groups groups = {});
 
     // Writes the action record with which `environment` leaves timestep `step`.
     // Depends on seed, environment and step only.
@@ -31,6 +34,16 @@ class RandomPolicy {
     struct Search {
         std::uint32_t sample = 0;  // actions drawn and given up before this one
         std::uint32_t draws = 0;   // made to repair this one
+        bool knows_changed = false;
+        std::vector<std::uint32_t> changed = {};  // values that differ from their default
+
+        // As at first, in the same memory.
+        void restart() { begin_sample(0); }
+        void begin_sample(std::uint32_t number) {
+            sample = number;
+            draws = 0;
+            knows_changed = false;
+        }
     };
     // Changes an action that is not legal: of the values that differ from their default, one
     // chosen at random falls back to it (or several of them, while they are many). If that
@@ -62,9 +75,9 @@ class RandomPolicy {
     void draw(const Entry& entry, const Draws& draws, std::size_t number, std::byte* action) const;
     void draw_bool(const Entry& entry, const Draws& draws, std::uint64_t bits,
                    std::byte* action) const;
+    void draw_groups(const Draws& draws, std::byte* action) const;
     bool is_changed(const Entry& entry, const std::byte* action) const;
-    void reset_some(std::uint64_t changed, const Draws& draws, Search& search,
-                    std::byte* action) const;
+    void reset_some(const Draws& draws, Search& search, std::byte* action) const;
     const std::byte* default_action() const {
         return static_cast<const std::byte*>(problem_->default_action);
     }
@@ -75,6 +88,8 @@ class RandomPolicy {
     std::size_t drawn_per_step_;         // at most this many values are not at their default
     std::vector<std::size_t> order_;     // identity between calls; shuffled in part during one
     std::vector<std::size_t> partners_;  // what was swapped there
+    Groups groups_;
+    std::vector<std::uint32_t> alone_;  // entries of no group
 };
 
 }  // namespace rddlc::solvers

@@ -44,6 +44,7 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
       state_noise_(model, share.count),
       memories_(model, share.count),
       seen_(model, static_cast<std::size_t>(share.count)) {
+    chooser_.set_stops(&options.stops);
     const auto environments = static_cast<std::size_t>(share.count);
     const auto features = static_cast<std::size_t>(model.features());
     const auto columns = static_cast<std::size_t>(model.observations.column_count());
@@ -101,6 +102,7 @@ void Collector::collect(Experience& experience, std::uint64_t seed, std::int64_t
         if (options_.stops && options_.stops()) return;
         if (experience.segments.begins(part, t)) note_memories(experience, part++);
         act(experience, t, seed, update);
+        if (options_.stops && options_.stops()) return;  // actions need not be chosen to the end
         step(experience, t);
     }
     estimate_values(experience);
@@ -287,14 +289,15 @@ void Collector::archive(Archive& archive) {
     if (states.size() !=
         static_cast<std::size_t>(count_) * static_cast<std::size_t>(simulator_.problem->state_size))
         throw Failure("it is of a run with another --envs or --threads");
-    archive(features_);
-    archive(chooser_.noise());
-    archive(chooser_.has_noise());
+    archive.fixed(features_);
+    archive.fixed(chooser_.noise());
+    archive.fixed(chooser_.has_noise());
     state_noise_.archive(archive);
     memories_.archive(archive);
     seen_.archive(archive);
-    archive(steps_);
-    for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_}) archive(*each);
+    archive.fixed(steps_);
+    for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_})
+        archive.fixed(*each);
     if constexpr (Archive::is_loading)
         require_done(simulator_,
                      simulator_.set_state(batch_.get(), 0, count_, states.data(), steps_.data()));

@@ -48,8 +48,8 @@ class Seen {
 
     template <class Archive>
     void archive(Archive& archive) {
-        archive(least_);
-        archive(most_);
+        archive.fixed(least_);
+        archive.fixed(most_);
     }
 
   private:

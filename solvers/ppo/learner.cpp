@@ -137,7 +137,7 @@ void Learner::learn_tile(const Experience& experience, std::span<const std::uint
              units > 0 ? place.log_deviations.data() : model_.log_deviations(),
              units > 0 ? reals : 0, results(model_.value, place.value_activations),
              model_.value.padded_outputs(), place.d_outputs.data(), place.d_values.data(),
-             units > 0 ? place.d_log_deviations.data() : d_deviations, sums);
+             units > 0 ? place.d_log_deviations.data() : d_deviations, sums, &options_.stops);
     for (int s = 0; s < count && units > 0; ++s)
         add_state_noise_gradient(units, reals, weight_variances_.data(), hidden_of(s),
                                  place.log_deviations.data() + s * reals,
@@ -155,7 +155,7 @@ void Learner::learn_chunk(const Experience& experience, std::span<const std::uin
                           LossSums& sums) const {
     if (model_.recurrent == 0) {
         // Each segment is one sample.
-        for (std::size_t s = 0; s < segments.size(); s += tile) {
+        for (std::size_t s = 0; s < segments.size() && !is_stopped(); s += tile) {
             const auto some = segments.subspan(s, std::min<std::size_t>(tile, segments.size() - s));
             gather_rows(some, experience.inputs.data(), model_.input_row(), place.inputs.data());
             learn_tile(experience, some, weights, place.tile, place.inputs.data(), nullptr,
@@ -169,7 +169,7 @@ void Learner::learn_chunk(const Experience& experience, std::span<const std::uin
     float* const inputs = place.inputs.data();
     gather_rows(samples, experience.inputs.data(), model_.input_row(), inputs);
     unrolled.remember(inputs);
-    for (std::size_t s = 0; s < samples.size(); s += tile)
+    for (std::size_t s = 0; s < samples.size() && !is_stopped(); s += tile)
         learn_tile(experience, samples.subspan(s, std::min<std::size_t>(tile, samples.size() - s)),
                    weights, place.tile, inputs + s * static_cast<std::size_t>(model_.input_row()),
                    unrolled.d_memory() + s * static_cast<std::size_t>(model_.memory.padded_units),

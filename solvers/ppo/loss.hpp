@@ -38,16 +38,18 @@ struct LossSums {
 
 // `outputs` are rows of output_row numbers, as d_outputs; estimates, of values, and their gradient
 // rows of value_row. Logarithms of deviations are rows of deviation_row numbers, or 0: one row for
-// all; so is their gradient, to which is added.
+// all; so is their gradient, to which is added. Samples with many picks take long: it ends early
+// where `stops` says so.
 template <class Real>
 void add_loss(const ActionSpace& space, const LossWeights& weights, const Samples<Real>& samples,
               int count, const Real* outputs, int output_row, const Real* all_log_deviations,
               int deviation_row, const Real* estimates, int value_row, Real* d_outputs,
-              Real* d_estimates, Real* d_all_log_deviations, LossSums& sums) {
+              Real* d_estimates, Real* d_all_log_deviations, LossSums& sums,
+              const Stops* stops = nullptr) {
     const int reals = space.real_count(), indices = space.index_count(), mask = space.mask_size();
     const auto weight = static_cast<Real>(weights.sample_weight);
     const auto clip = static_cast<Real>(weights.clip);
-    for (int s = 0; s < count; ++s) {
+    for (int s = 0; s < count && !is_stopped(stops); ++s) {
         const Real* const output = outputs + s * output_row;
         const Real* const log_deviations = all_log_deviations + s * deviation_row;
         Real* const d_log_deviations = d_all_log_deviations + s * deviation_row;

@@ -93,6 +93,13 @@ struct Initialiser {
     }
 };
 
+void make_room(PpoModel& model) {
+    model.parameters.assign(parameter_count(model), 0.0f);
+    model.normaliser = Normaliser(model.features());
+}
+
+}  // namespace
+
 void lay_out_networks(PpoModel& model) {
     const int inputs = model.features() + model.recurrent;
     const auto network_of = [&](int outputs) {
@@ -102,13 +109,6 @@ void lay_out_networks(PpoModel& model) {
     model.value = network_of(1);
     if (model.recurrent > 0) model.memory = make_gru(model.features(), model.recurrent);
 }
-
-void make_room(PpoModel& model) {
-    model.parameters.assign(parameter_count(model), 0.0f);
-    model.normaliser = Normaliser(model.features());
-}
-
-}  // namespace
 
 std::size_t parameter_count(const PpoModel& model) {
     return model.memory_begin() + model.memory.parameters;

@@ -66,6 +66,9 @@ void make_parameters(PpoModel& model, const PpoOptions& options);
 // How many there are, or will be.
 std::size_t parameter_count(const PpoModel& model);
 
+// What the networks are, once the spaces and all sizes are there; it takes no room yet.
+void lay_out_networks(PpoModel& model);
+
 // Room for the networks, once the spaces and all that says what they are is there; all parameters
 // are 0.
 void make_networks(PpoModel& model);

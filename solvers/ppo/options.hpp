@@ -23,7 +23,8 @@ enum class LearningRate { Constant, Linear, Kl };  // Kl: changed so that the po
 struct PpoOptions {
     std::int64_t steps = 1'000'000;  // of all environments together
     int environments = 64;
-    int rollout = 128;  // steps of each environment between updates
+    int rollout = 128;              // steps of each environment between updates
+    bool names_rollout = false;     // somebody has chosen these two
     bool shortens_rollout = false;  // where it does not fit into memory_limit
     int epochs = 4;
     int minibatch = 1024;  // samples

@@ -1,6 +1,7 @@
 #include "solvers/ppo/policy_file.hpp"
 
 #include "solvers/batches/batch.hpp"
+#include "solvers/files/fingerprint.hpp"
 #include "solvers/ppo/memories.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "support/failure.hpp"
@@ -56,6 +57,34 @@ const char* name_of(RealHead::Range range) {
     }
     return "free";
 }
+
+// A number as JSON has it: nlohmann's library by itself makes 64 of 64.5 and 1 of true.
+const Json& number_in(const Json& json, const char* what) {
+    if (!json.is_number()) throw Failure(fmt::format("its {} is not a number", what));
+    return json;
+}
+std::int64_t whole_number(const Json& json, const char* what, std::int64_t least,
+                          std::int64_t most) {
+    const bool is_whole = json.is_number_integer();
+    if (is_whole && json >= least && json <= most) return json.get<std::int64_t>();
+    throw Failure(fmt::format("its {} is {}, not an int from {} to {}", what, json_excerpt(json),
+                              least, most));
+}
+double real_number(const Json& json, const char* what, double least, double most) {
+    const double value = number_in(json, what).get<double>();
+    if (value >= least && value <= most) return value;
+    throw Failure(
+        fmt::format("its {} is {}, not from {:g} to {:g}", what, json_excerpt(json), least, most));
+}
+std::vector<float> numbers_in(const Json& json, std::size_t count, const char* misfit) {
+    if (!json.is_array() || json.size() != count) throw Failure(misfit);
+    std::vector<float> numbers;
+    numbers.reserve(count);
+    for (const Json& each : json) numbers.push_back(number_in(each, "weight").get<float>());
+    return numbers;
+}
+constexpr const char* other_layers = "its layers do not fit";
+constexpr int most_units = 1 << 16, most_remembered = 1 << 14;
 
 // Older files tell the correlation alone.
 Noise noise_of(const Json& json, double correlation) {
@@ -124,19 +153,16 @@ std::string weights_text(const Weights<const float>& weights) {
 }
 void read_weights(const Json& json, const Weights<float>& weights) {
     const int inputs = weights.inputs, outputs = weights.outputs;
-    const auto all = json.get<std::vector<std::vector<float>>>();
-    if (all.size() != static_cast<std::size_t>(outputs)) throw Failure("its layers do not fit");
+    if (!json.is_array() || json.size() != static_cast<std::size_t>(outputs))
+        throw Failure(other_layers);
     for (int o = 0; o < outputs; ++o) {
-        const std::vector<float>& of_output = all[static_cast<std::size_t>(o)];
-        if (of_output.size() != static_cast<std::size_t>(inputs))
-            throw Failure("its layers do not fit");
+        const std::vector<float> of_output = numbers_in(
+            json[static_cast<std::size_t>(o)], static_cast<std::size_t>(inputs), other_layers);
         for (int i = 0; i < inputs; ++i) weights(i, o) = of_output[static_cast<std::size_t>(i)];
     }
 }
 void read_bias(const Json& json, int outputs, float* bias) {
-    const auto all = json.get<std::vector<float>>();
-    if (all.size() != static_cast<std::size_t>(outputs)) throw Failure("its layers do not fit");
-    std::ranges::copy(all, bias);
+    std::ranges::copy(numbers_in(json, static_cast<std::size_t>(outputs), other_layers), bias);
 }
 
 std::string text_of(const Network& network, const float* parameters) {
@@ -148,7 +174,7 @@ std::string text_of(const Network& network, const float* parameters) {
 }
 
 void read_layers(const Json& layers, const Network& network, float* parameters) {
-    if (layers.size() != network.layers.size()) throw Failure("its layers do not fit");
+    if (layers.size() != network.layers.size()) throw Failure(other_layers);
     for (std::size_t l = 0; l < layers.size(); ++l) {
         const Layer& layer = network.layers[l];
         read_weights(layers[l].at("weights"), layer.weights_in(parameters));
@@ -179,80 +205,172 @@ void read_gru(const Json& json, const Gru& gru, float* parameters) {
 
 // Of a file's member "recurrent", before anything gets that size.
 int units_of(const Json& json) {
-    const int units = json.at("units").get<int>();
-    if (units < 1 || json.at("state_bias").size() != static_cast<std::size_t>(units))
-        throw Failure("its layers do not fit");
-    return units;
+    const auto units = whole_number(json.at("units"), "number of units", 1, most_remembered);
+    if (json.at("state_bias").size() != static_cast<std::size_t>(units))
+        throw Failure(other_layers);
+    return static_cast<int>(units);
 }
 
 // The same of its hidden layers.
 std::vector<int> hidden_of(const Json& json) {
-    const auto hidden = json.at("hidden").get<std::vector<int>>();
-    const Json& layers = json.at("policy");
-    if (hidden.empty() || layers.size() != hidden.size() + 1)
-        throw Failure("its layers do not fit");
-    for (std::size_t l = 0; l < hidden.size(); ++l)
-        if (hidden[l] < 1 || layers.at(l).at("bias").size() != static_cast<std::size_t>(hidden[l]))
-            throw Failure("its layers do not fit");
+    const Json &sizes = json.at("hidden"), &layers = json.at("policy");
+    if (!sizes.is_array() || sizes.empty() || layers.size() != sizes.size() + 1)
+        throw Failure(other_layers);
+    std::vector<int> hidden;
+    for (const Json& size : sizes) {
+        const auto units = whole_number(size, "number of units", 1, most_units);
+        if (layers.at(hidden.size()).at("bias").size() != static_cast<std::size_t>(units))
+            throw Failure(other_layers);
+        hidden.push_back(static_cast<int>(units));
+    }
     return hidden;
 }
 
-std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
-    const Json json = parse_json(text);
-    if (json.value("format", "") != "rddl-policy" || json.value("solver", "") != "ppo")
+// Networks of these sizes have that many weights, each of which takes two bytes of the file or
+// more.
+void require_weights_in(const PpoModel& model, std::size_t bytes) {
+    double weights = 0;
+    for (const Network* const network : {&model.policy, &model.value})
+        for (const Layer& layer : network->layers) weights += 1.0 * layer.inputs * layer.outputs;
+    weights += 3.0 * model.memory.units * (model.memory.inputs + model.memory.units);
+    if (weights > static_cast<double>(bytes) / 2) throw Failure(other_layers);
+}
+
+// The largest that a unit's input can be, where what the unit sees is at most `seen`.
+double largest_sum(const Weights<const float>& weights, double seen, int output) {
+    double sum = 0;
+    for (int i = 0; i < weights.inputs; ++i)
+        sum += std::abs(static_cast<double>(weights(i, output))) * seen;
+    return sum;
+}
+
+// Floats reach to 3.4e38: nothing that the networks compute may come near, whatever is observed.
+void require_small(double number) {
+    if (!(number < 1e37)) throw Failure("a number in it is too large for a weight");
+}
+void require_small_sums(const Network& network, const float* parameters) {
+    double seen = Normaliser::most;
+    for (const Layer& layer : network.layers) {
+        double most = 0;
+        for (int o = 0; o < layer.outputs; ++o)
+            most = std::max(most, largest_sum(layer.weights_in(parameters), seen, o) +
+                                      std::abs(static_cast<double>(
+                                          parameters[layer.bias + static_cast<std::size_t>(o)])));
+        require_small(most);
+        seen = network.activation == Activation::Tanh ? 1 : most;
+    }
+}
+void require_small_sums(const Gru& gru, const float* parameters) {
+    for (const GruPart& part : gru_parts(gru))
+        for (int unit = 0; unit < gru.units; ++unit)
+            require_small(
+                largest_sum(input_weights(gru, part, parameters), Normaliser::most, unit) +
+                largest_sum(state_weights(gru, part, parameters), 1, unit));
+}
+void require_small_numbers(const PpoModel& model) {
+    for (const auto* const all :
+         {&model.parameters, &model.normaliser.means, &model.normaliser.factors})
+        for (const float number : *all) require_small(std::abs(static_cast<double>(number)));
+    require_small_sums(model.policy, model.parameters.data());
+    require_small_sums(model.value, model.value_parameters());
+    if (model.recurrent > 0) require_small_sums(model.memory, model.memory_parameters());
+    // Noise of e^80 is far beyond any action, and still a float.
+    for (int d = 0; d < model.deviation_count(); ++d)
+        if (model.log_deviations()[d] > 80) throw Failure("its noise is too large");
+}
+
+// What is seen, but for the horizon, which another instance of the problem may have.
+Json seen_in(Json space) {
+    space.erase("horizon");
+    return space;
+}
+
+void require_format(const Json& json) {
+    if (!json.is_object() || json.value("format", "") != "rddl-policy" ||
+        json.value("solver", "") != "ppo")
         throw Failure("it is no policy of PPO");
-    const int version = json.at("version").get<int>();
-    if (version < 1 || version > policy_file_version)
+    const Json& version = json.at("version");
+    if (version.is_number_integer() && version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
-                                  version, policy_file_version));
+                                  json_excerpt(version), policy_file_version));
+    whole_number(version, "version", 1, policy_file_version);
+}
+
+// Of any instance in which the same is seen and done.
+void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& model) {
     const rddl_problem& problem = *simulator.problem;
-    if (json.at("domain") != problem.domain || json.at("instance") != problem.instance)
+    if (json.at("domain") != problem.domain)
         throw Failure(fmt::format(
             "it is of the problem {} ({}), not of {} ({})", json.at("instance").get<std::string>(),
             json.at("domain").get<std::string>(), problem.instance, problem.domain));
-    const auto model = std::make_shared<PpoModel>();
     const Json& seen = json.at("observation");
     ObservationOptions options;
-    options.stack = seen.at("stack").get<int>();
+    options.stack = static_cast<int>(whole_number(seen.at("stack"), "stack", 1, most_stacked));
     options.time =
         seen.at("time").get<bool>() ? ObservationOptions::Time::On : ObservationOptions::Time::Off;
-    model->observations = observation_space(simulator, options);
-    model->actions = action_space(simulator);
+    model.observations = observation_space(simulator, options);
+    model.actions = action_space(simulator);
     for (const Json& real : json.at("action").at("reals"))
-        if (real.at("range") == "squashed") squash_bounded(model->actions);
+        if (real.at("range") == "squashed") squash_bounded(model.actions);
     // As values: other programs lay out JSON in their own way.
-    if (parse_json(text_of(model->observations)) != seen.at("space") ||
-        parse_json(text_of(model->actions)) != json.at("action"))
-        throw Failure("it is of another version of the problem: what is seen or done has changed");
+    if (seen_in(parse_json(text_of(model.observations))) != seen_in(seen.at("space")) ||
+        parse_json(text_of(model.actions)) != json.at("action"))
+        throw Failure(
+            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
+                        json.at("instance").get<std::string>(), problem.instance));
+}
+
+// A value of JSON takes about that much once it is read, with what vectors keep in reserve.
+constexpr double bytes_per_value = 64;
+
+void require_room_for(std::string_view text, std::int64_t memory_limit) {
+    const auto values = std::ranges::count_if(text, [](char c) { return c == ',' || c == '['; });
+    const double bytes =
+        static_cast<double>(text.size()) + bytes_per_value * static_cast<double>(values);
+    if (bytes > static_cast<double>(memory_limit))
+        throw Failure(
+            fmt::format("to read it takes about {}, more than the limit of {}", memory_text(bytes),
+                        memory_text(static_cast<double>(memory_limit))),
+            "a larger --memory-limit allows it");
+}
+
+std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
+    constexpr int most_brackets = 100;
+    const Json json = parse_json(text, most_brackets);
+    require_format(json);
+    const auto model = std::make_shared<PpoModel>();
+    read_spaces(simulator, json, *model);
     model->hidden = hidden_of(json);
     model->activation = activation_of(json);
     if (json.contains("recurrent")) model->recurrent = units_of(json.at("recurrent"));
-    model->correlation = json.at("correlation").get<double>();
+    model->correlation = real_number(json.at("correlation"), "correlation", 0, 1);
     model->noise = noise_of(json, model->correlation);
-    model->noise_steps = std::max(json.value("noise_steps", 1), 1);
+    if (json.contains("noise_steps"))
+        model->noise_steps = static_cast<int>(whole_number(
+            json.at("noise_steps"), "number of steps with the same noise", 1, 1 << 20));
+    else
+        model->noise_steps = 1;
+    const Json& seen = json.at("observation");
+    constexpr const char* other_features = "its observations do not fit";
+    const auto features = static_cast<std::size_t>(model->features());
+    const std::vector<float> means = numbers_in(seen.at("means"), features, other_features);
+    const std::vector<float> factors = numbers_in(seen.at("factors"), features, other_features);
+    lay_out_networks(*model);
+    require_weights_in(*model, text.size());
     make_networks(*model);
-    model->normaliser.means = seen.at("means").get<std::vector<float>>();
-    model->normaliser.factors = seen.at("factors").get<std::vector<float>>();
-    if (model->normaliser.means.size() != static_cast<std::size_t>(model->features()) ||
-        model->normaliser.factors.size() != model->normaliser.means.size())
-        throw Failure("its observations do not fit");
+    model->normaliser.means = means;
+    model->normaliser.factors = factors;
     read_layers(json.at("policy"), model->policy, model->parameters.data());
     read_layers(json.at("value"), model->value, model->parameters.data() + model->value_begin());
     if (model->recurrent > 0)
         read_gru(json.at("recurrent"), model->memory,
                  model->parameters.data() + model->memory_begin());
-    const auto deviations = json.at("log_deviations").get<std::vector<float>>();
-    if (deviations.size() != static_cast<std::size_t>(model->deviation_count()))
-        throw Failure("its actions do not fit");
+    const std::vector<float> deviations =
+        numbers_in(json.at("log_deviations"), static_cast<std::size_t>(model->deviation_count()),
+                   "its actions do not fit");
     std::copy(deviations.begin(), deviations.end(),
               model->parameters.data() + model->deviations_begin());
-    const auto is_finite = [](float number) {
-        return std::isfinite(number);
-    };
-    if (!std::ranges::all_of(model->parameters, is_finite) ||
-        !std::ranges::all_of(model->normaliser.means, is_finite) ||
-        !std::ranges::all_of(model->normaliser.factors, is_finite))
-        throw Failure("a number in it is too large for a weight");
+    require_small_numbers(*model);
     return model;
 }
 
@@ -287,6 +405,7 @@ struct PpoActor {
     }
 
     void act(Decision& decision) {
+        chooser.set_stops(decision.stops);
         const std::int64_t count = static_cast<std::int64_t>(decision.running.size());
         const int width = model->features(), row = model->input_row();
         const int output_row = model->policy.padded_outputs();
@@ -378,7 +497,8 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
 }
 
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
-                                                std::string_view text) {
+                                                std::string_view text, std::int64_t memory_limit) {
+    require_room_for(text, memory_limit);
     try {
         return read(simulator, text);
     } catch (const nlohmann::json::parse_error&) {
@@ -392,7 +512,8 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
 
 Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
                   bool random, std::uint64_t seed, std::string name) {
-    return {std::move(name), [&simulator, model, random, seed](std::int64_t environments) -> Actor {
+    return {std::move(name), spaces_of(simulator),
+            [&simulator, model, random, seed](std::int64_t environments) -> Actor {
                 const auto actor =
                     std::make_shared<PpoActor>(simulator, model, random, seed, environments);
                 return [actor](Decision& decision) {

@@ -41,6 +41,7 @@ struct RunningStatistics {
 
 // Numbers become (x - mean) / deviation, within +-10.
 struct Normaliser {
+    static constexpr float most = 10;
     std::vector<float> means, factors;  // of each feature; 0 and 1 at first
     explicit Normaliser(int features = 0)
         : means(static_cast<std::size_t>(features), 0.0f),
@@ -49,7 +50,7 @@ struct Normaliser {
     void write(const float* features, float* normalised) const {
         for (std::size_t f = 0; f < means.size(); ++f) {
             const float x = (features[f] - means[f]) * factors[f];
-            normalised[f] = x > 10 ? 10 : x < -10 ? -10 : x;
+            normalised[f] = x > most ? most : x < -most ? -most : x;
         }
     }
 };

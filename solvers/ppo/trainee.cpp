@@ -1,10 +1,10 @@
 #include "solvers/ppo/trainee.hpp"
 
+#include "solvers/ppo/option_table.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -49,72 +49,17 @@ std::string ppo_status(const PpoProgress& progress, const Work& work) {
                        progress.mean_length, progress.kl, progress.explained_variance);
 }
 
-// What the presets alone change is told by their names.
-const char* preset_of(const PpoOptions& options) {
-    if (options.kl_penalty > 0) return "rllib";
-    return options.normalises_observations || options.normalises_rewards ? "fast" : "sb3";
-}
-
-std::string name_of(LearningRate schedule) {
-    return schedule == LearningRate::Linear ? "linear"
-           : schedule == LearningRate::Kl   ? "kl"
-                                            : "constant";
-}
-
-const char* on_or_off(bool is_on) {
-    return is_on ? "on" : "off";
-}
-
-const char* name_of(ObservationOptions::Time time) {
-    return time == ObservationOptions::Time::Auto ? "auto"
-                                                  : on_or_off(time == ObservationOptions::Time::On);
-}
-
-// All but --steps, by which a run may go on for longer, and --threads.
-Settings ppo_settings(const PpoOptions& o) {
-    const auto text = [](const auto& value) {
-        return fmt::format("{}", value);
-    };
-    return {{"--preset", preset_of(o)},
-            {"--envs", text(o.environments)},
-            {"--rollout", text(o.rollout)},
-            {"--epochs", text(o.epochs)},
-            {"--minibatch", text(o.minibatch)},
-            {"--lr", text(o.learning_rate)},
-            {"--lr-schedule", name_of(o.schedule)},
-            {"--gamma", text(o.gamma)},
-            {"--lambda", text(o.lambda)},
-            {"--clip", text(o.clip)},
-            {"--value-clip", text(o.value_clip)},
-            {"--value-weight", text(o.value_weight)},
-            {"--entropy", o.entropy_weight ? text(*o.entropy_weight) : "auto"},
-            {"--gradient-norm", text(o.gradient_norm)},
-            {"--target-kl", text(o.kl_stop)},
-            {"--noise", name_of(o.noise)},
-            {"--sde-steps", text(o.noise_steps)},
-            {"--correlation", text(o.correlation)},
-            {"--log-std", text(o.log_deviation)},
-            {"--squash", on_or_off(o.squashes)},
-            {"--curiosity", on_or_off(o.curious)},
-            {"--hidden", fmt::format("{}", fmt::join(o.hidden, ","))},
-            {"--activation", name_of(o.activation)},
-            {"--stack", text(o.observations.stack)},
-            {"--recurrent", text(o.recurrent)},
-            {"--segment", text(o.segment)},
-            {"--time-input", name_of(o.observations.time)},
-            {"--bootstrap", o.bootstraps ? on_or_off(*o.bootstraps) : "auto"}};
-}
-
 }  // namespace
 
 Trainee ppo_trainee(const rddl_simulator& simulator, const PpoOptions& options,
                     const Ranks& ranks) {
+    require_ranges(ppo_option_table(), options);
     const auto trainer = std::make_shared<PpoTrainer>(simulator, options, ranks);
     const auto work = std::make_shared<Work>();
     const auto total = static_cast<double>(options.steps);
     Trainee trainee;
     trainee.solver = "ppo";
-    trainee.settings = ppo_settings(trainer->options());
+    trainee.settings = settings_of(ppo_option_table(), trainer->options());
     if (const int rollout = trainer->options().rollout; rollout != options.rollout)
         trainee.note = fmt::format("--rollout is {} in place of {}, since this problem is large",
                                    rollout, options.rollout);

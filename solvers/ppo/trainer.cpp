@@ -22,7 +22,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 5};
+const CheckpointKind checkpoint{"PPO", "rddl ppo checkpoint", 6};
 constexpr std::size_t remembered_episodes = 100;
 
 using Clock = std::chrono::steady_clock;
@@ -72,7 +72,7 @@ void shuffle(std::vector<std::uint32_t>& order, std::uint64_t seed, std::uint64_
 // Shortens the rollout where it may.
 PpoModel model_that_fits(const rddl_simulator& simulator, PpoOptions& options) {
     PpoModel model = model_without_parameters(observation_space(simulator, options.observations),
-                                              action_space(simulator), options);
+                                              action_space(simulator, options.stops), options);
     if (options.shortens_rollout) options.rollout = fitting_rollout(simulator, model, options);
     require_room(simulator, model, options);
     make_parameters(model, options);
@@ -373,12 +373,12 @@ struct PpoTrainer::State {
             throw Failure(
                 "it is of a run with other networks: --hidden, --activation, --stack and "
                 "--recurrent have to be as they were");
-        archive(model.normaliser.means);
-        archive(model.normaliser.factors);
-        archive(learner.first_moments);
-        archive(learner.second_moments);
+        archive.fixed(model.normaliser.means);
+        archive.fixed(model.normaliser.factors);
+        archive.fixed(learner.first_moments);
+        archive.fixed(learner.second_moments);
         archive(learner.adam_steps);
-        archive(feature_statistics);
+        archive.fixed(feature_statistics);
         archive(return_statistics);
         archive(learning_rate);
         archive(kl_penalty);
@@ -407,6 +407,7 @@ struct PpoTrainer::State {
     }
 
     const rddl_simulator& simulator;
+    const Fingerprint problem = fingerprint(simulator);
     PpoOptions options;
     Ranks ranks;
     PpoModel model;
@@ -449,14 +450,14 @@ const PpoProgress& PpoTrainer::progress() const {
 
 std::string PpoTrainer::save() const {
     SavingArchive archive;
-    begin_checkpoint(archive, checkpoint, state_->simulator);
+    begin_checkpoint(archive, checkpoint, state_->problem);
     state_->archive(archive);
     return archive.bytes();
 }
 
 void PpoTrainer::load(std::string_view bytes) {
     LoadingArchive archive(bytes);
-    begin_checkpoint(archive, checkpoint, state_->simulator);
+    begin_checkpoint(archive, checkpoint, state_->problem);
     state_->archive(archive);
 }
 

@@ -1,4 +1,5 @@
 // main() of a program that rddl_add_solver makes with SOLVER cgp.
+#include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/trainee.hpp"
 #include "solvers/program/program.hpp"
@@ -10,14 +11,8 @@ int main(int argc, char** argv) {
     CgpOptions options;
     SolverProgram program;
     program.solver = "cgp";
-    program.help = "  --gens N  --lambda N  --cols N  --islands N  --threads T\n"
-        "  --memory-limit BYTES\n";
-    add_number(program.options, "--gens", options.generations);
-    add_number(program.options, "--lambda", options.children);
-    add_number(program.options, "--cols", options.nodes);
-    add_number(program.options, "--islands", options.islands);
-    add_number(program.options, "--threads", options.threads);
-    add_number(program.options, "--memory-limit", options.memory_limit);
+    add_options(program, cgp_option_table(), options);
+    add_options(program, OptionTable<CgpOptions>{memory_option<CgpOptions>()}, options);
     program.trainee = [&](const rddl_simulator& simulator, std::uint64_t seed, const Ranks& ranks) {
         options.seed = seed;
         return cgp_trainee(simulator, options, ranks);

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <csignal>
+#include <limits>
+#include <map>
 
 namespace rddlc::solvers {
 
@@ -20,51 +22,99 @@ void note_signal(int signal) {
     signalled = signal;
 }
 
-void print_help(const char* name, const SolverProgram& program) {
-    fmt::print(
-        "Usage: {0} train --out FOLDER [--resume] [--seed S] [--time SECONDS] [--stop-return R]\n"
-        "       {0} evaluate POLICY [--episodes N] [--seed S]\n\n"
-        "Options of train:\n{1}",
-        name, program.help);
+void print_options(const std::vector<ProgramOption>& options) {
+    for (const ProgramOption& option : options)
+        fmt::print("  {:<24} {}\n", option.name + (option.value.empty() ? "" : " " + option.value),
+                   option.help);
 }
 
-// Takes the words from `first` on; those that are not "--..." go to `take_other`.
-void take_words(int first, int argc, char** argv, const WordTakers& options,
+// Takes the words behind the verb; those that are not "--..." go to `take_other`.
+void take_words(int argc, char** argv, const std::vector<ProgramOption>& options,
                 const std::function<void(const std::string&)>& take_other) {
-    for (int i = first; i < argc; ++i) {
+    std::map<std::string, std::string> given;
+    for (int i = 2; i < argc; ++i) {
         const std::string word = argv[i];
-        if (word == "--resume" || !word.starts_with("--")) {
+        if (!word.starts_with("--")) {
             take_other(word);
             continue;
         }
-        const auto option = options.find(word);
-        if (option == options.end())
-            throw Failure(fmt::format("unknown option '{}'", word), {}, usage_error);
-        if (++i == argc) throw Failure(fmt::format("{} needs a value", word), {}, usage_error);
-        option->second(argv[i]);
+        const auto option = std::ranges::find(options, word, &ProgramOption::name);
+        if (option == options.end()) {
+            std::vector<std::string> known;
+            for (const ProgramOption& each : options) known.push_back(each.name);
+            throw Failure(unknown_option(word, known), {}, usage_error);
+        }
+        if (option->value.empty()) {
+            given[word] = "on";
+        } else {
+            if (++i == argc) throw Failure(fmt::format("{} needs a value", word), {}, usage_error);
+            given[word] = argv[i];
+        }
     }
+    for (const ProgramOption& option : options) {
+        const auto found = given.find(option.name);
+        if (found == given.end()) continue;
+        try {
+            option.set(option.is_list ? words_of_list(found->second) : std::vector{found->second});
+        } catch (const OptionRefused& refused) {
+            throw Failure(fmt::format("{}: {}", option.name, refused.what()), {}, usage_error);
+        }
+    }
+}
+
+template <class Number, class Target>
+ProgramOption number(OptionText text, Target& target, Number least, Number most) {
+    return {std::move(text), [&target, least, most](const std::vector<std::string>& words) {
+                target = number_of_option<Number>(words.front(), least, most);
+            }};
+}
+
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::uint64_t>::max();
+
+std::vector<ProgramOption> training_options(TrainingOptions& training) {
+    return {
+        {{"--out", "", "FOLDER", "Where the run is written"},
+         [&](const std::vector<std::string>& words) {
+             training.folder = words.front();
+         }},
+        {{"--resume", "", "", "Go on with the run in that folder, by the same options"},
+         [&](const std::vector<std::string>&) {
+             training.resumes = true;
+         }},
+        number<std::uint64_t>({"--seed", "", "S", "Seed of all random numbers (0)"}, training.seed,
+                              0, largest_seed),
+        number<double>({"--time", "", "SECONDS", "End after so long"}, training.seconds, 0, 1e9),
+        number<double>({"--stop-return", "", "RETURN", "End when an evaluation earns this"},
+                       training.stop_return, -1e300, 1e300)};
+}
+
+std::vector<ProgramOption> evaluation_options(EpisodeOptions& episodes) {
+    return {number<std::int64_t>({"--episodes", "", "N", "How many (100)"}, episodes.episodes, 1,
+                                 100'000'000),
+            number<std::uint64_t>({"--seed", "", "S", "Seed of all random numbers (0)"},
+                                  episodes.seed, 0, largest_seed)};
+}
+
+void print_help(const char* name, const SolverProgram& program) {
+    TrainingOptions training;
+    EpisodeOptions episodes;
+    fmt::print(
+        "Usage: {0} train --out FOLDER [OPTIONS]\n       {0} evaluate POLICY [OPTIONS]\n\n"
+        "Options of train:\n",
+        name);
+    print_options(training_options(training));
+    print_options(program.options);
+    fmt::print("\nOptions of evaluate:\n");
+    print_options(evaluation_options(episodes));
 }
 
 ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& program, int argc,
                           char** argv) {
     TrainingOptions training;
-    WordTakers options = program.options;
-    options["--out"] = [&](const std::string& word) {
-        training.folder = word;
-    };
-    options["--seed"] = [&](const std::string& word) {
-        training.seed = static_cast<std::uint64_t>(number_in("--seed", word));
-    };
-    options["--time"] = [&](const std::string& word) {
-        training.seconds = number_in("--time", word);
-    };
-    options["--stop-return"] = [&](const std::string& word) {
-        training.stop_return = number_in("--stop-return", word);
-    };
-    take_words(2, argc, argv, options, [&](const std::string& word) {
-        if (word != "--resume")
-            throw Failure(fmt::format("too many words: '{}'", word), {}, usage_error);
-        training.resumes = true;
+    std::vector<ProgramOption> options = training_options(training);
+    options.insert(options.end(), program.options.begin(), program.options.end());
+    take_words(argc, argv, options, [](const std::string& word) {
+        throw Failure(fmt::format("too many words: '{}'", word), {}, usage_error);
     });
     if (training.folder.empty())
         throw Failure("--out names the folder of the run", {}, usage_error);
@@ -89,15 +139,8 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
     EpisodeOptions episodes;
     episodes.episodes = 100;
     std::string file;
-    const WordTakers options = {
-        {"--episodes",
-         [&](const std::string& word) {
-             episodes.episodes = static_cast<std::int64_t>(number_in("--episodes", word));
-         }},
-        {"--seed", [&](const std::string& word) {
-             episodes.seed = static_cast<std::uint64_t>(number_in("--seed", word));
-         }}};
-    take_words(2, argc, argv, options, [&](const std::string& word) { file = word; });
+    take_words(argc, argv, evaluation_options(episodes),
+               [&](const std::string& word) { file = word; });
     if (file.empty()) throw Failure("name the policy to evaluate", {}, usage_error);
     if (is_endless(*simulator.problem, simulator.problem->horizon)) episodes.horizon = 1000;
     const Policy policy = program.read(simulator, read_file(file));
@@ -110,14 +153,6 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
 }
 
 }  // namespace
-
-double number_in(const std::string& option, const std::string& word) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size())
-        throw Failure(fmt::format("{}: '{}' is no number", option, word), {}, usage_error);
-    return number;
-}
 
 int run_solver_program(const rddl_simulator& simulator, const SolverProgram& program, int argc,
                        char** argv) {

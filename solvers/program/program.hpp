@@ -2,26 +2,29 @@
 // (rddl_add_solver in CMake).
 #pragma once
 
+#include "solvers/options/options.hpp"
 #include "solvers/policies/policy.hpp"
 #include "solvers/training/training.hpp"
 
 #include <rddl/simulator.h>
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rddlc::solvers {
 
-// Options that the solver takes beside those of every training: by name, with what takes the word.
-using WordTakers = std::map<std::string, std::function<void(const std::string&)>>;
+// An option of a program, and what takes the words of its value. They are set in the order in which
+// the program lists them.
+struct ProgramOption : OptionText {
+    std::function<void(const std::vector<std::string>&)> set;
+};
 
 struct SolverProgram {
-    std::string solver;  // "ppo"
-    std::string help;    // lines about its options
-    WordTakers options;  // "--steps"
+    std::string solver;                  // "ppo"
+    std::vector<ProgramOption> options;  // of training, beside those of every training
     std::function<Trainee(const rddl_simulator&, std::uint64_t seed, const Ranks&)> trainee;
     std::function<Policy(const rddl_simulator&, std::string_view text)> read;
 };
@@ -30,15 +33,14 @@ struct SolverProgram {
 int run_solver_program(const rddl_simulator& simulator, const SolverProgram& program, int argc,
                        char** argv);
 
-// The number that a word is; a Failure if it is none.
-double number_in(const std::string& option, const std::string& word);
-
-// The option's word is that number, which must live as long as the options.
-template <class Number>
-void add_number(WordTakers& options, const std::string& name, Number& number) {
-    options[name] = [name, &number](const std::string& word) {
-        number = static_cast<Number>(number_in(name, word));
-    };
+// All options of a learner's table. `options` must outlive the program.
+template <class Options>
+void add_options(SolverProgram& program, const OptionTable<Options>& table, Options& options) {
+    for (const LearnerOption<Options>& option : table)
+        program.options.push_back(
+            {option, [&options, set = option.set](const std::vector<std::string>& words) {
+                 set(options, words);
+             }});
 }
 
 }  // namespace rddlc::solvers

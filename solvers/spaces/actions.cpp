@@ -59,8 +59,8 @@ double typical_size(const rddl_simulator& simulator) {
 // the beginning of an episode; `otherwise` if there is no such limit.
 double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
                   const std::vector<float>& defaults, int column, double start, double direction,
-                  double otherwise) {
-    if (simulator.problem->precondition_count == 0) return otherwise;
+                  double otherwise, const Stops& stops) {
+    if (simulator.problem->precondition_count == 0 || is_stopped(&stops)) return otherwise;
     rddl_batch_options options{};
     options.thread_count = 1;
     const Batch batch = create_batch(simulator, options);
@@ -80,7 +80,8 @@ double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
 }
 
 RealHead real_head(const rddl_simulator& simulator, const ActionRecords& records,
-                   const ActionSpace& space, const rddl_column& column, int index) {
+                   const ActionSpace& space, const rddl_column& column, int index,
+                   const Stops& stops) {
     RealHead head;
     head.column = index;
     head.rounds = column.scalar == RDDL_INT;
@@ -93,7 +94,7 @@ RealHead real_head(const rddl_simulator& simulator, const ActionRecords& records
     }
     const auto size = [&](double start, double direction) {
         return legal_size(simulator, records, space.defaults, index, start, direction,
-                          typical_size(simulator));
+                          typical_size(simulator), stops);
     };
     if (std::isfinite(head.lower)) {
         head.range = RealHead::Range::AboveLower;
@@ -246,31 +247,57 @@ void require_choices(const rddl_simulator& simulator) {
                         limit, choices));
 }
 
-ActionSpace action_space(const rddl_simulator& simulator) {
-    require_choices(simulator);
-    const rddl_problem& problem = *simulator.problem;
-    const std::vector<rddl_column> columns = action_columns(simulator);
-    const ActionRecords records(simulator);
+namespace {
+
+// Each value by itself, with the heads that it suggests.
+ActionSpace space_of_columns(const rddl_simulator& simulator,
+                             const std::vector<rddl_column>& columns, const ActionRecords& records,
+                             const Stops& stops) {
     ActionSpace space;
     space.column_count = static_cast<int>(columns.size());
     space.defaults.resize(columns.size());
-    records.read(static_cast<const std::byte*>(problem.default_action), space.defaults.data());
+    records.read(static_cast<const std::byte*>(simulator.problem->default_action),
+                 space.defaults.data());
     for (std::size_t c = 0; c < columns.size(); ++c) {
         const auto index = static_cast<int>(c);
         space.names.push_back(grounded_name(simulator, columns[c].fluent, columns[c].grounding));
         if (is_category(columns[c]))
             add_category(space, columns[c], index);
         else
-            space.reals.push_back(real_head(simulator, records, space, columns[c], index));
+            space.reals.push_back(real_head(simulator, records, space, columns[c], index, stops));
     }
+    return space;
+}
 
+}  // namespace
+
+std::optional<Groups> groups_without_limit(const rddl_simulator& simulator, int least_bools,
+                                           const Stops& stops) {
+    if (simulator.problem->precondition_count == 0) return std::nullopt;
+    const std::vector<rddl_column> columns = action_columns(simulator);
+    const auto count = static_cast<std::int64_t>(columns.size());
+    const auto bools = std::ranges::count(columns, RDDL_BOOL, &rddl_column::scalar);
+    if (bools < least_bools || limit_of_changes(*simulator.problem, count) < count)
+        return std::nullopt;
+    const ActionRecords records(simulator);
+    const ActionSpace space = space_of_columns(simulator, columns, records, stops);
+    if (!preconditions_bite(simulator, space, records, stops)) return std::nullopt;
+    return find_groups(simulator, columns, space, records, stops);
+}
+
+ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops) {
+    require_choices(simulator);
+    const rddl_problem& problem = *simulator.problem;
+    const std::vector<rddl_column> columns = action_columns(simulator);
+    const ActionRecords records(simulator);
+    ActionSpace space = space_of_columns(simulator, columns, records, stops);
     const std::int64_t limit = limit_of_changes(problem, space.column_count);
     const std::int64_t choices = simulator.action_choice_count(&simulator);
-    const bool bites = preconditions_bite(simulator, space, records);
+    const bool bites = preconditions_bite(simulator, space, records, stops);
     space.asks = may_ask_for_masks(problem, space.column_count, choices);
     const bool is_limited = limit < space.column_count;
     const auto groups =
-        bites && limit > 1 ? find_groups(simulator, columns, space, records) : std::nullopt;
+        bites && limit > 1 ? find_groups(simulator, columns, space, records, stops) : std::nullopt;
     // Picks keep to limits, too, and know what is legal; but from the default they do not find to
     // actions where one bool of each group has to change.
     if (groups && !(is_limited && groups->may_be_none)) {

@@ -10,10 +10,14 @@
 // are legal after those that were made.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
+#include "solvers/spaces/groups.hpp"
+
 #include <rddl/simulator.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,8 +80,14 @@ struct ActionSpace {
 void require_choices(const rddl_simulator& simulator);
 
 // Looks at the problem, and by a few random steps at what its preconditions forbid. Throws as
-// require_choices does.
-ActionSpace action_space(const rddl_simulator& simulator);
+// require_choices does. Ends early where `stops` says so.
+ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops = {});
+
+// The groups of bools that preconditions allow one change each (preconditions.hpp), if all of them
+// may change in one action. Nothing where the problem has fewer bools than `least_bools`: then
+// nothing is tried.
+std::optional<Groups> groups_without_limit(const rddl_simulator& simulator, int least_bools,
+                                           const Stops& stops = {});
 
 // Reals with two bounds become squashed.
 void squash_bounded(ActionSpace& space);

@@ -137,10 +137,10 @@ void try_bases(const Actions& all, const auto& make) {
 // Searches for all environments side by side, since the simulator is asked about all of them.
 void try_random_bases(const Actions& all) {
     MendingRoom& room = all.room;
-    std::fill(room.random_searches.begin(), room.random_searches.end(), RandomPolicy::Search{});
+    for (RandomPolicy::Search& search : room.random_searches) search.restart();
     for (std::int64_t i = 0; i < all.count(); ++i)
         if (needs_base(all.search_of(i))) room.random->act(0, 0, all.record_of(i));
-    for (bool searching = true; searching;) {
+    for (bool searching = true; searching && !is_stopped(room.stops);) {
         all.ask();
         searching = false;
         for (std::int64_t i = 0; i < all.count(); ++i) {
@@ -212,7 +212,7 @@ std::int64_t mend_actions(const rddl_simulator& simulator, const ActionSpace& sp
     };
     for (std::int64_t i = 0; i < all.count(); ++i)
         if (all.search_of(i).active) mending_of(i).start(all.search_of(i), all.wanted_of(i));
-    while (std::ranges::any_of(room.searches, &Search::active)) {
+    while (std::ranges::any_of(room.searches, &Search::active) && !is_stopped(room.stops)) {
         for (std::int64_t i = 0; i < all.count(); ++i)
             if (all.search_of(i).active) all.set_first(i, all.search_of(i).asked(columns));
         all.ask();

@@ -1,6 +1,7 @@
 // Actions that violate a precondition, made legal.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
 #include "solvers/policies/random_policy.hpp"
 #include "solvers/spaces/actions.hpp"
 
@@ -46,6 +47,7 @@ struct MendingRoom {
     std::vector<std::uint8_t> is_real;                  // by column: not of ints
     std::optional<RandomPolicy> random;                 // for bases
     std::vector<RandomPolicy::Search> random_searches;  // one an environment
+    const Stops* stops = nullptr;                       // where the work ends early
 };
 
 // Values at fault fall back toward those of a legal action: a real by halves at first, then all the

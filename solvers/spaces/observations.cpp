@@ -3,6 +3,8 @@
 #include "solvers/spaces/groundings.hpp"
 #include "support/failure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rddlc::solvers {
@@ -77,6 +79,10 @@ ObservationSpace observation_space(const rddl_simulator& simulator,
         space.has_objects |= column.object_count > 0;
         space.columns.push_back(std::move(column));
     }
+    constexpr std::int64_t most_features = 1 << 30;
+    if (std::int64_t{space.stack} * space.frame_size() > most_features)
+        throw Failure(fmt::format("{} observations of {} values each are more than a network takes",
+                                  space.stack, space.frame_size()));
     return space;
 }
 

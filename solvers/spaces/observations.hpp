@@ -9,6 +9,9 @@
 
 namespace rddlc::solvers {
 
+// Observations that may be seen at once.
+inline constexpr int most_stacked = 1000;
+
 struct ObservationOptions {
     enum class Time { Auto, On, Off } time = Time::Auto;
     int stack = 1;  // observations that are seen at once, the newest first

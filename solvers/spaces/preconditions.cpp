@@ -153,7 +153,7 @@ void change(float& value) {
 }
 
 std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
-                                const std::vector<std::vector<int>>& groups) {
+                                const std::vector<std::vector<int>>& groups, const Stops& stops) {
     std::mt19937 random;
     const auto below = [&](std::size_t count) {
         return static_cast<std::size_t>(random()) % count;
@@ -172,6 +172,7 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
 
     std::optional<bool> may_be_none;
     for (std::int64_t step = 0; step < trial.steps(); ++step) {
+        if (is_stopped(&stops)) return std::nullopt;
         trial.draw(step);
         for (std::int64_t e = 0; e < environments; ++e) {
             float* const values = trial.values(e);
@@ -209,10 +210,10 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
 }  // namespace
 
 bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
-                        const ActionRecords& records) {
+                        const ActionRecords& records, const Stops& stops) {
     if (simulator.problem->precondition_count == 0) return false;
     Trial trial(simulator, space, records);
-    for (std::int64_t step = 0; step < trial.steps(); ++step) {
+    for (std::int64_t step = 0; step < trial.steps() && !is_stopped(&stops); ++step) {
         trial.draw(step);
         for (std::int64_t e = 0; e < environments; ++e) {
             double number = -2 + 4 * static_cast<double>((e * 7 + step * 3) % 16) / 15;
@@ -229,11 +230,12 @@ bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& spac
 
 std::optional<Groups> find_groups(const rddl_simulator& simulator,
                                   const std::vector<rddl_column>& columns, const ActionSpace& space,
-                                  const ActionRecords& records) {
+                                  const ActionRecords& records, const Stops& stops) {
     const std::int64_t limit = simulator.problem->max_nondef_actions;
     for (const auto& groups : guesses(*simulator.problem, columns)) {
         if (limit >= 0 && changes_of(groups, space.column_count) > limit) continue;
-        if (auto found = confirmed(Trial(simulator, space, records), space, groups)) return found;
+        if (auto found = confirmed(Trial(simulator, space, records), space, groups, stops))
+            return found;
     }
     return std::nullopt;
 }

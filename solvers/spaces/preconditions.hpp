@@ -2,7 +2,9 @@
 // which other ones are.
 #pragma once
 
+#include "solvers/batches/stops.hpp"
 #include "solvers/spaces/actions.hpp"
+#include "solvers/spaces/groups.hpp"
 
 #include <rddl/simulator.h>
 
@@ -11,16 +13,12 @@
 
 namespace rddlc::solvers {
 
+// Both end early, with "no", where `stops` says so.
+
 // Whether any of some random actions, reals among them of the size that a learner begins with,
 // violates a precondition in the states that they lead to.
 bool preconditions_bite(const rddl_simulator& simulator, const ActionSpace& space,
-                        const ActionRecords& records);
-
-// Bools of which one may change at a time, such as one item for each consumer.
-struct Groups {
-    std::vector<std::vector<int>> columns;  // of each group at least two, in ascending order
-    bool may_be_none = true;                // false: one bool of each group has to change
-};
+                        const ActionRecords& records, const Stops& stops);
 
 // Tries the groups that the parameters of the action-fluents suggest: the changes that concern the
 // same object. They are taken if, in the states of some random episodes, random actions with one
@@ -29,6 +27,6 @@ struct Groups {
 // are found.
 std::optional<Groups> find_groups(const rddl_simulator& simulator,
                                   const std::vector<rddl_column>& columns, const ActionSpace& space,
-                                  const ActionRecords& records);
+                                  const ActionRecords& records, const Stops& stops);
 
 }  // namespace rddlc::solvers

@@ -2,6 +2,7 @@
 
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/files/fingerprint.hpp"
 #include "solvers/training/checkpoint_file.hpp"
 #include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
@@ -106,16 +107,33 @@ class Training {
         result_.best_length = best_length_;
         result_.best_policy = best_policy_;
         if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
-            throw Failure(
-                fmt::format("no evaluation has a finite return: {}", result_.not_finite),
-                "'rddl run --trace' shows what leads there");
+            throw Failure(fmt::format("no evaluation has a finite return: {}", result_.not_finite),
+                          "'rddl run --trace' shows what leads there");
         return result_;
     }
 
   private:
     std::filesystem::path file(const char* name) const { return options_.folder / name; }
 
+    // Each rank reads the files of the problem by itself.
+    void require_one_problem() const {
+        const Ranks& ranks = options_.ranks;
+        if (ranks.count == 1) return;
+        const Fingerprint own = fingerprint(simulator_);
+        SavingArchive archive;
+        Fingerprint(own).archive(archive);
+        for (const std::string& bytes : ranks.gather(archive.bytes())) {
+            if (bytes == archive.bytes()) continue;
+            LoadingArchive others(bytes);
+            Fingerprint its;
+            its.archive(others);
+            throw Failure("the ranks have read different problems: of one of them, " +
+                          difference(its, own));
+        }
+    }
+
     void open_folder() {
+        require_one_problem();
         if (options_.ranks.is_first()) {
             // Now, so that nothing is learned that cannot be written.
             if (!options_.resumes) std::filesystem::create_directories(options_.folder);
@@ -275,10 +293,10 @@ class Training {
         const std::string learner = trainee_.save();  // of all ranks
         if (!options_.ranks.is_first()) return;
         std::filesystem::create_directories(options_.folder);
-        const char* const extension = trainee_.solver == "cgp" ? ".cgp" : ".json";
-        write((std::string("policy") + extension).c_str(),
+        const std::string extension = policy_extension(trainee_.solver);
+        write(("policy" + extension).c_str(),
               best_policy_.empty() ? trainee_.policy_text() : best_policy_);
-        write((std::string("last") + extension).c_str(), trainee_.policy_text());
+        write(("last" + extension).c_str(), trainee_.policy_text());
         write("run.json", description());
         write("progress.csv", log_.csv());
         write("events.out.tfevents.rddl", log_.events());
@@ -286,6 +304,19 @@ class Training {
         archive.append(state);
         archive(learner);
         write("checkpoint", sealed(archive.bytes()));
+        remove_policies_of_others();
+    }
+
+    // An earlier run of another solver has left them. They stay until this one has files itself.
+    void remove_policies_of_others() const {
+        for (const char* const solver : {"cgp", "ppo"}) {
+            const std::string extension = policy_extension(solver);
+            if (extension == policy_extension(trainee_.solver)) continue;
+            for (const char* const name : {"policy", "last"}) {
+                std::error_code ignored;
+                std::filesystem::remove(file((name + extension).c_str()), ignored);
+            }
+        }
     }
 
     void load() {
@@ -327,8 +358,8 @@ class Training {
         std::string solver, text, others;
         archive(solver);
         if (solver != trainee_.solver)
-            throw Failure(
-                fmt::format("it is of a run of {}, and this is one of {}", solver, trainee_.solver));
+            throw Failure(fmt::format("it is of a run of {}, and this is one of {}", solver,
+                                      trainee_.solver));
         archive(text);
         for (const auto& [name, value] : settings()) {
             const std::size_t at = ("\n" + text).find("\n" + name + "=");
@@ -379,6 +410,10 @@ class Training {
 };
 
 }  // namespace
+
+std::string policy_extension(std::string_view solver) {
+    return solver == "cgp" ? ".cgp" : ".json";
+}
 
 std::string count_text(double count) {
     if (count >= 1e9) return fmt::format("{:.3g} G", count / 1e9);

@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -74,11 +75,14 @@ struct TrainingResult {
 // How many digits people read: "1.5 M", "812".
 std::string count_text(double count);
 
+// ".cgp" or ".json": of policy files in the folder of a run.
+std::string policy_extension(std::string_view solver);
+
 // Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
 // events.out.tfevents.rddl, run.json (the solver, the problem and the seed), checkpoint. All are
-// written whole or not at all. Throws a Failure where the folder holds another run, nothing to
-// resume, or a run that goes on in another process; and at its end where no evaluation had a finite
-// return.
+// written whole or not at all. Policies that a run of another solver has left there are removed
+// once these are written. Throws a Failure where the folder holds another run, nothing to resume,
+// or a run that goes on in another process; and at its end where no evaluation had a finite return.
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 

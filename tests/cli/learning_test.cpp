@@ -355,6 +355,8 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     };
     refuses("train", "name a command");
     refuses("train pso", "no command is called 'pso'");
+    refuses("train sac", "no command is called 'sac'; 'rddl train' has ppo and cgp");
+    refuses("help train sac", "'rddl train' has ppo and cgp");
     refuses(on_tanks("train ppo", "--envs 2 --rollout 4"), "a minibatch is larger");
     refuses(on_tanks("train ppo", "--recurrent 8 --rollout 1 --minibatch 9"),
             "a recurrent network learns from several steps in a row");

@@ -107,6 +107,7 @@ inline constexpr rddl_problem counter_problem{.struct_size = sizeof(rddl_problem
                                               .invariants = nullptr,
                                               .invariant_count = 0,
                                               .terminations = nullptr,
-                                              .termination_count = 0};
+                                              .termination_count = 0,
+                                              .fingerprint = 0};
 
 }  // namespace rddl

@@ -265,7 +265,8 @@ inline constexpr rddl_problem problem{.struct_size = sizeof(rddl_problem),
                                       .invariants = invariants,
                                       .invariant_count = 1,
                                       .terminations = terminations,
-                                      .termination_count = 1};
+                                      .termination_count = 1,
+                                      .fingerprint = 0};
 
 // Made once, in tiny_simulator.cpp: single environments, and packs of 16.
 const rddl_simulator* simulator();

@@ -371,6 +371,32 @@ CgpOptions small_search() {
     return options;
 }
 
+// Somebody has changed some bytes, and the checksum of the file with them: what is taken is a
+// program.
+TEST(Cgp, ChangedCheckpointsAreRefusedOrRun) {
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    CgpSearch search(car, small_search());
+    search.run(5);
+    const std::string bytes = search.save();
+    int refused = 0, ran = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 150) {
+        for (const char byte : {'\x7f', '\xff'}) {
+            std::string changed = bytes;
+            changed[at] = byte;
+            CgpSearch other(car, small_search());
+            try {
+                other.load(changed);
+                other.run(1);
+                ++ran;
+            } catch (const Failure&) {
+                ++refused;
+            }
+        }
+    }
+    EXPECT_GT(refused, 20);
+    EXPECT_GT(ran, 0);
+}
+
 TEST(Cgp, ThreadsDoNotMatter) {
     for (const rddl_simulator* simulator : simulators()) {
         SCOPED_TRACE(simulator->problem->domain);

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 #include <string>
@@ -222,6 +223,48 @@ TEST(Groups, ProgramsChooseTheGreatest) {
 // The programs of scikit-decide make one choice.
 TEST(Groups, AreNotForProgramsOfScikitDecide) {
     EXPECT_THROW(skdecide_scope(shop()), Failure);
+}
+
+// Random actions that know the groups are legal at once, and each of a group's changes, or none, is
+// as likely as another.
+TEST(Groups, RandomActionsAreLegalAtOnce) {
+    for (const rddl_simulator* const simulator : {&shop(), &museum()}) {
+        SCOPED_TRACE(simulator->problem->domain);
+        const auto groups = groups_without_limit(*simulator, 1);
+        ASSERT_TRUE(groups);
+        RandomPolicy policy(*simulator->problem, 1, *groups);
+        ActionBatch all(*simulator);
+        constexpr int steps = 100;
+        std::vector<int> changed(all.columns), none(groups->columns.size());
+        for (int step = 0; step < steps; ++step) {
+            for (std::size_t e = 0; e < all.environments; ++e) {
+                policy.act(static_cast<std::int64_t>(e), step, all.record(e));
+                all.records.read(all.record(e), all.row(e));
+                for (std::size_t g = 0; g < groups->columns.size(); ++g) {
+                    int count = 0;
+                    for (const int column : groups->columns[g]) {
+                        const auto c = static_cast<std::size_t>(column);
+                        const bool is_changed = all.row(e)[c] != all.space.defaults[c];
+                        changed[c] += is_changed;
+                        count += is_changed;
+                    }
+                    EXPECT_LE(count, 1);
+                    none[g] += count == 0;
+                }
+            }
+            EXPECT_EQ(all.violated(), all_legal);
+        }
+        for (std::size_t g = 0; g < groups->columns.size(); ++g) {
+            const std::vector<int>& group = groups->columns[g];
+            const double share = 1.0 / static_cast<double>(group.size() + groups->may_be_none);
+            const double draws = steps * static_cast<double>(all.environments);
+            const double deviation = std::sqrt(draws * share * (1 - share));
+            for (const int column : group)
+                EXPECT_NEAR(changed[static_cast<std::size_t>(column)], draws * share,
+                            5 * deviation);
+            EXPECT_NEAR(none[g], groups->may_be_none ? draws * share : 0, 5 * deviation);
+        }
+    }
 }
 
 }  // namespace

@@ -314,10 +314,29 @@ TEST(Ppo, RefusesCheckpointsOfOthersAndPiecesOfThem) {
     PpoTrainer car(*rddl_simulator_mountain_car_mountain_car_1(), options);
     PpoTrainer reservoir(*rddl_simulator_reservoir_reservoir_1(), options);
     const std::string bytes = car.save();
-    EXPECT_EQ(complaint([&] { reservoir.load(bytes); }), "it is of another problem");
+    EXPECT_EQ(complaint([&] { reservoir.load(bytes); }),
+              "it is of the problem mountain_car_1 (mountain_car), not of reservoir_1 (reservoir)");
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{9}, bytes.size() / 2, bytes.size() - 1})
         EXPECT_NE(complaint([&] { car.load(bytes.substr(0, size)); }), "") << size;
+}
+
+// Somebody has changed some bytes, and the checksum of the file with them.
+TEST(Ppo, ChangedCheckpointsAreRefusedOrTaken) {
+    const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
+    PpoTrainer trainer(car, small_training());
+    trainer.update();
+    const std::string bytes = trainer.save();
+    int refused = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 2000) {
+        for (const char byte : {'\0', '\x7f', '\xff'}) {
+            std::string changed = bytes;
+            changed[at] = byte;
+            PpoTrainer other(car, small_training());
+            refused += !complaint([&] { other.load(changed); }).empty();
+        }
+    }
+    EXPECT_GT(refused, 20);
 }
 
 TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {

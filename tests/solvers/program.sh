@@ -30,6 +30,20 @@ grep "holds a run already" "$folder/err"
 if "$ppo" evaluate "$folder/cgp/policy.cgp" 2> "$folder/err"; then exit 1; fi
 grep "error" "$folder/err"
 if "$ppo" train --steps many --out "$folder/x" 2> "$folder/err"; then exit 1; fi
-grep "'many' is no number" "$folder/err"
+grep "'many' is not a number" "$folder/err"
 if "$ppo" train --activation gelu --out "$folder/x" 2> "$folder/err"; then exit 1; fi
-grep "'gelu' is neither tanh nor relu" "$folder/err"
+grep "'gelu' is not one of tanh, relu" "$folder/err"
+for option in "--clip nan" "--gamma 2" "--epochs -1" "--minibatch 0" "--hidden 64,0" "--seed -1" "--envs 1e99"; do
+  if "$ppo" train $option --out "$folder/x" 2> "$folder/err"; then exit 1; fi
+  grep -- "${option% *}: '.*' is not " "$folder/err"
+done
+if "$ppo" train --minibach 5 --out "$folder/x" 2> "$folder/err"; then exit 1; fi
+grep "there is no option '--minibach'; did you mean '--minibatch'?" "$folder/err"
+for option in "--cols -1" "--lambda 0" "--islands 99999" "--lifted maybe"; do
+  if "$cgp" train $option --out "$folder/x" 2> "$folder/err"; then exit 1; fi
+  grep -- "${option% *}: '.*' is not " "$folder/err"
+done
+test ! -e "$folder/x"
+# The preset comes first wherever it stands, and every option is there.
+"$ppo" train --out "$folder/preset" --steps 4096 --minibatch 128 --preset sb3 --epochs 1 --squash on --noise white
+"$cgp" train --out "$folder/functions" --gens 5 --functions add,logic --time-input --fitness min

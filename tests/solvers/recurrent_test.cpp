@@ -147,17 +147,18 @@ TEST(Recurrent, PoliciesOfWrongSizesAreRefused) {
     // In the order of the file, since spaces are compared as text.
     const auto text = nlohmann::ordered_json::parse(ppo_policy_text(maze(), trainer.model()));
     EXPECT_EQ(text["version"], 2);
-    const auto refuses = [&](const char* pointer, const json& value) {
+    const auto refuses = [&](const char* pointer, const json& value,
+                             const std::string& sentence = "its layers do not fit") {
         auto changed = text;
         changed[nlohmann::ordered_json::json_pointer(pointer)] = value;
-        EXPECT_EQ(sentence_of([&] { read_ppo_policy(maze(), changed.dump()); }),
-                  "its layers do not fit")
+        EXPECT_EQ(sentence_of([&] { read_ppo_policy(maze(), changed.dump()); }), sentence)
             << pointer;
     };
     EXPECT_EQ(sentence_of([&] { read_ppo_policy(maze(), text.dump()); }), "");
     refuses("/recurrent/units", 13);
-    refuses("/recurrent/units", 0);
-    refuses("/recurrent/units", 2'000'000'000);
+    refuses("/recurrent/units", 0, "its number of units is 0, not an int from 1 to 16384");
+    refuses("/recurrent/units", 2'000'000'000,
+            "its number of units is 2000000000, not an int from 1 to 16384");
     refuses("/recurrent/state_bias", json::array({1, 2}));
     for (const char* const part : {"candidate", "reset", "update"}) {
         const std::string begin = "/recurrent/" + std::string(part);

@@ -85,6 +85,23 @@ class Ranks(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("2 ranks need as many islands, and --islands is 1"), 1, done.stderr)
 
+    def test_ranks_that_read_different_problems_are_refused(self):
+        other = self.folder / "other.rddl"
+        other.write_text(Path(PROBLEM[1]).read_text().replace("horizon = 200", "horizon = 201"))
+        script = self.folder / "rddl"  # one rank has another instance
+        script.write_text(f"""#!/bin/sh
+test "$OMPI_COMM_WORLD_RANK" = 1 && shift 4 && set -- train "$SOLVER" "{PROBLEM[0]}" "{other}" "$@"
+exec "{OPTIONS.rddl}" "$@"
+""")
+        script.chmod(0o755)
+        for solver, options in ("ppo", PPO), ("cgp", CGP):
+            ENVIRONMENT["SOLVER"] = solver
+            done = self.train(solver, solver, options, 2, program=script)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("the ranks have read different problems", done.stderr)
+            self.assertRegex(done.stderr, "the horizon was 20[01] and is 20[01]")
+            self.assertFalse((self.folder / solver / "checkpoint").exists())
+
     def test_a_rank_that_dies_ends_the_run(self):
         options = [*PPO[2:], "--steps", "1e12"]
         self.assertEqual(self.train("ppo", "killed", [*options, "--time", "0.01"], 2).returncode, 0)

@@ -44,8 +44,9 @@ struct Evaluation {
 
 Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
                     const EvaluationOptions& options) {
-    const solvers::Policy policy =
-        policy_named(simulator, name, options.random, options.episodes.seed);
+    const solvers::Policy policy = policy_named(
+        simulator, name, options.random, options.episodes.seed, options.episodes.memory_limit);
+    if (!options.json) note_plans(policy, options.episodes.episodes);
     const std::int64_t steps = solvers::steps_at_most(simulator, options.episodes);
     Progress bar(name, options.episodes.episodes * std::max<std::int64_t>(steps, 1), !options.json);
     const solvers::Watch watch{is_interrupted, [&](std::int64_t done) { bar.advance(done); }, {}};

@@ -43,8 +43,8 @@ std::string exported_program(const rddl_simulator& simulator, const std::string&
 }
 
 std::string exported_network(const rddl_simulator& simulator, const std::string& text,
-                             const std::string& form) {
-    const auto model = solvers::read_ppo_policy(simulator, text);
+                             const std::string& form, std::int64_t memory_limit) {
+    const auto model = solvers::read_ppo_policy(simulator, text, memory_limit);
     if (form == "json") return solvers::ppo_policy_text(simulator, *model);
     if (form == "cpp") return solvers::ppo_policy_cpp(*model);
     if (form == "onnx") return solvers::ppo_policy_onnx(*model);
@@ -61,7 +61,8 @@ ExitStatus export_policy(const ExportOptions& options) {
     std::string result;
     try {
         result = program ? exported_program(*problem.simulator, text, form)
-                         : exported_network(*problem.simulator, text, form);
+                         : exported_network(*problem.simulator, text, form,
+                                            options.problem.memory_limit);
     } catch (const Failure& failure) {
         throw Failure(fmt::format("cannot export '{}': {}", file.string(), failure.what()),
                       failure.hint, failure.status);

@@ -117,7 +117,8 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
         command, "--policy", "POLICY",
         "random (default): legal random actions; noop: default actions; rddl: the policy "
         "block of the problem; FILE: the policy block in it, what a solver has learned, or the "
-        "actions of a trace (.jsonl)",
+        "actions of a trace (.jsonl): episode 0 plays those of its episode 0 and so on, and after "
+        "its last episode comes its first one again",
         [&policy, &file, learned](const std::string& name) {
             choose_policy(name, policy, file, learned);
         })

@@ -7,6 +7,7 @@
 #include "problems/problem_lookup.hpp"
 #include "rollouts/rollouts.hpp"
 #include "rollouts/violations.hpp"
+#include "solvers/evaluation/threads.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +17,7 @@
 
 namespace rddlc::cli {
 
-inline constexpr int most_threads = 4096;
+using solvers::most_threads;
 inline constexpr std::int64_t largest_batch = std::int64_t{1} << 24;
 inline constexpr std::int64_t longest_horizon = std::numeric_limits<std::int64_t>::max();
 

@@ -96,7 +96,8 @@ class Description {
                 .invariants = invariants_.conditions.data(),
                 .invariant_count = invariants_.count(),
                 .terminations = terminations_.conditions.data(),
-                .termination_count = terminations_.count()};
+                .termination_count = terminations_.count(),
+                .fingerprint = program_.fingerprint};
     }
     std::span<const rddl::Site> sites() const { return sites_of_program_; }
     std::span<const rddl::Constants> constants() const { return constants_.list(); }

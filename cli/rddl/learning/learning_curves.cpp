@@ -166,6 +166,15 @@ std::string without_seed(const std::string& name, std::uint64_t seed) {
     return has_seed ? name.substr(0, name.size() - ending.size()) : name;
 }
 
+std::string solver_of_run(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    if (!is_there(file)) return {};
+    const auto run = json_if_valid(read_file(file, largest_text));
+    if (!run.is_object() || !run.contains("solver")) return {};
+    const auto& solver = run["solver"];
+    return solver == "cgp" || solver == "ppo" ? solver.get<std::string>() : "";
+}
+
 std::optional<RunDescription> description_of(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     if (!is_there(file)) return std::nullopt;

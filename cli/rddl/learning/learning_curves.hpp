@@ -43,6 +43,9 @@ Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, co
 // the name.
 std::string without_seed(const std::string& name, std::uint64_t seed);
 
+// "ppo" or "cgp", as run.json in the folder says; "" where it does not.
+std::string solver_of_run(const std::filesystem::path& folder);
+
 struct RunDescription {
     std::string what;  // "ppo mountain_car inst_1": solver, domain and instance
     std::uint64_t seed = 0;

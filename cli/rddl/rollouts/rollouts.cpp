@@ -41,7 +41,8 @@ solvers::Policy policy_of(const rddl_simulator& simulator, const RolloutOptions&
         case Policy::Noop:
             return solvers::noop_policy(simulator);
         case Policy::Learned:
-            return learned_policy(simulator, options.learned, false, options.seed);
+            return learned_policy(simulator, options.learned, false, options.seed,
+                                  options.memory_limit);
         case Policy::Rddl:
             break;
     }
@@ -66,7 +67,9 @@ std::string_view name_of(Policy policy) {
 
 Rollouts run_episodes(const rddl_simulator& simulator, const RolloutOptions& options,
                       const TraceSink& trace, bool progress) {
-    return run_episodes(simulator, policy_of(simulator, options), options, trace, progress);
+    const solvers::Policy policy = policy_of(simulator, options);
+    if (progress) note_plans(policy, options.episodes);
+    return run_episodes(simulator, policy, options, trace, progress);
 }
 
 Rollouts run_episodes(const rddl_simulator& simulator, const solvers::Policy& policy,

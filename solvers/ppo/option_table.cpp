@@ -1,0 +1,204 @@
+#include "solvers/ppo/option_table.hpp"
+
+#include "solvers/evaluation/threads.hpp"
+
+namespace rddlc::solvers {
+
+namespace {
+
+using O = PpoOptions;
+using Option = LearnerOption<O>;
+using Time = ObservationOptions::Time;
+
+// What the presets alone change is told by their names.
+Option preset_option() {
+    Option option{{"--preset",
+                   "preset",
+                   "PRESET",
+                   "fast (default), sb3 (as Stable-Baselines3), rllib; options behind it change it",
+                   true,
+                   false,
+                   {"fast", "sb3", "rllib"}},
+                  {},
+                  {}};
+    option.set = [](O& o, const std::vector<std::string>& words) {
+        const auto known = preset(words.front());
+        if (!known)
+            throw OptionRefused(fmt::format("'{}' is not one of fast, sb3, rllib", words.front()));
+        o = *known;
+    };
+    option.text = [](const O& o) -> std::string {
+        if (o.kl_penalty > 0) return "rllib";
+        return o.normalises_observations || o.normalises_rewards ? "fast" : "sb3";
+    };
+    return option;
+}
+
+Option steps_option() {
+    Option option{{"--steps", "steps", "N", "Steps of all environments (1e6)", false}, {}, {}};
+    option.set = [](O& o, const std::vector<std::string>& words) {
+        o.steps = static_cast<std::int64_t>(number_of_option<double>(words.front(), 1, 1e15));
+    };
+    option.text = [](const O& o) {
+        return std::to_string(o.steps);
+    };
+    return option;
+}
+
+// A size that users name is taken as it is, though it may not fit into memory.
+template <class Member>
+Option size_option(OptionText text, Member member) {
+    Option option = number_option<O, int>(std::move(text), member, 1, 1 << 20);
+    option.set = [set = option.set](O& o, const std::vector<std::string>& words) {
+        set(o, words);
+        o.names_rollout = true;
+    };
+    return option;
+}
+
+Option hidden_option() {
+    Option option{
+        {"--hidden", "hidden", "UNITS,...", "Layers of the networks (64,64)", true, true}, {}, {}};
+    option.set = [](O& o, const std::vector<std::string>& words) {
+        std::vector<int> hidden;
+        for (const std::string& units : words)
+            hidden.push_back(number_of_option<int>(units, 1, 1 << 16));
+        if (hidden.empty()) throw OptionRefused("a network has one layer or more");
+        o.hidden = std::move(hidden);
+    };
+    option.text = [](const O& o) {
+        return fmt::format("{}", fmt::join(o.hidden, ","));
+    };
+    return option;
+}
+
+template <class Member>
+Option real_option(OptionText text, Member member, double least, double most) {
+    return number_option<O, double>(std::move(text), member, least, most);
+}
+template <class Member>
+Option int_option(OptionText text, Member member, int least, int most) {
+    return number_option<O, int>(std::move(text), member, least, most);
+}
+
+OptionTable<O> make_table() {
+    return {
+        preset_option(),
+        steps_option(),
+        size_option(
+            {"--envs", "environments", "N", "Environments (64), of each rank of MPI"},
+            [](auto& o) -> auto& { return o.environments; }),
+        size_option(
+            {"--rollout", "rollout", "T",
+             "Steps of each between updates (128, or as many as fit into memory)"},
+            [](auto& o) -> auto& { return o.rollout; }),
+        int_option(
+            {"--epochs", "epochs", "E", "Passes over what was collected (4)"},
+            [](auto& o) -> auto& { return o.epochs; }, 1, 10000),
+        int_option(
+            {"--minibatch", "minibatch", "M",
+             "Samples of a step of descent (1024), of each rank of MPI"},
+            [](auto& o) -> auto& { return o.minibatch; }, 1, 1 << 30),
+        real_option(
+            {"--lr", "learning_rate", "RATE", "Learning rate (3e-4)"},
+            [](auto& o) -> auto& { return o.learning_rate; }, 0, 10),
+        choice_option<O, LearningRate>({"--lr-schedule", "schedule", "HOW",
+                                        "linear (default): down to 0; constant; kl: so that the "
+                                        "policy moves evenly"},
+                                       [](auto& o) -> auto& { return o.schedule; },
+                                       {{"linear", LearningRate::Linear},
+                                        {"constant", LearningRate::Constant},
+                                        {"kl", LearningRate::Kl}}),
+        real_option(
+            {"--gamma", "gamma", "G", "Discount (0.99, or the instance's if lower)"},
+            [](auto& o) -> auto& { return o.gamma; }, 0, 1),
+        real_option(
+            {"--lambda", "gae_lambda", "L", "Of generalised advantage estimation (0.95)"},
+            [](auto& o) -> auto& { return o.lambda; }, 0, 1),
+        real_option(
+            {"--clip", "clip", "C", "Of the probability ratio (0.2)"},
+            [](auto& o) -> auto& { return o.clip; }, 0, 10),
+        real_option(
+            {"--value-clip", "value_clip", "C", "Of values; 0 (default): none"},
+            [](auto& o) -> auto& { return o.value_clip; }, 0, 1e9),
+        real_option(
+            {"--value-weight", "value_weight", "W", "Of the values' error (0.5)"},
+            [](auto& o) -> auto& { return o.value_weight; }, 0, 1e9),
+        real_option(
+            {"--entropy", "entropy", "W", "Weight of the entropy (0; 0.01 with choices)"},
+            [](auto& o) -> auto& { return o.entropy_weight; }, 0, 1e9),
+        real_option(
+            {"--gradient-norm", "gradient_norm", "N", "Of the gradient, at most (0.5); 0: any"},
+            [](auto& o) -> auto& { return o.gradient_norm; }, 0, 1e9),
+        real_option(
+            {"--target-kl", "target_kl", "D",
+             "An update ends when the policy has moved by 1.5 times this; 0 (default): "
+             "never"},
+            [](auto& o) -> auto& { return o.kl_stop; }, 0, 1e9),
+        choice_option<O, Noise>(
+            {"--noise", "noise", "NOISE",
+             "Of reals: ar1 (default), correlated in time; sde, a function of the "
+             "state that changes every "
+             "few steps; or white"},
+            [](auto& o) -> auto& { return o.noise; },
+            {{"ar1", Noise::Ar1}, {"sde", Noise::Sde}, {"white", Noise::White}}),
+        int_option(
+            {"--sde-steps", "sde_steps", "N", "Steps with the same function, of sde (8)"},
+            [](auto& o) -> auto& { return o.noise_steps; }, 1, 1 << 20),
+        real_option(
+            {"--correlation", "correlation", "R", "Of ar1 between steps (0.9)"},
+            [](auto& o) -> auto& { return o.correlation; }, 0, 0.9999),
+        real_option(
+            {"--log-std", "log_std", "X", "Logarithm of the noise's deviation at first (0)"},
+            [](auto& o) -> auto& { return o.log_deviation; }, -20, 5),
+        switch_option<O>(
+            {"--squash", "squash", "WHEN",
+             "Whether reals with two bounds are tanh of a normal number (on), or "
+             "cut at their bounds (off, default)"},
+            [](auto& o) -> auto& { return o.squashes; }),
+        switch_option<O>(
+            {"--curiosity", "curiosity", "WHEN",
+             "Whether seeing more of the problem is rewarded as long as nearly all "
+             "episodes earn the same: on (default; off in sb3 and rllib), off"},
+            [](auto& o) -> auto& { return o.curious; }),
+        hidden_option(),
+        choice_option<O, Activation>({"--activation", "activation", "FUNCTION",
+                                      "Of hidden layers: tanh (default), or relu, which is faster"},
+                                     [](auto& o) -> auto& { return o.activation; },
+                                     {{"tanh", Activation::Tanh}, {"relu", Activation::Relu}}),
+        int_option(
+            {"--stack", "stack", "K", "Observations seen at once (1)"},
+            [](auto& o) -> auto& { return o.observations.stack; }, 1, most_stacked),
+        int_option(
+            {"--recurrent", "recurrent", "UNITS",
+             "Gated recurrent units, which remember what was observed, for problems that "
+             "are observed in part; 0 (default): none"},
+            [](auto& o) -> auto& { return o.recurrent; }, 0, 1 << 14),
+        int_option(
+            {"--segment", "segment", "T",
+             "Steps through which what is remembered is learned, at most (32)"},
+            [](auto& o) -> auto& { return o.segment; }, 2, 1 << 20),
+        choice_option<O, Time>(
+            {"--time-input", "time_input", "WHEN",
+             "Whether the policy sees the time: auto (default: horizons up to 200), on, off"},
+            [](auto& o) -> auto& { return o.observations.time; },
+            {{"auto", Time::Auto}, {"on", Time::On}, {"off", Time::Off}}),
+        choice_option<O, std::optional<bool>>(
+            {"--bootstrap", "bootstrap", "WHEN",
+             "Whether what follows the horizon is estimated: auto (default: unless the policy sees "
+             "the time), on, off"},
+            [](auto& o) -> auto& { return o.bootstraps; },
+            {{"auto", std::nullopt}, {"on", true}, {"off", false}}),
+        int_option(
+            {"--threads", "threads", "T", "Threads (1)", false},
+            [](auto& o) -> auto& { return o.threads; }, 1, most_threads)};
+}
+
+}  // namespace
+
+const OptionTable<PpoOptions>& ppo_option_table() {
+    static const OptionTable<PpoOptions> table = make_table();
+    return table;
+}
+
+}  // namespace rddlc::solvers

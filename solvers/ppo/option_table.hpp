@@ -1,0 +1,12 @@
+// The options of PPO.
+#pragma once
+
+#include "solvers/options/options.hpp"
+#include "solvers/ppo/options.hpp"
+
+namespace rddlc::solvers {
+
+// The preset comes first: whoever takes several options takes them in the order of the table.
+const OptionTable<PpoOptions>& ppo_option_table();
+
+}  // namespace rddlc::solvers
