@@ -1,5 +1,7 @@
 #include "ir/range.hpp"
 
+#include <rddl/distributions/probability.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -29,7 +31,8 @@ bool is_finite(Range range) {
     return std::isfinite(range.lower) && std::isfinite(range.upper);
 }
 bool is_probability(Range range) {
-    return range.lower >= 0 && range.upper <= 1;
+    return rddl::is_probability<rddl::Scalar>(range.lower) &&
+           rddl::is_probability<rddl::Scalar>(range.upper);
 }
 bool is_at_least(const std::optional<Range>& range, double least) {
     return range && range->lower >= least;
