@@ -12,7 +12,7 @@ def add(draft: Draft) -> None:
     toggle = draft.declare("toggle", ACTION, "bool", cell, default="false")
     around = neighbour_count(draft, near, alive, cell)
     draft.define(alive, ("?c",), rule(draft, alive, toggle, around))
-    if draft.chance(0.6):
+    if draft.flavour.finite or draft.chance(0.6):
         crowding(draft, cell, around)
     for part in draft.rng.sample([walkers, heat, coordinates, frontier], draft.pick([1, 2, 2, 3])):
         part(draft, cell, near, alive)
@@ -68,6 +68,12 @@ def crowding(draft: Draft, cell: str, around) -> None:
     """A line of the count, and another value where there is none."""
     low, rise = draft.pick([("0.525", "0.0475"), ("0.05", "0.1"), ("-1.0", "0.25"), ("0.0", "-0.3")])
     line = real(f"({low} + {rise} * %s)", around)
+    if draft.chance(0.6):  # each cell has a line of its own
+        risk = draft.declare("RISK", CONSTANT, "real", cell, default="0.525")
+        for objects in draft.problem.groundings(risk):
+            risk.values[objects] = draft.pick(["0.1", "0.3", "0.7", "1.1", "0.525"] if draft.problem.flavour != "plain" else ["0.5", "2.0"])
+        form = draft.pick(["((0.1 + 0.5 * (1 + %s)) / (1.5 + abs[%s]))", "(0.45 + 0.3 * (0.7 + %s) / (0.5 + %s) / 3.1)", "(%s * %s)"])
+        line = real(form if draft.problem.flavour != "plain" else "(%s * %s)", around, draft.at(risk, "?c"))
     term = draft.pick([line, real("(if (%s) then %s else %s)", is_near(around), line, draft.pick(["0.0", "-0.0", "1.0"]))])
     draft.earn(over("sum", "?c", cell, term))
 
