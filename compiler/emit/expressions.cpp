@@ -7,6 +7,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace rddlc::cpp {
@@ -200,8 +201,7 @@ bool Expressions::needs_no_check(const ir::Sample& sample) const {
     if (sample.distribution != Distribution::Bernoulli) return false;
     const ir::NodeId p = sample.parameters.front();
     if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
-    const auto range = unit_.facts_of(p).range;
-    return range && range->lower >= 0 && range->upper <= 1;
+    return ir::always_in_domain(sample.distribution, std::array{unit_.facts_of(p).range});
 }
 
 Spelled Expressions::spell(const ir::Node&, const ir::Discrete& discrete) {

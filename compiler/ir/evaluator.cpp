@@ -489,7 +489,8 @@ T Evaluator::draw(const Sample& form, Frame& frame) const {
         const double p = value<double>(form.parameters.front(), frame);
         const bool drawn = rddl::sample::bernoulli(frame.context_, here, p);
         if (!outcomes || frame.context_.fault) return drawn;
-        return outcomes->choose(here, {1 - p, p}) == 1;
+        const double chance = rddl::clamp_probability(p);
+        return outcomes->choose(here, {1 - chance, chance}) == 1;
     } else {
         if constexpr (std::is_same_v<T, std::int64_t>) {
             if (form.distribution == Distribution::Binomial) {
@@ -550,7 +551,7 @@ std::int64_t Evaluator::choose(rddl::Place place, bool normalise, rddl::Index si
                   : rddl::sample::discrete_over(frame.context_, place, size, weight));
     if (frame.context_.fault) return 0;
     std::vector<double> weights;
-    for (rddl::Index i = 0; i < size; ++i) weights.push_back(weight(i));
+    for (rddl::Index i = 0; i < size; ++i) weights.push_back(std::max(weight(i), 0.0));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (double& each : weights) each /= total;
     return frame.outcomes_->choose(place, std::move(weights));

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace rddlc::ir {
@@ -50,9 +49,9 @@ bool is_certain(Distribution distribution, double a, double b) {
         case Distribution::Poisson:
             return a == 0;
         case Distribution::Geometric:
-            return a == 1;
+            return a >= 1;
         case Distribution::NegativeBinomial:
-            return b == 1;
+            return b >= 1;
         default:
             return false;
     }
@@ -77,15 +76,16 @@ std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabiliti
 void Outcomes::choose_multinomial(rddl::Place place, std::int64_t trials,
                                   std::span<const double> probabilities,
                                   std::span<std::int64_t> counts) {
-    double left = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+    double left = 0;
+    for (const double p : probabilities) left += std::max(p, 0.0);
     std::fill(counts.begin(), counts.end(), 0);
     std::size_t last = probabilities.size();
-    while (last > 1 && probabilities[last - 1] == 0) --last;
+    while (last > 1 && probabilities[last - 1] <= 0) --last;
     for (std::size_t i = 0; i + 1 < last; ++i) {
-        const double p = probabilities[i] < left ? probabilities[i] / left : 1.0;
-        counts[i] = choose(place, binomial_probabilities(trials, p), i);
+        const double p = std::max(probabilities[i], 0.0);
+        counts[i] = choose(place, binomial_probabilities(trials, p < left ? p / left : 1.0), i);
         trials -= counts[i];
-        left -= probabilities[i];
+        left -= p;
     }
     counts[last - 1] = trials;
 }

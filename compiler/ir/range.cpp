@@ -1,5 +1,7 @@
 #include "ir/range.hpp"
 
+#include <rddl/distributions/probability.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -27,7 +29,8 @@ std::optional<Range> divide(Range a, Range b) {
 }
 
 bool is_probability(Range range) {
-    return range.lower >= 0 && range.upper <= 1;
+    return rddl::is_probability<rddl::Scalar>(range.lower) &&
+           rddl::is_probability<rddl::Scalar>(range.upper);
 }
 bool is_whole_number(double value) {
     return value == std::floor(value);

@@ -149,6 +149,20 @@ class TransitionsTest(unittest.TestCase):
         for key, probability in expected.items():
             self.assertAlmostEqual(found[key], probability, places=12)
 
+    def test_rounded_probabilities_are_zero_and_one(self) -> None:
+        """p is 1 + 9e-16: what rounding makes possible is no outcome."""
+        rounded = URN.replace("hits' = Binomial(3, 0.25);", "hits' = Binomial(3, p) + Bernoulli(p) + Bernoulli(1.0 - p);")
+        rounded = rounded.replace("cpfs {", "cpfs { p = never + 0.1 / (0.3 + 0.4 + 0.1 - 0.3 - 0.4);")
+        rounded = rounded.replace("pvariables {", "pvariables { p : { interm-fluent, real };")
+        rounded = rounded.replace("P(@red) = 0.4; P(@blue) = 0.6;", "P(@red) = 1.0000000001; P(@blue) = -0.0000000001;")
+        transitions = Transitions(problem_of_text(rounded))
+        (only,) = transitions.outcomes(transitions.start(), 0)
+        self.assertEqual(only.probability, 1)
+        view = rddlc.make(transitions.problem)
+        view.reset(seed=0, options={"state": only.state})
+        self.assertEqual(view.state["hits"], 4)
+        self.assertEqual(view.state["count___red"], 2)
+
     def test_no_distribution_is_made_up(self) -> None:
         normal = COINS.replace("Bernoulli(0.25)", "(Normal(0.0, 1.0) > 0.5)")
         transitions = Transitions(problem_of_text(normal))

@@ -21,6 +21,7 @@ from reference import Reference, transitions_of
 
 MOST_REFUSALS = 4
 ATTEMPTS = 20  # draws of a refused step, of which all must be refused for it to count
+ROUNDING = 1e-9  # of probabilities: ours takes such for 0 or 1 (docs/distributions.md)
 REFUSED = (ValueError, ArithmeticError, TypeError)
 
 
@@ -81,7 +82,7 @@ class HeedlessReference(Reference):
 
         def bernoulli(expression, table):
             probability = np.asarray(simulator._sample(expression.args[0], table))
-            valid = (probability >= 0) & (probability <= 1)
+            valid = (probability >= -ROUNDING) & (probability <= 1 + ROUNDING)
             drawn = simulator.rng.uniform(size=probability.shape) <= probability
             return np.where(valid, drawn, value)
 

@@ -105,6 +105,9 @@ TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
     };
     EXPECT_EQ(count(with_chances(10), "::valid_bernoulli("), 1u) << "0.95 is the greatest";
     EXPECT_EQ(count(with_chances(11), "::bernoulli("), 1u) << "1.05 is the greatest";
+    std::string rounded = problem(10);
+    rounded.replace(rounded.find("Bernoulli(0.5)"), 14, "Bernoulli(W(?o) / 9.4999999999999982)");
+    EXPECT_EQ(count(emitted(rounded), "::valid_bernoulli("), 1u) << "1 + 2e-16 is the greatest";
 }
 
 TEST(EmittedText, RoundsRealsWithoutInts) {

@@ -10,6 +10,8 @@
         a little of each, with new seeds: what every test run does
     .venv/bin/python tests/fuzz/fuzz_models.py passes --first 1234 --models 1
         one of them again
+    .venv/bin/python tests/fuzz/fuzz_models.py passes --generator domains --models 20000
+        whole little domains (domains/) instead of random expressions; in each mode
 
 What differs is reduced and written to --failures, as a folder for tests/cases. Exit status: 0 if
 nothing differs, else 1.
@@ -29,7 +31,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from differential import ROOT, compare_with_reference
-from generate import generate
+from generate import GENERATORS
 from passes_check import Finding, PassChecker
 from rddl_problem import Problem
 from reduce import reduce
@@ -59,9 +61,9 @@ class Result:
         self.failures += other.failures
 
 
-def problem_of(mode: str, seed: int) -> Problem:
+def problem_of(mode: str, seed: int, generator: str) -> Problem:
     flavour = "plain" if mode == "reference" else FLAVOURS[seed % len(FLAVOURS)]
-    return generate(seed, flavour)
+    return GENERATORS[generator](seed, flavour)
 
 
 # ------------------------------------------------------------------------------------- workers
@@ -70,7 +72,7 @@ def problem_of(mode: str, seed: int) -> Problem:
 def check_passes(task: Task, result: Result) -> None:
     checker = PassChecker(task.options.passes, tuple(task.options.without))
     for seed in task.seeds:
-        problem = problem_of(task.mode, seed)
+        problem = problem_of(task.mode, seed, task.options.generator)
         answer = checker.check(problem, seed, seed % ONE_IN == 0)
         result.counts.update([answer.outcome, f"flavour {problem.flavour}"])
         result.counts.update(f"changed {name}" for name in answer.changed)
@@ -90,7 +92,7 @@ def check_reference(task: Task, result: Result) -> None:
             return compare_with_reference(problem, Path(folder), task.options.rddl, seed, task.options.steps)
 
     for seed in task.seeds:
-        problem = problem_of(task.mode, seed)
+        problem = problem_of(task.mode, seed, task.options.generator)
         verdict = look(problem)
         result.counts.update(accepted=1, steps=verdict.steps, values=verdict.values, refused=verdict.refused_steps)
         if verdict.refused:
@@ -104,7 +106,7 @@ def check_compiled(task: Task, result: Result) -> None:
     from compiled_check import CompiledChecker
 
     checker = CompiledChecker(task.options, task.seeds[0])
-    problems = {seed: problem_of(task.mode, seed) for seed in task.seeds}
+    problems = {seed: problem_of(task.mode, seed, task.options.generator) for seed in task.seeds}
     for seed, finding in checker.check(problems, result.counts).items():
         one = CompiledChecker(task.options, task.seeds[0])
         fails = lambda p: finding.kind in [f.kind for f in one.check({seed: p}, Counter()).values()]  # noqa: B023, E731
@@ -122,7 +124,8 @@ def keep(task: Task, result: Result, seed: int, problem: Problem, finding: Findi
     result.failures.append({"seed": seed, "flavour": problem.flavour, "kind": finding.kind, "text": finding.text})
     if enough:
         return
-    folder = task.options.failures / f"{task.mode}-{finding.kind.split(':')[0].replace(' ', '-')}-{seed}"
+    kind = finding.kind.split(":")[0].replace(" ", "-")
+    folder = task.options.failures / f"{task.mode}-{task.options.generator}-{kind}-{seed}"
     write(problem, folder)
     (folder / "difference.txt").write_text(f"seed {seed} ({problem.flavour})\n{finding.kind}\n{finding.text}\n")
 
@@ -150,7 +153,7 @@ class Run:
         self.result = Result()
         self.next = self.first = options.first
         self.seconds = 0.0
-        self.file = options.state / f"{mode}.json" if options.state else None
+        self.file = options.state / f"{mode}-{options.generator}.json" if options.state else None
         if self.file and self.file.exists():
             saved = json.loads(self.file.read_text())
             self.first, self.next, self.seconds = saved["first"], saved["next"], saved["seconds"]
@@ -191,7 +194,7 @@ class Run:
 
     def summary(self) -> str:
         counts, models = self.result.counts, self.next - self.first
-        text = f"{self.mode}: {models} models, seeds {self.first} to {self.next - 1}, {self.seconds:.0f} s; "
+        text = f"{self.mode}, {self.options.generator}: {models} models, seeds {self.first} to {self.next - 1}, {self.seconds:.0f} s; "
         if self.mode == "reference":
             text += f"{counts['steps']} steps, {counts['values']} values, {counts['refused']} steps refused; "
         else:
@@ -211,6 +214,7 @@ class Run:
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mode", choices=[*CHECKS, "sample"])
+    parser.add_argument("--generator", choices=GENERATORS, default="expressions", help="(sample: both)")
     parser.add_argument("--first", type=int, help="seed of the first problem (sample: a new one, which is printed)")
     parser.add_argument("--models", type=int, default=1000, help="how many problems")
     parser.add_argument("--state", type=Path, help="folder in which a run is kept, and from which it goes on")
@@ -231,7 +235,7 @@ def parse_arguments() -> argparse.Namespace:
     return options
 
 
-SAMPLE = {"passes": 1000, "compiled": 24, "reference": 40}
+SAMPLE = {"passes": 600, "compiled": 12, "reference": 20}  # of each generator
 
 
 def runs_of(options: argparse.Namespace) -> list[Run]:
@@ -239,8 +243,9 @@ def runs_of(options: argparse.Namespace) -> list[Run]:
         return [Run(options.mode, options)]
     print(f"seed {options.first}", flush=True)
     return [
-        Run(mode, argparse.Namespace(**{**vars(options), "models": models, "state": None}))
+        Run(mode, argparse.Namespace(**{**vars(options), "generator": generator, "models": models, "state": None}))
         for mode, models in SAMPLE.items()
+        for generator in GENERATORS
     ]
 
 

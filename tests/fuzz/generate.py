@@ -26,11 +26,12 @@ import argparse
 import math
 import random
 import re
-from dataclasses import dataclass
 
+import domains
 from assumptions import Assumptions
 from distributions import Distributions
 from expressions import Expressions
+from flavours import FLAVOURS, flavour_of
 from matrices import Matrices
 from rddl_problem import UNSURE, Expr, Fluent, Policy, Problem, Type, work_of
 from shapes import Shapes
@@ -43,27 +44,10 @@ LARGEST_SCOPE = 2500  # elements of a fluent that is computed
 LARGEST_TABLE = 17000
 
 
-@dataclass(frozen=True)
-class Flavour:
-    draws: bool = False
-    wild: bool = False
-    finite: bool = False
-
-
-FLAVOURS = {
-    "plain": Flavour(),
-    "random": Flavour(draws=True),
-    "wild": Flavour(draws=True, wild=True),
-    "finite": Flavour(draws=True, finite=True),
-}
-
-
 class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, Matrices):
     def __init__(self, seed: int, flavour: str):
         self.rng = random.Random(f"{seed} {flavour}")
-        self.flavour = FLAVOURS[flavour]
-        if self.flavour.wild or self.flavour.finite:  # half of them draw
-            self.flavour = Flavour(seed % 2 == 0, self.flavour.wild, self.flavour.finite)
+        self.flavour = flavour_of(flavour, seed)
         self.problem = Problem(flavour=flavour)
         self.visible: list[tuple[str, Fluent]] = []  # what expressions may mention now
         self.scope: list[tuple[str, str]] = []  # variable and type
@@ -396,12 +380,16 @@ def generate(seed: int, flavour: str = "plain") -> Problem:
     return Generator(seed, flavour).generate()
 
 
+GENERATORS = {"expressions": generate, "domains": domains.generate}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("seed", type=int)
     parser.add_argument("--flavour", choices=FLAVOURS, default="plain")
+    parser.add_argument("--generator", choices=GENERATORS, default="expressions", help="domains: whole little domains")
     arguments = parser.parse_args()
-    print(generate(arguments.seed, arguments.flavour).text(), end="")
+    print(GENERATORS[arguments.generator](arguments.seed, arguments.flavour).text(), end="")
 
 
 if __name__ == "__main__":

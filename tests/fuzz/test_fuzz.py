@@ -11,8 +11,10 @@ from collections import Counter
 from pathlib import Path
 
 import differential
+import domains
 import fuzz_models
-from generate import FLAVOURS, generate
+from flavours import FLAVOURS
+from generate import GENERATORS, generate
 from passes_check import PassChecker
 from reduce import reduce
 
@@ -48,13 +50,20 @@ def replay_wrong(replay):
 
 class OfProblems(unittest.TestCase):
     def test_a_seed_and_a_flavour_are_a_problem(self):
-        for flavour in FLAVOURS:
-            self.assertEqual(generate(5, flavour).text(), generate(5, flavour).text())
-            self.assertNotEqual(generate(5, flavour).text(), generate(6, flavour).text())
+        for make, flavour in itertools.product(GENERATORS.values(), FLAVOURS):
+            self.assertEqual(make(5, flavour).text(), make(5, flavour).text())
+            self.assertNotEqual(make(5, flavour).text(), make(6, flavour).text())
+
+    def test_seeds_make_domains_that_differ(self):
+        """Two in a thousand at most are alike."""
+        texts = {domains.generate(seed, "wild").domain_text() for seed in range(2000)}
+        self.assertGreaterEqual(len(texts), 1996)
 
     def test_types_have_the_sizes_at_which_code_changes(self):
         sizes = {len(t.members) for seed in range(3000) for t in generate(seed).types}
         self.assertLessEqual({1, 8, 16, 17, 63, 64, 65, 128, 512, 513}, sizes)
+        sizes = {len(t.members) for seed in range(1000) for t in domains.generate(seed).types}
+        self.assertLessEqual({1, 8, 16, 17, 63, 64, 65}, sizes)
 
 
 class OfComparisons(unittest.TestCase):
@@ -97,17 +106,18 @@ class OfPasses(unittest.TestCase):
             self.assertEqual(self.checker.ask({"text": text.replace("MOST", most)}).outcome, outcome)
 
     def test_each_pass_changes_something_in_a_model_of_a_hundred(self):
-        """Of those in which it runs, with slack: in one of 200 at least."""
-        changed, models = Counter(), Counter()
-        for seed in range(600):
-            problem = fuzz_models.problem_of("passes", seed)
-            answer = self.checker.check(problem, seed)
-            self.assertNotEqual(answer.outcome, "rejected", answer.findings)
-            changed.update(answer.changed.keys())
-            models.update(["all", problem.flavour])
-        for name, only_fast_math in self.passes():
-            with self.subTest(name):
-                self.assertGreaterEqual(changed[name], models["finite" if only_fast_math else "all"] / 200)
+        """Of those in which it runs, with slack: in one of 200 at least. Of both generators."""
+        for generator in GENERATORS:
+            changed, models = Counter(), Counter()
+            for seed in range(600):
+                problem = fuzz_models.problem_of("passes", seed, generator)
+                answer = self.checker.check(problem, seed)
+                self.assertNotEqual(answer.outcome, "rejected", answer.findings)
+                changed.update(answer.changed.keys())
+                models.update(["all", problem.flavour])
+            for name, only_fast_math in self.passes():
+                with self.subTest(generator, name=name):
+                    self.assertGreaterEqual(changed[name], models["finite" if only_fast_math else "all"] / 200)
 
     def passes(self):
         lines = subprocess.run([self.checker.program, "--list"], capture_output=True, text=True, check=True)
@@ -119,7 +129,7 @@ class OfPasses(unittest.TestCase):
 class OfRuns(unittest.TestCase):
     def options(self, folder, models):
         options = argparse.Namespace(first=100, models=models, state=Path(folder), workers=1)
-        return argparse.Namespace(**vars(options), passes=arguments.bin / "fuzz_passes", without=[], reduce_seconds=0)
+        return argparse.Namespace(**vars(options), generator="expressions", passes=arguments.bin / "fuzz_passes", without=[], reduce_seconds=0)
 
     def test_goes_on_where_it_was(self):
         with tempfile.TemporaryDirectory() as folder:

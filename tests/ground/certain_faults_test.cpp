@@ -1,6 +1,8 @@
 // Which faults are told before a run, and which are not.
 #include "problem.hpp"
 
+#include <vector>
+
 namespace rddlc {
 namespace {
 
@@ -44,6 +46,18 @@ TEST(CertainFaults, AreToldOfAllDistributions) {
     EXPECT_NE(told("if (exists_{?o : obj} [(Discrete_{?p : obj} (0.5)) == ?o]) then 1.0 else 0.0")
                   .find("must sum to 1, found 1.5"),
               std::string::npos);
+}
+
+TEST(CertainFaults, AreNotMadeByRounding) {
+    const std::string one = "(0.3 + 0.4 + 0.1 - 0.3 - 0.4)";  // 1 - 9e-16 of 0.1
+    for (const std::string& chance : std::vector{"0.1 / " + one, "1.0 - 0.1 / " + one}) {
+        EXPECT_EQ(told("Bernoulli(" + chance + ")"), "") << chance;
+        EXPECT_EQ(told("Binomial(3, " + chance + ")"), "") << chance;
+    }
+    EXPECT_EQ(told("Geometric(0.1 / " + one + ")"), "");
+    EXPECT_EQ(told("NegativeBinomial(2.0, 0.1 / " + one + ")"), "");
+    EXPECT_NE(told("Bernoulli(1.000000002)"), "");
+    EXPECT_NE(told("Bernoulli(-0.000000002)"), "");
 }
 
 TEST(CertainFaults, AreToldOfOperators) {

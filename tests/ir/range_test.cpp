@@ -92,7 +92,9 @@ TEST(Range, OfDrawsIsFiniteUnlessTheirTailsReachBeyondAllReals) {
 
 TEST(Range, TellsWhetherADrawIsAlwaysPossible) {
     EXPECT_TRUE(always_in_domain(Distribution::Bernoulli, Ranges{Range{0, 1}}));
+    EXPECT_TRUE(always_in_domain(Distribution::Bernoulli, Ranges{Range{-1e-9, 1 + 1e-9}}));
     EXPECT_FALSE(always_in_domain(Distribution::Bernoulli, Ranges{Range{0, 1.0001}}));
+    EXPECT_FALSE(always_in_domain(Distribution::Bernoulli, Ranges{Range{-2e-9, 1}}));
     EXPECT_FALSE(always_in_domain(Distribution::Bernoulli, Ranges{std::nullopt}));
     EXPECT_TRUE(always_in_domain(Distribution::Normal, Ranges{Range{-5, 5}, Range{0, 1}}));
     EXPECT_FALSE(always_in_domain(Distribution::Normal, Ranges{Range{-5, 5}, Range{-1, 1}}));
@@ -100,6 +102,7 @@ TEST(Range, TellsWhetherADrawIsAlwaysPossible) {
     EXPECT_FALSE(always_in_domain(Distribution::Uniform, Ranges{Range{0, 3}, Range{1, 2}}));
     EXPECT_FALSE(always_in_domain(Distribution::Exponential, Ranges{Range{0, 1}}));
     EXPECT_FALSE(always_in_domain(Distribution::Geometric, Ranges{Range{0, 1}}));
+    EXPECT_TRUE(always_in_domain(Distribution::Geometric, Ranges{Range{0.1, 1 + 1e-9}}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -41,15 +42,62 @@ void expect_faults(FaultKind kind, std::initializer_list<double> values, Draw dr
 }
 
 TEST(DistributionFaults, Probabilities) {
-    expect_faults(FaultKind::Probability, {-1e-9, 1.0000001, nan, infinity},
+    expect_faults(FaultKind::Probability, {-2e-9, 1.000000002, nan, infinity},
                   [](auto& context, double p) { return sample::bernoulli(context, place, p); });
-    expect_faults(FaultKind::Probability, {-1e-9, 1.0000001, nan},
+    expect_faults(FaultKind::Probability, {-2e-9, 1.000000002, nan},
                   [](auto& context, double p) { return sample::binomial(context, place, 3, p); });
     expect_faults(FaultKind::PositiveProbability, {0.0, -0.5, 1.5, nan},
                   [](auto& context, double p) { return sample::geometric(context, place, p); });
     expect_faults(
         FaultKind::PositiveProbability, {0.0, -0.5, 1.5, nan},
         [](auto& context, double p) { return sample::negative_binomial(context, place, 2.0, p); });
+    expect_faults(FaultKind::Weight, {-2e-9, nan}, [](auto& context, double w) {
+        return sample::discrete(context, place, std::array{w, 1.0});
+    });
+    expect_faults(FaultKind::Weight, {-2e-9, nan}, [](auto& context, double w) {
+        return sample::unnormalised_discrete(context, place, std::array{w, 1.0});
+    });
+}
+
+// Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1, in packs and in
+// floats, too, which round more.
+template <class L>
+void expect_rounding_is_no_fault(Context<L> context, double rounding) {
+    using Real = typename L::Real;
+    using Int = typename L::Int;
+    const auto always = [](const auto& condition) {
+        return !any(!condition);
+    };
+    const Real below{static_cast<typename L::Element>(-rounding)};
+    const Real above{static_cast<typename L::Element>(1.0 + rounding)};
+    const Real one{1};
+    for (std::uint32_t index = 0; index < 1000; ++index) {
+        const Place here{7, index};
+        EXPECT_TRUE(always(sample::bernoulli(context, here, above)));
+        EXPECT_TRUE(always(!sample::bernoulli(context, here, below)));
+        EXPECT_TRUE(always(sample::geometric(context, here, above) == Int{1}));
+        EXPECT_TRUE(always(sample::negative_binomial(context, here, one, above) == Int{0}));
+        EXPECT_TRUE(always(sample::binomial(context, here, Int{5}, above) == Int{5}));
+        EXPECT_TRUE(always(sample::binomial(context, here, Int{5}, below) == Int{0}));
+        EXPECT_TRUE(
+            always(sample::discrete(context, here, std::array{below, one, below}) == Int{1}));
+        EXPECT_TRUE(
+            always(sample::discrete(context, here, std::array{below, above, below}) == Int{1}));
+        EXPECT_TRUE(always(
+            sample::unnormalised_discrete(context, here, std::array{below, one, below}) == Int{1}));
+    }
+    EXPECT_FALSE(any(context.faulted()));
+}
+
+TEST(DistributionFaults, AreNotMadeByRounding) {
+    using L = Pack<16>;
+    for (const double rounding : {2e-16, 1e-10, 1e-9}) {
+        expect_rounding_is_no_fault(Context<Scalar>{{}, 1, {}, {}}, rounding);
+        const auto keys = typename Context<L>::Word{1};
+        expect_rounding_is_no_fault(Context<L>::of(keys, keys, keys, true), rounding);
+    }
+    for (const double rounding : {1.2e-7, 2e-6})
+        expect_rounding_is_no_fault(Context<ScalarOf<float>>{{}, 1, {}, {}}, rounding);
 }
 
 TEST(DistributionFaults, Uniform) {

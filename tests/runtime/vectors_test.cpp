@@ -201,6 +201,17 @@ TEST(Multinomial, GivesToTheCertainWhereTheSumRounds) {
     }
 }
 
+TEST(Multinomial, TakesARoundedZeroForZero) {
+    Context<Scalar> context;
+    for (const std::array<double, 3> probabilities :
+         {std::array{-1e-17, 1.0, -1e-9}, std::array{-1e-9, 1.0 + 1e-9, -1e-17}}) {
+        std::array<std::int64_t, 3> counts;
+        sample::multinomial(context, place, 3, 1000, probabilities, counts);
+        EXPECT_EQ(counts, (std::array<std::int64_t, 3>{0, 1000, 0}));
+    }
+    EXPECT_FALSE(context.fault);
+}
+
 template <class Draw>
 void expect_fault(FaultKind kind, double value, Draw draw) {
     Context<Scalar> context;
@@ -239,6 +250,7 @@ TEST(VectorFaults, WeightsAndTrials) {
     };
     expect_fault(FaultKind::Trials, -1, multinomial(-1, {0.5, 0.25, 0.25}));
     expect_fault(FaultKind::Weight, -0.5, multinomial(1, {0.5, -0.5, 1}));
+    expect_fault(FaultKind::Weight, -2e-9, multinomial(1, {0.5, -2e-9, 0.5}));
     expect_fault(FaultKind::ProbabilitySum, 1.25, multinomial(1, {0.5, 0.25, 0.5}));
     Context<Scalar> context;
     multinomial(3, {0.5, nan, 0.5})(context);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <rddl/context.hpp>
+#include <rddl/distributions/probability.hpp>
 #include <rddl/distributions/saddle_point.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
@@ -72,8 +73,9 @@ namespace sample {
 template <class L>
 typename L::Int binomial(Context<L>& context, Place place, typename L::Int n, typename L::Real p) {
     const auto n_is_valid = context.require(n >= 0, FaultKind::Trials, place, to_real(n));
-    const auto p_is_valid = context.require(p >= 0.0 && p <= 1.0, FaultKind::Probability, place, p);
-    return draw_in_each_lane(context, place, n_is_valid && p_is_valid, standard_binomial, n, p);
+    const auto p_is_valid = context.require(is_probability<L>(p), FaultKind::Probability, place, p);
+    return draw_in_each_lane(context, place, n_is_valid && p_is_valid, standard_binomial, n,
+                             clamp_probability(p));
 }
 
 }  // namespace sample

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <rddl/context.hpp>
+#include <rddl/distributions/probability.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/random.hpp>
@@ -14,10 +15,10 @@
 
 namespace rddl::sample {
 
-// U < p, with U in [0, 1): never true for p = 0, always for p = 1.
+// U < p, with U in [0, 1): never true for p <= 0, always for p >= 1.
 template <class L>
 RDDL_INLINE typename L::Bool bernoulli(Context<L>& context, Place place, typename L::Real p) {
-    const auto valid = context.require(p >= 0.0 && p <= 1.0, FaultKind::Probability, place, p);
+    const auto valid = context.require(is_probability<L>(p), FaultKind::Probability, place, p);
     return valid && uniform_at(context, place) < p;
 }
 // The same for what is known to be a probability.
@@ -31,15 +32,16 @@ template <class L>
 typename L::Int geometric(Context<L>& context, Place place, typename L::Real p) {
     using Int = typename L::Int;
     const auto valid =
-        context.require(p > 0.0 && p <= 1.0, FaultKind::PositiveProbability, place, p);
-    const auto failures = ln(open_uniform_at(context, place)) / ln_one_plus(-p);
+        context.require(is_positive_probability<L>(p), FaultKind::PositiveProbability, place, p);
+    const auto failures = ln(open_uniform_at(context, place)) / ln_one_plus(-clamp_probability(p));
     const Int trials = select(failures < 0x1p63, wrap_add(floor(failures), Int{1}),
                               Int{std::numeric_limits<std::int64_t>::max()});
     return select(valid, trials, Int{0});
 }
 
 // An index below n with probability weight(i). The weights must sum to 1 up to 1.001e-5 (numpy's
-// allclose, as in pyRDDLGym) and are not renormalised: index 0 gets what is missing.
+// allclose, as in pyRDDLGym) and are not renormalised: index 0 gets what is missing. A weight that
+// rounding made negative is never chosen, as the sum does not grow by it.
 template <class L, class Weight>
 typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&& weight) {
     using Int = typename L::Int;
@@ -50,7 +52,7 @@ typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&
     typename L::Bool valid{true};
     for (Index i = 0; i < n; ++i) {
         const Real w = weight(i);
-        valid = context.require(w >= 0.0, FaultKind::Weight, place, w) && valid;
+        valid = context.require(is_weight<L>(w), FaultKind::Weight, place, w) && valid;
         total = total + w;
         chosen = select(chosen == n && u < total, Int{i}, chosen);
     }
@@ -70,7 +72,7 @@ typename L::Int unnormalised_discrete_over(Context<L>& context, Place place, Ind
     typename L::Bool valid{true};
     for (Index i = 0; i < n; ++i) {
         const Real w = weight(i);
-        valid = context.require(w >= 0.0, FaultKind::Weight, place, w) && valid;
+        valid = context.require(is_weight<L>(w), FaultKind::Weight, place, w) && valid;
         total = total + w;
     }
     const auto has_mass =

@@ -3,6 +3,7 @@
 
 #include <rddl/context.hpp>
 #include <rddl/distributions/gamma.hpp>
+#include <rddl/distributions/probability.hpp>
 #include <rddl/distributions/saddle_point.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
@@ -75,8 +76,9 @@ typename L::Int negative_binomial(Context<L>& context, Place place, typename L::
     constexpr std::int64_t too_large = -1;
     const auto r_is_valid = context.require(r > 0.0, FaultKind::Successes, place, r);
     const auto p_is_valid =
-        context.require(p > 0.0 && p <= 1.0, FaultKind::PositiveProbability, place, p);
+        context.require(is_positive_probability<L>(p), FaultKind::PositiveProbability, place, p);
     const auto valid = r_is_valid && p_is_valid;
+    const typename L::Real chance = clamp_probability(p);
     const auto draw_rate = [](Draws& draws, double shape, double probability) {
         return standard_gamma(draws, shape) * ((1.0 - probability) / probability);
     };
@@ -85,10 +87,10 @@ typename L::Int negative_binomial(Context<L>& context, Place place, typename L::
         return rate <= largest_poisson_rate ? standard_poisson(draws, rate) : too_large;
     };
     using Int = typename L::Int;
-    const Int count = draw_in_each_lane(context, place, valid, draw_count, r, p);
+    const Int count = draw_in_each_lane(context, place, valid, draw_count, r, chance);
     if (any(count == Int{too_large}))
         context.require(count != Int{too_large}, FaultKind::CountTooLarge, place,
-                        draw_in_each_lane(context, place, valid, draw_rate, r, p));
+                        draw_in_each_lane(context, place, valid, draw_rate, r, chance));
     return maximum(count, Int{0});
 }
 

@@ -8,6 +8,7 @@
 #include <rddl/distributions/binomial.hpp>
 #include <rddl/distributions/gamma.hpp>
 #include <rddl/distributions/normal_quantile.hpp>
+#include <rddl/distributions/probability.hpp>
 #include <rddl/lane.hpp>
 #include <rddl/ops.hpp>
 #include <rddl/random.hpp>
@@ -103,8 +104,8 @@ void multinomial(Context<L>& context, Place place, Index n, typename L::Int tria
     Index last = 0;
     for (Index i = 0; i < n; ++i) {
         const double p = probabilities[i];
-        valid = context.require(p >= 0.0, FaultKind::Weight, place, p) && valid;
-        total = total + p;
+        valid = context.require(is_weight<L>(p), FaultKind::Weight, place, p) && valid;
+        total = total + maximum(p, 0.0);
         if (p > 0.0) last = i;
     }
     valid = context.require(absolute(total - 1.0) <= 1.001e-5, FaultKind::ProbabilitySum, place,
@@ -115,7 +116,7 @@ void multinomial(Context<L>& context, Place place, Index n, typename L::Int tria
     std::int64_t left = trials;
     for (Index i = 0; i < last; ++i) {
         const double p = probabilities[i];
-        if (p == 0.0) continue;
+        if (p <= 0.0) continue;
         draw[i] = standard_binomial(draws, left, p < total ? p / total : 1.0);
         left = left - draw[i];
         total = total - p;

@@ -1,0 +1,75 @@
+"""Objects that name objects: chains, tours, carriers, the best and the drawn one."""
+
+from domains.draft import ACTION, CONSTANT, STATE, Draft, boolean, of, over, real
+
+
+def add(draft: Draft) -> None:
+    node = draft.objects("node", main=True)
+    after = draft.declare("after", draft.pick([CONSTANT, STATE]), node, node)
+    head = draft.declare("head", STATE, node)
+    worth = draft.declare("worth", STATE, "real", node)
+    jump = draft.declare("jump", ACTION, "bool", default="false")
+    if after.role == STATE:
+        draft.define(after, ("?n",), changed_link(draft, node, after, head))
+    draft.define(head, (), of(node, "(if (%s) then %s else %s)", draft.at(jump), chain(draft, node, after, head), choice(draft, node, head, worth)))
+    gain = draft.signed(draft.some_real({}))
+    grown = real("(%s + (?n == %s) * %s)", draft.at(worth, "?n"), draft.at(head), gain)
+    shared = real("(%s - %s)", draft.at(worth, "?n"), draft.at(worth, draft.at(after, "?n")))
+    draft.define(worth, ("?n",), draft.bounded(draft.pick([grown, shared])))
+    for part in draft.rng.sample([carriers, sums_at_head, loops], draft.pick([1, 2, 3])):
+        part(draft, node, after, head, worth)
+    draft.earn(draft.revealed(draft.at(worth, chain(draft, node, after, head))))
+
+
+def chain(draft: Draft, node: str, after, head):
+    place = draft.at(head)
+    for _ in range(draft.pick([1, 2, 2, 3])):
+        place = draft.at(after, place)
+    return place
+
+
+def changed_link(draft: Draft, node: str, after, head):
+    """Paths become shorter, or turn to the head."""
+    shorter = draft.at(after, draft.at(after, "?n"))
+    condition = draft.pick([boolean("(?n == %s)", draft.at(head)), draft.some_bool({"?n": node}), boolean("(%s == ?n)", shorter)])
+    return of(node, "(if (%s) then %s else %s)", condition, draft.pick([shorter, draft.at(head)]), draft.at(after, "?n"))
+
+
+def choice(draft: Draft, node: str, head, worth):
+    value = draft.pick([
+        draft.at(worth, "?m"), real("(%s * (?m ~= %s))", draft.at(worth, "?m"), draft.at(head)),
+        real("(%s * %s)", draft.signed(draft.at(worth, "?m")), draft.some_bool({"?m": node})),
+        real("(1.0 / %s)", draft.at(worth, "?m")) if draft.reveals else draft.at(worth, "?m"),
+    ])  # fmt: skip
+    if draft.flavour.draws and draft.chance(0.4):
+        return of(node, f"(UnnormDiscrete_{{?m : {node}}} [(min[9.0, abs[%s]] + 0.25)])", value)
+    return over(draft.pick(["argmax", "argmin"]), "?m", node, value)
+
+
+def carriers(draft: Draft, node: str, after, head, worth) -> None:
+    """Things on carriers on nodes."""
+    thing, carrier = draft.objects("thing"), draft.objects("carrier")
+    on, stands = draft.declare("on", STATE, carrier, thing), draft.declare("stands", STATE, node, carrier)
+    load = draft.declare("LOAD", CONSTANT, "real", thing)
+    draft.define(on, ("?t",), over(draft.pick(["argmax", "argmin"]), "?r", carrier, draft.at(worth, draft.at(stands, "?r"))))
+    draft.define(stands, ("?r",), draft.at(after, draft.at(stands, "?r")))
+    there = boolean("(%s == ?n)", draft.at(stands, draft.at(on, "?t")))
+    burden = over("sum", "?t", thing, real("(%s * %s)", there, draft.signed(draft.at(load, "?t"))))
+    total = draft.interm("burden", {"?n": node}, burden)
+    draft.earn(over(draft.pick(["sum", "max"]), "?n", node, draft.revealed(draft.at(total, "?n"))))
+
+
+def sums_at_head(draft: Draft, node: str, after, head, worth) -> None:
+    """Sums with one term that is not zero."""
+    place = draft.pick([draft.at(head), draft.at(after, draft.at(head))])
+    same = boolean(draft.pick(["(?m == %s)", "(%s == ?m)"]), place)
+    term = real(draft.pick(["(%s * %s)", "(%s * (%s + 0.0))", "(if (%s) then %s else 0.0)"]), same, draft.signed(draft.at(worth, "?m")))
+    draft.earn(draft.revealed(over("sum", "?m", node, real(draft.pick(["%s", "(%s * 2.0)", "(-%s)"]), term))))
+    draft.earn(over("exists", "?m", node, boolean("(%s ^ %s)", same, draft.some_bool({"?m": node}))))
+
+
+def loops(draft: Draft, node: str, after, head, worth) -> None:
+    fixed = over("sum", "?m", node, boolean("(%s == ?m)", draft.pick([draft.at(after, "?m"), draft.at(after, draft.at(after, "?m"))])))
+    draft.earn(fixed)
+    if draft.chance(0.5):
+        draft.problem.terminations.append(boolean("(%s > %s)", fixed, draft.pick(["1", "3", "60"])))
