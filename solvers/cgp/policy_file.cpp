@@ -8,7 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace rddlc::solvers {
 
@@ -46,18 +49,32 @@ class Lines {
     }
     static std::int64_t number(std::istream& rest, const std::string& word, std::int64_t least,
                                std::int64_t most) {
-        std::int64_t value = 0;
-        if (!(rest >> value) || value < least || value > most)
-            throw Failure(fmt::format("the number behind '{}' is none, or too large", word));
-        return value;
+        return in_whole<std::int64_t>(rest, word, least, most);
     }
     static double real(std::istream& rest, const std::string& word) {
-        double value = 0;
-        if (!(rest >> value)) throw Failure(fmt::format("the number behind '{}' is none", word));
-        return value;
+        constexpr double most = std::numeric_limits<double>::max();
+        return in_whole<double>(rest, word, -most, most);
     }
 
   private:
+    // The next word, all of which is a number between these: neither 1.7 nor 1e400 is an int.
+    template <class Number>
+    static Number in_whole(std::istream& rest, const std::string& word, Number least, Number most) {
+        std::string text;
+        rest >> text;
+        Number value{};
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (text.empty() || error != std::errc{} || stop != end || !(value >= least) ||
+            !(value <= most))
+            throw Failure(
+                std::is_integral_v<Number>
+                    ? fmt::format("the number behind '{}' is not an int from {} to {}", word, least,
+                                  most)
+                    : fmt::format("what stands behind '{}' is not a finite number", word));
+        return value;
+    }
+
     std::istringstream stream_;
 };
 
