@@ -4,6 +4,7 @@
 #include "solvers/cgp/evaluator.hpp"
 #include "solvers/cgp/room.hpp"
 #include "solvers/cgp/search.hpp"
+#include "support/failure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +153,8 @@ class Island {
         archive(random_);
         archive_genome(archive, father_);
         archive_genome(archive, record_);
+        if (!has_shape(father_, shape_) || !has_shape(record_, shape_))
+            throw Failure("a program in it is none of this problem and these options");
         archive(fitness_);
         archive(record_fitness_);
         archive(has_record_);

@@ -30,6 +30,11 @@ class SavingArchive {
         (*this)(static_cast<std::uint64_t>(text.size()));
         bytes_.append(text);
     }
+    // Values of which the reader knows how many there are.
+    template <class T>
+    void all_of(const std::vector<T>& values) {
+        (*this)(values);
+    }
     // What another archive has saved.
     void append(std::string_view bytes) { bytes_.append(bytes); }
     const std::string& bytes() const { return bytes_; }
@@ -47,6 +52,13 @@ class LoadingArchive {
     template <class T>
     requires std::is_trivially_copyable_v<T>
     void operator()(T& value) { take(&value, sizeof value); }
+    // A byte that is neither 0 nor 1 would be no bool.
+    void operator()(bool& value) {
+        std::uint8_t byte = 0;
+        take(&byte, sizeof byte);
+        if (byte > 1) throw Failure("it is damaged: a bool in it is neither true nor false");
+        value = byte != 0;
+    }
     template <class T>
     void operator()(std::vector<T>& values) {
         values.resize(size_of_next(sizeof(T)));
@@ -55,6 +67,13 @@ class LoadingArchive {
     void operator()(std::string& text) {
         text.resize(size_of_next(1));
         take(text.data(), text.size());
+    }
+    // As many as there are in `values`.
+    template <class T>
+    void all_of(std::vector<T>& values) {
+        const std::size_t size = values.size();
+        (*this)(values);
+        if (values.size() != size) throw Failure("it is of a run of other sizes");
     }
     bool at_end() const { return bytes_.empty(); }
 

@@ -48,8 +48,8 @@ class Seen {
 
     template <class Archive>
     void archive(Archive& archive) {
-        archive(least_);
-        archive(most_);
+        archive.all_of(least_);
+        archive.all_of(most_);
     }
 
   private:

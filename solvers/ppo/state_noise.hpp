@@ -63,8 +63,8 @@ class StateNoise {
 
     template <class Archive>
     void archive(Archive& archive) {
-        archive(normals_);
-        archive(steps_left_);
+        archive.all_of(normals_);
+        archive.all_of(steps_left_);
     }
 
   private:

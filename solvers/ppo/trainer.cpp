@@ -373,12 +373,12 @@ struct PpoTrainer::State {
             throw Failure(
                 "it is of a run with other networks: --hidden, --activation, --stack and "
                 "--recurrent have to be as they were");
-        archive(model.normaliser.means);
-        archive(model.normaliser.factors);
-        archive(learner.first_moments);
-        archive(learner.second_moments);
+        archive.all_of(model.normaliser.means);
+        archive.all_of(model.normaliser.factors);
+        archive.all_of(learner.first_moments);
+        archive.all_of(learner.second_moments);
         archive(learner.adam_steps);
-        archive(feature_statistics);
+        archive.all_of(feature_statistics);
         archive(return_statistics);
         archive(learning_rate);
         archive(kl_penalty);
