@@ -381,10 +381,8 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text) {
     try {
         return read(simulator, text);
-    } catch (const nlohmann::json::parse_error&) {
-        throw Failure("it is not complete, or no JSON");
     } catch (const RefusedJson& refused) {
-        throw Failure(refused.what());
+        throw Failure(refused.byte ? "it is not complete, or no JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
         throw Failure("it is no policy of PPO, or something in it is missing");
     }
