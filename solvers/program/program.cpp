@@ -21,7 +21,7 @@ void note_signal(int signal) {
 }
 
 void print_help(const char* name, const SolverProgram& program) {
-    fmt::print(
+    print(
         "Usage: {0} train --out FOLDER [--resume] [--seed S] [--time SECONDS] [--stop-return R]\n"
         "       {0} evaluate POLICY [--episodes N] [--seed S]\n\n"
         "Options of train:\n{1}",
@@ -78,8 +78,8 @@ ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& 
         const Trainee trainee = program.trainee(simulator, training.seed, ranks);
         const TrainingResult result = train(simulator, trainee, training);
         if (ranks.is_first())
-            fmt::print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
-                       result.best_length, training.folder.string());
+            print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
+                  result.best_length, training.folder.string());
         return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
     });
 }
@@ -103,9 +103,9 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
     const Policy policy = program.read(simulator, read_file(file));
     const Summary summary = summary_of(run_episodes(simulator, policy, episodes, {}));
     const Estimate& returns = summary.undiscounted_return;
-    fmt::print("return {:.6g} +- {:.3g}, length {:.6g}, {} of {} terminated, {} faults\n",
-               returns.mean, returns.half_width, summary.length.mean, summary.terminated,
-               summary.episodes, summary.faulted);
+    print("return {:.6g} +- {:.3g}, length {:.6g}, {} of {} terminated, {} faults\n", returns.mean,
+          returns.half_width, summary.length.mean, summary.terminated, summary.episodes,
+          summary.faulted);
     return success;
 }
 

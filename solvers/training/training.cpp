@@ -106,9 +106,8 @@ class Training {
         result_.best_length = best_length_;
         result_.best_policy = best_policy_;
         if (!has_best_ && !result_.interrupted && !result_.not_finite.empty())
-            throw Failure(
-                fmt::format("no evaluation has a finite return: {}", result_.not_finite),
-                "'rddl run --trace' shows what leads there");
+            throw Failure(fmt::format("no evaluation has a finite return: {}", result_.not_finite),
+                          "'rddl run --trace' shows what leads there");
         return result_;
     }
 
@@ -243,8 +242,8 @@ class Training {
             const std::size_t others = begin.size() + end.size() + 1;
             status.resize(std::min(status.size(), columns > others ? columns - others : 0));
         }
-        tell("{}{}{}{}{}", terminal ? "\r\x1b[K" : "", begin, status, end,
-             terminal && !last ? "" : "\n");
+        if (terminal) tell_with_codes("\r\x1b[K");
+        tell("{}{}{}{}", begin, status, end, terminal && !last ? "" : "\n");
     }
 
     void write(const char* name, std::string_view text) {
@@ -327,8 +326,8 @@ class Training {
         std::string solver, text, others;
         archive(solver);
         if (solver != trainee_.solver)
-            throw Failure(
-                fmt::format("it is of a run of {}, and this is one of {}", solver, trainee_.solver));
+            throw Failure(fmt::format("it is of a run of {}, and this is one of {}", solver,
+                                      trainee_.solver));
         archive(text);
         for (const auto& [name, value] : settings()) {
             const std::size_t at = ("\n" + text).find("\n" + name + "=");

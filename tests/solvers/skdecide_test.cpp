@@ -4,6 +4,7 @@
 
 #include "simulators.hpp"
 #include "solvers/cgp/policy_file.hpp"
+#include "solvers/cgp/program.hpp"
 #include "solvers/cgp/search.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/failure.hpp"
