@@ -23,11 +23,12 @@ using Json = nlohmann::json;
 std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
-// Nine digits tell a float from its neighbours.
+// Nine digits tell a float from its neighbours; "-0" would be the int 0 in JSON, without a sign.
 std::string array(const float* values, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
-        text += fmt::format("{}{:.9g}", i > 0 ? "," : "", values[i]);
+        text += fmt::format("{}{:.9g}{}", i > 0 ? "," : "", values[i],
+                            values[i] == 0 && std::signbit(values[i]) ? ".0" : "");
     return "[" + text + "]";
 }
 template <class Values, class Text>
