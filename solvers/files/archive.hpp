@@ -30,9 +30,9 @@ class SavingArchive {
         (*this)(static_cast<std::uint64_t>(text.size()));
         bytes_.append(text);
     }
-    // Values of which the reader knows how many there are.
+    // A vector whose size says nothing: it is known to who loads it.
     template <class T>
-    void all_of(const std::vector<T>& values) {
+    void fixed(const std::vector<T>& values) {
         (*this)(values);
     }
     // What another archive has saved.
@@ -68,12 +68,11 @@ class LoadingArchive {
         text.resize(size_of_next(1));
         take(text.data(), text.size());
     }
-    // As many as there are in `values`.
     template <class T>
-    void all_of(std::vector<T>& values) {
-        const std::size_t size = values.size();
-        (*this)(values);
-        if (values.size() != size) throw Failure("it is of a run of other sizes");
+    void fixed(std::vector<T>& values) {
+        if (size_of_next(sizeof(T)) != values.size())
+            throw Failure("it does not fit what is learned: it is damaged, or of another version");
+        take(values.data(), values.size() * sizeof(T));
     }
     bool at_end() const { return bytes_.empty(); }
 

@@ -287,15 +287,15 @@ void Collector::archive(Archive& archive) {
     if (states.size() !=
         static_cast<std::size_t>(count_) * static_cast<std::size_t>(simulator_.problem->state_size))
         throw Failure("it is of a run with another --envs or --threads");
-    archive.all_of(features_);
-    archive.all_of(chooser_.noise());
-    archive.all_of(chooser_.has_noise());
+    archive.fixed(features_);
+    archive.fixed(chooser_.noise());
+    archive.fixed(chooser_.has_noise());
     state_noise_.archive(archive);
     memories_.archive(archive);
     seen_.archive(archive);
-    archive.all_of(steps_);
+    archive.fixed(steps_);
     for (auto* each : {&running_returns_, &sums_, &discounted_sums_, &discounts_})
-        archive.all_of(*each);
+        archive.fixed(*each);
     if constexpr (Archive::is_loading)
         require_done(simulator_,
                      simulator_.set_state(batch_.get(), 0, count_, states.data(), steps_.data()));

@@ -48,8 +48,8 @@ class Seen {
 
     template <class Archive>
     void archive(Archive& archive) {
-        archive.all_of(least_);
-        archive.all_of(most_);
+        archive.fixed(least_);
+        archive.fixed(most_);
     }
 
   private:

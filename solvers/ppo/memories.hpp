@@ -47,7 +47,7 @@ class Memories {
 
     template <class Archive>
     void archive(Archive& archive) {
-        if (row_ > 0) archive.all_of(states_);
+        if (row_ > 0) archive.fixed(states_);
     }
 
   private:

@@ -63,8 +63,8 @@ class StateNoise {
 
     template <class Archive>
     void archive(Archive& archive) {
-        archive.all_of(normals_);
-        archive.all_of(steps_left_);
+        archive.fixed(normals_);
+        archive.fixed(steps_left_);
     }
 
   private:

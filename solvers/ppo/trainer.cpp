@@ -373,12 +373,12 @@ struct PpoTrainer::State {
             throw Failure(
                 "it is of a run with other networks: --hidden, --activation, --stack and "
                 "--recurrent have to be as they were");
-        archive.all_of(model.normaliser.means);
-        archive.all_of(model.normaliser.factors);
-        archive.all_of(learner.first_moments);
-        archive.all_of(learner.second_moments);
+        archive.fixed(model.normaliser.means);
+        archive.fixed(model.normaliser.factors);
+        archive.fixed(learner.first_moments);
+        archive.fixed(learner.second_moments);
         archive(learner.adam_steps);
-        archive.all_of(feature_statistics);
+        archive.fixed(feature_statistics);
         archive(return_statistics);
         archive(learning_rate);
         archive(kl_penalty);

@@ -66,7 +66,7 @@ TEST(Archive, RefusesWhatIsNoBoolAndOtherSizes) {
     longer(std::vector<float>(5));
     std::vector<float> four(4);
     LoadingArchive other(longer.bytes());
-    EXPECT_THROW(other.all_of(four), Failure);
+    EXPECT_THROW(other.fixed(four), Failure);
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,
