@@ -281,7 +281,7 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
     };
     try {
         if (const auto page = page_asked_for(program, version, argc, argv)) {
-            fmt::print("{}", *page);
+            print("{}", *page);
             return success;
         }
         app.parse(words_of(program, words));
@@ -290,10 +290,10 @@ ExitStatus run_command_line(const Command& program, const std::string& version, 
         return run_declared(has_enough(all.front()) ? all.front() : *command);
     } catch (const CLI::CallForHelp&) {
         const Declared* const command = chosen();
-        fmt::print("{}", help_text(command ? *command->command : program, full_name()));
+        print("{}", help_text(command ? *command->command : program, full_name()));
         return success;
     } catch (const CLI::CallForVersion&) {
-        fmt::print("{} {}\n", program.name, version);
+        print("{} {}\n", program.name, version);
         return success;
     } catch (const CLI::ParseError& error) {
         const Declared* const command = chosen();

@@ -38,7 +38,7 @@ Command rddl_command() {
     const auto explanation = std::make_shared<std::string>();
     add_explain_option(program, *explanation);
     program.run = [explanation] {
-        fmt::print("{}", *explanation);
+        print("{}", *explanation);
         return success;
     };
     program.commands = {list_command(),  info_command(),   check_command(),    fmt_command(),

@@ -19,7 +19,7 @@ void print_times(const Compilation& compilation) {
 }
 
 void print_diagnostics(const Compilation& compilation, const RenderOptions& options) {
-    tell(render(compilation.diagnostics, compilation.sources, options));
+    tell_with_codes(render(compilation.diagnostics, compilation.sources, options));
     if (options.format == DiagnosticsFormat::Text) tell(closing_lines(compilation, "rddlc"));
 }
 
@@ -31,11 +31,12 @@ std::string statistics(const Compilation& compilation, Statistics format) {
 
 ExitStatus run(const Options& options) {
     if (!options.explanation.empty()) {
-        fmt::print("{}", options.explanation);
+        print("{}", options.explanation);
         return success;
     }
     const Compilation compilation = compile(options.compile);
-    fmt::print("{}{}", compilation.printed, statistics(compilation, options.statistics));
+    print_data(compilation.printed);
+    print(statistics(compilation, options.statistics));
     print_diagnostics(compilation, options.render);
     if (options.verbose) print_times(compilation);
     return compilation.diagnostics.has_errors() ? diagnosed : success;

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
+#include <string_view>
 
 namespace rddlc {
 
@@ -55,12 +55,31 @@ ast::Integer to_integer(const Conversion& conversion, std::string text, Span spa
     return {value};
 }
 
+// Of a number that fits no double: whether it is too large, and not too small. strtod would know,
+// in the locale of the application.
+bool is_large(std::string_view text) {
+    const std::size_t mark = std::min(text.find_first_of("eE"), text.size());
+    std::int64_t exponent = 0;
+    if (mark < text.size()) {
+        std::string_view written = text.substr(mark + 1);
+        const bool is_negative = written.starts_with('-');
+        if (written.starts_with('+') || is_negative) written.remove_prefix(1);
+        const auto [end, error] =
+            std::from_chars(written.data(), written.data() + written.size(), exponent);
+        if (error != std::errc{}) return !is_negative;
+        if (is_negative) exponent = -exponent;
+    }
+    const std::string_view digits = text.substr(0, mark);
+    const auto first = static_cast<std::int64_t>(digits.find_first_of("123456789"));
+    const auto point = static_cast<std::int64_t>(std::min(digits.find('.'), digits.size()));
+    return point - first + exponent > 0;
+}
+
 ast::Real to_real(const Conversion& conversion, std::string text, Span span) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     // What is too small is zero.
-    const bool is_large = std::isinf(std::strtod(text.c_str(), nullptr));
-    if (error == std::errc::result_out_of_range && is_large)
+    if (error == std::errc::result_out_of_range && is_large(text))
         conversion.diagnostics.report(
             {number_out_of_range, span, "this number is too large for a real"});
     return {value, std::move(text)};

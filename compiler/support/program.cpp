@@ -1,5 +1,7 @@
 #include "support/program.hpp"
 
+#include "support/utf8.hpp"
+
 #include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -108,6 +110,19 @@ bool tells_in_color() {
 }
 
 void tell(std::string_view text) {
+    tell_with_codes(printable(text));
+}
+
+void print(std::string_view text) {
+    fmt::print("{}", printable(text));
+}
+
+void print_data(std::string_view text) {
+    if (is_terminal(STDOUT_FILENO)) return print(text);
+    fmt::print("{}", text);
+}
+
+void tell_with_codes(std::string_view text) {
     static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 

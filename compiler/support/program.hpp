@@ -28,13 +28,28 @@ std::size_t screen_columns();
 // And by somebody who has not set NO_COLOR (https://no-color.org).
 bool tells_in_color();
 
+// What people read goes through tell() or print(), which leave nothing of it that drives a terminal
+// (printable() of utf8.hpp): names, paths and messages may be anybody's.
+//
 // Writes to standard error. If nobody can read that there is nobody to tell, so it never fails.
 void tell(std::string_view text);
+// The same with escape codes of ours; all else in the text is printable().
+void tell_with_codes(std::string_view text);
+// Writes to standard output.
+void print(std::string_view text);
+// What another program may read, or a file: as it is, unless standard output is a terminal.
+void print_data(std::string_view text);
 
 template <class... Arguments>
 void tell(fmt::format_string<Arguments...> form,
           Arguments&&... arguments) requires(sizeof...(Arguments) > 0) {
     tell(std::string_view(fmt::format(form, std::forward<Arguments>(arguments)...)));
+}
+
+template <class... Arguments>
+void print(fmt::format_string<Arguments...> form,
+           Arguments&&... arguments) requires(sizeof...(Arguments) > 0) {
+    print(std::string_view(fmt::format(form, std::forward<Arguments>(arguments)...)));
 }
 
 }  // namespace rddlc

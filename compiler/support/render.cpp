@@ -134,7 +134,7 @@ std::string source_lines(const Sources& sources, Span span, const std::string& r
     return fmt::format("{:5} |{}{}\n", sources.position(span).line, source.empty() ? "" : " ",
                        source) +
            fmt::format("{:5} | {:{}}{}^{}{}{}{}\n", "", "", excerpt.begin, palette.caret, tildes,
-                       palette.off, remark.empty() ? "" : "   ", remark);
+                       palette.off, remark.empty() ? "" : "   ", printable_line(remark));
 }
 
 class TextRenderer {
@@ -157,7 +157,8 @@ class TextRenderer {
         for (const Note& note : diagnostic.notes)
             if (&note != beside) text += note_line(note);
         if (!diagnostic.hint.empty())
-            text += fmt::format("{}hint:{} {}\n", palette_.note, palette_.off, diagnostic.hint);
+            text += fmt::format("{}hint:{} {}\n", palette_.note, palette_.off,
+                                printable(diagnostic.hint));
         return text;
     }
 
@@ -167,16 +168,16 @@ class TextRenderer {
         return fmt::format("{0}{1}{2}{3}{4}:{2} {0}{5}{2} [{6}]\n", palette_.bold,
                            place(diagnostic.span), palette_.off,
                            error ? palette_.error : palette_.warning, error ? "error" : "warning",
-                           diagnostic.message, to_string(diagnostic.code));
+                           printable(diagnostic.message), to_string(diagnostic.code));
     }
 
     std::string note_line(const Note& note) const {
         return fmt::format("{}{}note:{} {}\n", place(note.span), palette_.note, palette_.off,
-                           note.message);
+                           printable(note.message));
     }
 
     std::string place(const std::optional<Span>& span) const {
-        return span ? sources_.location(*span) + ": " : "";
+        return span ? printable_line(sources_.location(*span)) + ": " : "";
     }
 
     const Diagnostics& diagnostics_;

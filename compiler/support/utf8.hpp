@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace rddlc {
@@ -10,8 +12,11 @@ namespace rddlc {
 struct Character {
     std::string_view bytes;  // a single byte, if it is not UTF-8
     bool is_valid;
-    bool is_visible;    // false for what is not UTF-8, for controls and for format characters
-    std::size_t width;  // in columns of a terminal: 0 for an accent on the character before, or 2
+    // False for what is not UTF-8, for controls, and for format characters, which change the
+    // direction of a line or end it.
+    bool is_visible;
+    std::size_t width;         // in columns of a terminal: 0 for an accent on the one before, or 2
+    std::uint32_t code_point;  // U+FFFD, if it is not UTF-8
 };
 
 // The text must not be empty.
@@ -23,6 +28,12 @@ constexpr bool begins_character(char byte) {
 }
 
 bool is_utf8(std::string_view text);
+
+// What a terminal can be given: the text, with U+FFFD for each character that is not visible, line
+// breaks and tabs excepted. Texts that are not ours reach a terminal through this alone.
+std::string printable(std::string_view text);
+// The same of what stands within a line.
+std::string printable_line(std::string_view text);
 
 // Columns of a terminal.
 std::size_t display_width(std::string_view text);

@@ -1,8 +1,7 @@
 #include "render/moment.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <utility>
 
 namespace rddl::render {
@@ -127,14 +126,19 @@ const Values& Moment::operator[](std::string_view name) const {
     return values(*fluent);
 }
 
+std::string rounded_text(double value, int digits) {
+    char text[40];
+    const auto end =
+        std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    return {text, end};
+}
+
 std::string number_text(double value) {
     if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
-    char text[40];
     const double size = std::abs(value);
     const bool whole = size < 1e7 && (value == std::round(value) || size >= 1000);
-    std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", value);
-    return std::strcmp(text, "-0") == 0 ? "0" : text;
+    return whole ? std::to_string(std::llrint(value)) : rounded_text(value, 4);
 }
 
 std::string value_text(const Values& values, std::size_t grounding) {

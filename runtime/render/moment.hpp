@@ -122,6 +122,8 @@ class Moment {
 
 // The value as people write it: "true", "12", "0.25", the name of an object.
 std::string value_text(const Values& values, std::size_t grounding);
+// A number with so many digits at most, in whatever locale the program is: applications set one.
+std::string rounded_text(double value, int digits);
 // A number with about four digits.
 std::string number_text(double value);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace rddl::render {
@@ -45,10 +44,8 @@ Color value_color(const Values& values, double value, const Range& range) {
 
 namespace {
 
-std::string rounded_text(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.2g", value);
-    return text;
+std::string short_text(double value) {
+    return rounded_text(value, 2);
 }
 
 }  // namespace
@@ -70,7 +67,7 @@ void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range&
         return;
     }
     const Color low = sequential_color(0), high = sequential_color(1);
-    for (const auto text_of : {number_text, rounded_text})
+    for (const auto text_of : {number_text, short_text})
         if (whole_legend_at_right(
                 canvas, box,
                 std::vector<Entry>{{text_of(range.low), low}, {text_of(range.high), high}}))

@@ -5,9 +5,10 @@
 #include "render/png.hpp"
 #include "render/state_text.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace rddl::render {
 
@@ -19,9 +20,7 @@ std::string json_text(std::string_view text) {
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || c == '<' || c == '>' || c == '&') {
-            char escape[8];
-            std::snprintf(escape, sizeof escape, "\\u%04x", byte);
-            out += escape;
+            out += fmt::format("\\u{:04x}", byte);
             continue;
         }
         if (c == '"' || c == '\\') out += '\\';

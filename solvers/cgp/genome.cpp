@@ -118,6 +118,27 @@ Genome random_genome(const GenomeShape& shape, Random& random) {
     return genome;
 }
 
+bool has_shape(const Genome& genome, const GenomeShape& shape) {
+    const auto count = [](const auto& values) {
+        return static_cast<std::int64_t>(values.size());
+    };
+    if (genome.inputs != shape.inputs || genome.delayed != shape.delayed ||
+        count(genome.constants) != shape.constants || count(genome.nodes) != shape.nodes ||
+        count(genome.outputs) != shape.outputs)
+        return false;
+    const std::int64_t all = genome.first_node() + count(genome.nodes);
+    for (std::int64_t n = 0; n < count(genome.nodes); ++n) {
+        const Node& node = genome.nodes[static_cast<std::size_t>(n)];
+        if (std::ranges::find(shape.functions, node.function) == shape.functions.end())
+            return false;
+        const std::int64_t end = genome.delayed ? all : genome.first_node() + n;
+        for (const int argument : node.arguments)
+            if (argument < 0 || argument >= end) return false;
+    }
+    return std::ranges::all_of(genome.outputs,
+                               [&](int output) { return output >= 0 && output < all; });
+}
+
 void mutate(Genome& genome, const GenomeShape& shape, Mutation mutation, const Activity& activity,
             Random& random) {
     const int genes = gene_count(genome);

@@ -63,6 +63,8 @@ struct GenomeShape {
 };
 
 Genome random_genome(const GenomeShape& shape, Random& random);
+// Whether a genome that was read is one of the shape, with addresses that are there.
+bool has_shape(const Genome& genome, const GenomeShape& shape);
 
 // Which nodes have a part in the outputs; `used` tells which inputs and constants do, too.
 struct Activity {

@@ -155,7 +155,8 @@ class Island {
         archive(random_);
         for (Genome* const genome : {&father_, &record_}) {
             archive_genome(archive, *genome);
-            if constexpr (Archive::is_loading) require_shape(*genome);
+            if (!has_shape(*genome, shape_))
+                throw Failure("a program in it does not belong to this problem and these options");
         }
         archive(fitness_);
         archive(record_fitness_);
@@ -171,13 +172,6 @@ class Island {
     }
 
   private:
-    void require_shape(const Genome& genome) const {
-        if (genome.inputs != shape_.inputs || std::ssize(genome.constants) != shape_.constants ||
-            std::ssize(genome.nodes) != shape_.nodes ||
-            std::ssize(genome.outputs) != shape_.outputs || genome.delayed != shape_.delayed)
-            throw Failure("a program in it is of another size");
-    }
-
     // Known programs are not run again.
     std::vector<Fitness> evaluate_all(const std::vector<Genome>& genomes) {
         std::vector<Fitness> all(genomes.size());

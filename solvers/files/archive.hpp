@@ -53,6 +53,13 @@ class LoadingArchive {
     template <class T>
     requires std::is_trivially_copyable_v<T>
     void operator()(T& value) { take(&value, sizeof value); }
+    // A byte that is neither 0 nor 1 would be no bool.
+    void operator()(bool& value) {
+        std::uint8_t byte = 0;
+        take(&byte, sizeof byte);
+        if (byte > 1) throw Failure("it is damaged: a bool in it is neither true nor false");
+        value = byte != 0;
+    }
     template <class T>
     void operator()(std::vector<T>& values) {
         values.resize(size_of_next(sizeof(T)));

@@ -24,11 +24,12 @@ using Json = nlohmann::json;
 std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
-// Nine digits tell a float from its neighbours.
+// Nine digits tell a float from its neighbours; "-0" would be the int 0 in JSON, without a sign.
 std::string array(const float* values, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
-        text += fmt::format("{}{:.9g}", i > 0 ? "," : "", values[i]);
+        text += fmt::format("{}{:.9g}{}", i > 0 ? "," : "", values[i],
+                            values[i] == 0 && std::signbit(values[i]) ? ".0" : "");
     return "[" + text + "]";
 }
 template <class Values, class Text>
@@ -501,10 +502,8 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
     require_room_for(text, memory_limit);
     try {
         return read(simulator, text);
-    } catch (const nlohmann::json::parse_error&) {
-        throw Failure("it is not complete, or no JSON");
     } catch (const RefusedJson& refused) {
-        throw Failure(refused.what());
+        throw Failure(refused.byte ? "it is not complete, or no JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
         throw Failure("it is no policy of PPO, or something in it is missing");
     }

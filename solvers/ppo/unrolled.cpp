@@ -20,8 +20,8 @@ void Unrolled::lay_out(const Experience& experience, std::span<const std::uint32
                        std::vector<std::uint32_t>& samples) {
     const Segments& all = experience.segments;
     order_.assign(segments.begin(), segments.end());
-    std::ranges::partition(
-        order_, [&](std::uint32_t segment) { return all.length(segment) == all.longest(); });
+    std::partition(order_.begin(), order_.end(),
+                   [&](std::uint32_t segment) { return all.length(segment) == all.longest(); });
     samples.clear();
     counts_.clear();
     begins_.clear();

@@ -24,7 +24,7 @@ void note_signal(int signal) {
 
 void print_options(const std::vector<ProgramOption>& options) {
     for (const ProgramOption& option : options)
-        fmt::print("  {:<24} {}\n", option.name + (option.value.empty() ? "" : " " + option.value),
+        print("  {:<24} {}\n", option.name + (option.value.empty() ? "" : " " + option.value),
                    option.help);
 }
 
@@ -98,13 +98,13 @@ std::vector<ProgramOption> evaluation_options(EpisodeOptions& episodes) {
 void print_help(const char* name, const SolverProgram& program) {
     TrainingOptions training;
     EpisodeOptions episodes;
-    fmt::print(
+    print(
         "Usage: {0} train --out FOLDER [OPTIONS]\n       {0} evaluate POLICY [OPTIONS]\n\n"
         "Options of train:\n",
         name);
     print_options(training_options(training));
     print_options(program.options);
-    fmt::print("\nOptions of evaluate:\n");
+    print("\nOptions of evaluate:\n");
     print_options(evaluation_options(episodes));
 }
 
@@ -128,8 +128,8 @@ ExitStatus train_by_words(const rddl_simulator& simulator, const SolverProgram& 
         const Trainee trainee = program.trainee(simulator, training.seed, ranks);
         const TrainingResult result = train(simulator, trainee, training);
         if (ranks.is_first())
-            fmt::print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
-                       result.best_length, training.folder.string());
+            print("best return {:.6g} in {:.6g} steps: {}\n", result.best_return,
+                  result.best_length, training.folder.string());
         return result.interrupted ? static_cast<ExitStatus>(128 + signalled) : success;
     });
 }
@@ -146,9 +146,9 @@ ExitStatus evaluate_by_words(const rddl_simulator& simulator, const SolverProgra
     const Policy policy = program.read(simulator, read_file(file));
     const Summary summary = summary_of(run_episodes(simulator, policy, episodes, {}));
     const Estimate& returns = summary.undiscounted_return;
-    fmt::print("return {:.6g} +- {:.3g}, length {:.6g}, {} of {} terminated, {} faults\n",
-               returns.mean, returns.half_width, summary.length.mean, summary.terminated,
-               summary.episodes, summary.faulted);
+    print("return {:.6g} +- {:.3g}, length {:.6g}, {} of {} terminated, {} faults\n", returns.mean,
+          returns.half_width, summary.length.mean, summary.terminated, summary.episodes,
+          summary.faulted);
     return success;
 }
 

@@ -261,8 +261,8 @@ class Training {
             const std::size_t others = begin.size() + end.size() + 1;
             status.resize(std::min(status.size(), columns > others ? columns - others : 0));
         }
-        tell("{}{}{}{}{}", terminal ? "\r\x1b[K" : "", begin, status, end,
-             terminal && !last ? "" : "\n");
+        if (terminal) tell_with_codes("\r\x1b[K");
+        tell("{}{}{}{}", begin, status, end, terminal && !last ? "" : "\n");
     }
 
     void write(const char* name, std::string_view text) {

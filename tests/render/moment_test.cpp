@@ -1,10 +1,12 @@
 // What visualizers see of a simulator: of the problem of tests/runtime, which has every kind of
 // fluent.
+#include "../comma_locale.hpp"
 #include "../runtime/tiny_batch.hpp"
 
 #include <gtest/gtest.h>
 #include <render/film.hpp>
 #include <render/panels.hpp>
+#include <render/replay_page.hpp>
 #include <render/state_text.hpp>
 #include <render/visualizer.hpp>
 
@@ -156,6 +158,36 @@ TEST(Visualizers, ForAnyProblemDrawEveryKindOfFluent) {
         EXPECT_GT(colours.size(), 30u) << name;
         EXPECT_TRUE(film.svg().ends_with("</svg>\n")) << name;
     }
+}
+
+class PicturesInCommaLocale : public CommaLocale {
+  protected:
+    // Pages, which hold the pictures, too.
+    static std::string drawn() {
+        const World world(*tiny::simulator());
+        std::string all;
+        for (const char* const name : {"auto", "chart", "heatmap", "text"}) {
+            Film film(world, *find_visualizer(name), 300, 200, 0, 10);
+            ReplayPage page(world, 300, 200, 2.5);
+            page.begin_run("run");
+            for (Step& step : two_steps()) {
+                film.add(step);
+                page.add(film.moment(), film.picture());
+            }
+            all += page.html();
+        }
+        return all;
+    }
+};
+
+TEST_F(PicturesInCommaLocale, AreTheSame) {
+    EXPECT_EQ(number_text(0.1), "0.1");
+    EXPECT_EQ(number_text(1234567), "1234567");
+    EXPECT_EQ(rounded_text(1 / 3.0, 2), "0.33");
+    EXPECT_EQ(rounded_text(-1e-7, 2), "-1e-07");
+    const std::string here = drawn();
+    end();
+    EXPECT_TRUE(here == drawn()) << "pages and their pictures depend on the locale";
 }
 
 TEST(Film, ForgetsWhatWasLongAgo) {

@@ -7,6 +7,7 @@
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/cgp/search.hpp"
 #include "solvers/evaluation/summary.hpp"
+#include "solvers/files/archive.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,40 @@ namespace {
 GenomeShape shape_of(int inputs, int outputs, int nodes = 30) {
     return {inputs,  3, nodes,
             outputs, 0, functions_named({"arith", "trig", "logic", "round", "unit"})};
+}
+
+TEST(Genome, HasAShape) {
+    const GenomeShape shape = shape_of(2, 1, 4);
+    Random random(1, 2);
+    const Genome whole = random_genome(shape, random);
+    EXPECT_TRUE(has_shape(whole, shape));
+    const auto damaged = [&](auto change) {
+        Genome genome = whole;
+        change(genome);
+        return !has_shape(genome, shape);
+    };
+    EXPECT_TRUE(damaged([](Genome& g) { g.inputs = 3; }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.delayed = true; }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.constants.pop_back(); }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.nodes.clear(); }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.outputs.push_back(0); }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.outputs[0] = 9; })) << "2 inputs, 3 constants, 4 nodes";
+    EXPECT_TRUE(damaged([](Genome& g) { g.outputs[0] = -1; }));
+    EXPECT_TRUE(damaged([](Genome& g) { g.nodes[2].arguments[1] = 7; })) << "reads itself";
+    EXPECT_TRUE(damaged([](Genome& g) { g.nodes[0].function = static_cast<Function>(200); }));
+}
+
+TEST(Archive, RefusesWhatIsNoBoolAndOtherSizes) {
+    SavingArchive saved;
+    saved(std::uint8_t{2});
+    bool value = false;
+    LoadingArchive no_bool(saved.bytes());
+    EXPECT_THROW(no_bool(value), Failure);
+    SavingArchive longer;
+    longer(std::vector<float>(5));
+    std::vector<float> four(4);
+    LoadingArchive other(longer.bytes());
+    EXPECT_THROW(other.fixed(four), Failure);
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,

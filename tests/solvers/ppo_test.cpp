@@ -302,6 +302,10 @@ TEST(Ppo, SquashedPoliciesAreReadAsTheyWereWritten) {
     // Other programs lay out JSON in their own way, with members in another order.
     nlohmann::json json = nlohmann::json::parse(text);
     EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, json.dump(2))), text);
+    nlohmann::json zeros = json;
+    zeros["policy"][0]["bias"][0] = -0.0;
+    const std::string signed_zero = ppo_policy_text(car, *read_ppo_policy(car, zeros.dump()));
+    EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, signed_zero)), signed_zero);
     json["hidden"][0] = 1'000'000'000;
     EXPECT_THROW(read_ppo_policy(car, json.dump()), Failure);
     json = nlohmann::json::parse(text);

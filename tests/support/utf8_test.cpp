@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <string>
+#include <string_view>
 
 namespace rddlc {
 namespace {
@@ -25,6 +27,17 @@ TEST(Utf8, CharactersAreReadOneByOne) {
     for (const char* text :
          {"\x01", "\x7F", "\xC2\x9B", "\xE2\x80\xAE"})  // controls, right to left
         EXPECT_FALSE(first_character(text).is_visible);
+}
+
+TEST(Utf8, WhatIsPrintedDrivesNoTerminal) {
+    EXPECT_EQ(printable("a\tb\n\xC3\xA9\xE6\xB0\xB4"), "a\tb\n\xC3\xA9\xE6\xB0\xB4");
+    EXPECT_EQ(printable_line("a\tb\n"),
+              "a\xEF\xBF\xBD"
+              "b\xEF\xBF\xBD");
+    for (const std::string text : {"\x1b", "\r", "\x7F", "\x9b", "\xff", "\xC2\x9B", "\xE2\x80\xAE",
+                                   "\xE2\x80\xA8", "\xE2\x80\x8B"})
+        EXPECT_EQ(printable("<" + text + ">"), "<\xEF\xBF\xBD>") << text;
+    EXPECT_EQ(printable(std::string_view("\0", 1)), "\xEF\xBF\xBD");
 }
 
 // As terminals show them: accents take no column, Chinese characters and emoji two.

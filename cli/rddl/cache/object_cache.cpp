@@ -83,7 +83,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
     }
     if (!built) {
         give_up_if_interrupted();
-        tell(render(diagnostics, {}, {}));
+        tell_with_codes(render(diagnostics, {}, {}));
         tell(closing_lines(diagnostics, "rddl"));
         if (!options.extern_headers.empty()) throw Diagnosed{};
         throw Failure("the simulator cannot be compiled", "--engine=interpreter needs no compiler");

@@ -51,7 +51,7 @@ ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     print_diagnostics(compilation);
     if (compilation.diagnostics.has_errors()) return diagnosed;
     if (has_externs && compilation.program) external_library(*compilation.program, files, options);
-    fmt::print("{}: {}\n", files.name, verdict(compilation));
+    print("{}: {}\n", files.name, verdict(compilation));
     return success;
 }
 
@@ -119,17 +119,17 @@ void print_table(const std::vector<RepositoryProblem>& problems,
                  {"errors", Align::Right},
                  {"warnings", Align::Right}});
     for (std::size_t i = 0; i < rows.size(); ++i) table.add_row(rows[i].cells(problems[i].name));
-    fmt::print("{}\n", table.text());
+    print("{}\n", table.text());
 }
 
 ExitStatus summarise(const ProblemRow& total, bool shows_warnings) {
     const bool hides_some = total.warnings > 0 && !shows_warnings;
-    fmt::print("{} of {} without errors, {}, {}{}\n", total.without_errors,
-               counted(total.instances, "instance"), counted(total.errors, "error"),
-               counted(total.warnings, "warning"),
-               hides_some
-                   ? fmt::format("; --verbose shows the warning{}", total.warnings == 1 ? "" : "s")
-                   : "");
+    print("{} of {} without errors, {}, {}{}\n", total.without_errors,
+          counted(total.instances, "instance"), counted(total.errors, "error"),
+          counted(total.warnings, "warning"),
+          hides_some
+              ? fmt::format("; --verbose shows the warning{}", total.warnings == 1 ? "" : "s")
+              : "");
     std::fflush(stdout);
     const auto first = std::ranges::find_if(
         total.different, [](const RenderedDiagnostic* each) { return each->is_error; });

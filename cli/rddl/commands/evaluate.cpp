@@ -68,8 +68,8 @@ std::string share_text(std::int64_t part, std::int64_t all) {
 
 void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all,
                  const EvaluationOptions& options) {
-    fmt::print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
-               options.episodes.episodes, options.episodes.seed);
+    print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
+          options.episodes.episodes, options.episodes.seed);
     Table table({{"policy"},
                  {"return", Align::Right},
                  {"discounted", Align::Right},
@@ -91,7 +91,7 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
              grouped(s.illegal_actions), grouped(s.faulted),
              rate_text(one.seconds > 0 ? static_cast<double>(one.steps) / one.seconds : 0)});
     }
-    fmt::print(
+    print(
         "{}\n± is the half of a 95 % confidence interval; 'ended' are episodes that a "
         "termination ended\n",
         table.text());
@@ -123,10 +123,10 @@ void print_json(const ProblemFiles& files, const std::vector<Evaluation>& all,
                             {"steps", one.steps},
                             {"seconds", one.seconds}});
     }
-    fmt::print("{}", json_document({{"problem", files.name},
-                                    {"episodes", options.episodes.episodes},
-                                    {"seed", options.episodes.seed},
-                                    {"policies", policies}}));
+    print("{}", json_document({{"problem", files.name},
+                               {"episodes", options.episodes.episodes},
+                               {"seed", options.episodes.seed},
+                               {"policies", policies}}));
 }
 
 void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,

@@ -8,6 +8,7 @@
 #include "solvers/cgp/policy_file.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "support/files.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 
@@ -68,7 +69,7 @@ ExitStatus export_policy(const ExportOptions& options) {
                       failure.hint, failure.status);
     }
     if (options.output.empty()) {
-        fmt::print("{}", result);
+        print_data(result);
         return success;
     }
     UsedFiles used = problem.used;

@@ -6,6 +6,7 @@
 #include "support/files.hpp"
 #include "support/program.hpp"
 #include "support/render.hpp"
+#include "support/utf8.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -72,13 +73,13 @@ struct Formatted {
 // What the options ask for, with one file.
 void deliver(const FormatOptions& options, const Formatted& file) {
     if (options.diff)
-        fmt::print("{}", unified_diff(file.path, file.before, file.after));
+        print_data(unified_diff(printable_line(file.path), file.before, file.after));
     else if (options.check)
-        fmt::print("{}", file.changes() ? file.path + "\n" : "");
+        print(file.changes() ? file.path + "\n" : "");
     else if (!options.output.empty())
         write_to_other(options.output, file.path, file.after);
     else if (options.to_stdout || file.path == "-")
-        fmt::print("{}", file.after);
+        print_data(file.after);
     else if (file.changes())
         rewrite(file.path, file.after);
 }
@@ -94,7 +95,7 @@ ExitStatus format_one(const FormatOptions& options, const std::string& path) {
     const std::optional<std::string> text =
         format_file(sources, *file, diagnostics, options.standard);
     if (!text) {
-        tell(render(diagnostics, sources, {.color = tells_in_color()}));
+        tell_with_codes(render(diagnostics, sources, {.color = tells_in_color()}));
         tell(closing_lines(diagnostics, "rddl"));
         return diagnosed;
     }

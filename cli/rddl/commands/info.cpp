@@ -5,6 +5,7 @@
 #include "problems/description.hpp"
 #include "problems/front_end.hpp"
 #include "support/json_text.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 
@@ -30,9 +31,9 @@ ExitStatus info(const InfoOptions& options) {
         interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
     description.refusals = solvers::refusals(*description.simulator);
     if (options.json)
-        fmt::print("{}", json_document(description_json(description)));
+        print("{}", json_document(description_json(description)));
     else
-        fmt::print("{}", description_text(description));
+        print("{}", description_text(description));
     return success;
 }
 

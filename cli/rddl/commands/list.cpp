@@ -6,6 +6,7 @@
 #include "problems/problem_lookup.hpp"
 #include "rollouts/parallel.hpp"
 #include "support/json_text.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -102,25 +103,24 @@ void print_table(const std::vector<ListedProblem>& all, const Repository& reposi
         table.add_row({listed.problem.name, instances_text(listed.problem.instances),
                        kind_text(listed), actions_text(listed),
                        shortened(listed.problem.description, description_width)});
-    if (!table.empty()) fmt::print("{}\n", table.text());
+    if (!table.empty()) print("{}\n", table.text());
     const auto counted = [](auto count, std::string_view what) {
         return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
     };
-    fmt::print("{}, {} in {}\n", counted(all.size(), "problem"),
-               counted(instance_count(all), "instance"), repository.folder.string());
+    print("{}, {} in {}\n", counted(all.size(), "problem"),
+          counted(instance_count(all), "instance"), repository.folder.string());
 }
 
 void print_descriptions(const std::vector<ListedProblem>& all) {
     for (const auto& [problem, characteristics] : all) {
-        fmt::print("{}\n", problem.name);
-        for (const std::string& line : wrapped(problem.description, 94))
-            fmt::print("    {}\n", line);
+        print("{}\n", problem.name);
+        for (const std::string& line : wrapped(problem.description, 94)) print("    {}\n", line);
         if (characteristics && !characteristics->features.empty())
             for (const std::string& line :
                  wrapped(fmt::format("uses {}", fmt::join(characteristics->features, ", ")), 94))
-                fmt::print("    {}\n", line);
-        fmt::print("    context {}; instances {}; {}\n\n", problem.context,
-                   instances_text(problem.instances), problem.folder.string());
+                print("    {}\n", line);
+        print("    context {}; instances {}; {}\n\n", problem.context,
+              instances_text(problem.instances), problem.folder.string());
     }
 }
 
@@ -145,7 +145,7 @@ nlohmann::ordered_json problem_json(const ListedProblem& listed) {
 void print_json(const std::vector<ListedProblem>& all) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
     for (const ListedProblem& listed : all) out.push_back(problem_json(listed));
-    fmt::print("{}", json_document(out));
+    print("{}", json_document(out));
 }
 
 ExitStatus list(const ListOptions& options) {

@@ -93,7 +93,7 @@ ExitStatus plot(const PlotOptions& options) {
         chart.curves.push_back(curve_of(group.name, group.runs, x, options.y));
     write_chart(chart, files);
     for (const std::string& file : {files.png, files.svg})
-        if (!file.empty()) fmt::print("wrote {}\n", file);
+        if (!file.empty()) print("wrote {}\n", file);
     return success;
 }
 

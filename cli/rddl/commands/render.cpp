@@ -46,7 +46,7 @@ ProblemFiles files_of_header(const std::string& line, const RenderOptions& optio
     nlohmann::json header;
     try {
         header = parse_json(line);
-    } catch (const std::exception&) {
+    } catch (const RefusedJson&) {
         throw Failure(fmt::format("'{}' is no trace: its first line is no JSON", options.trace),
                       "'rddl run --trace FILE' writes traces");
     }
@@ -70,7 +70,7 @@ ProblemFiles files_of_header(const std::string& line, const RenderOptions& optio
 
 ExitStatus render_trace(const RenderOptions& options) {
     if (options.pictures.visualizer == "list") {
-        fmt::print("{}", visualizer_list());
+        print("{}", visualizer_list());
         return success;
     }
     require_pictures();
@@ -105,7 +105,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     }
     give_up_if_interrupted("drawing");
     const std::string what = pictures.finish();
-    if (!options.quiet && !options.pictures.any_on_standard_output()) fmt::print("{}\n", what);
+    if (!options.quiet && !options.pictures.any_on_standard_output()) print("{}\n", what);
     return success;
 }
 

@@ -87,9 +87,8 @@ std::string illegal_actions_line(std::int64_t count, Preconditions preconditions
 void print_summary(const RunOptions& options, const Summary& summary, const Rollouts& rollouts,
                    const LoadedProblem& problem, ViolationExplainer& explainer) {
     const rddl_problem& description = *problem.simulator->problem;
-    fmt::print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
-               name_of(options.rollouts.policy), options.rollouts.seed,
-               name_of(options.load.engine));
+    print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
+          name_of(options.rollouts.policy), options.rollouts.seed, name_of(options.load.engine));
     Table table({{""},
                  {"mean", Align::Right},
                  {"std", Align::Right},
@@ -102,21 +101,20 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     add("return", summary.undiscounted_return);
     add("discounted return", summary.discounted_return);
     add("length", summary.length);
-    fmt::print("{}\n", table.text());
-    fmt::print(
-        "{} episode{}: {} terminated, {} at the horizon, {} broke an invariant, {} faulted\n",
-        grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
-        grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
-    if (rollouts.first_fault) fmt::print("first fault: {}\n", fault_line(*rollouts.first_fault));
+    print("{}\n", table.text());
+    print("{} episode{}: {} terminated, {} at the horizon, {} broke an invariant, {} faulted\n",
+          grouped(summary.episodes), summary.episodes == 1 ? "" : "s", grouped(summary.terminated),
+          grouped(summary.horizon), grouped(summary.invariant), grouped(summary.faulted));
+    if (rollouts.first_fault) print("first fault: {}\n", fault_line(*rollouts.first_fault));
     if (const auto& first = rollouts.first_broken_invariant)
-        fmt::print("first broken invariant: {}: {}\n", when(*first),
-                   explainer.invariant(first->violation).line());
+        print("first broken invariant: {}: {}\n", when(*first),
+              explainer.invariant(first->violation).line());
     const Preconditions preconditions = options.rollouts.preconditions;
     if (preconditions != Preconditions::Ignore || summary.illegal_actions > 0)
-        fmt::print("{}\n", illegal_actions_line(summary.illegal_actions, preconditions));
-    fmt::print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
-               seconds_text(rollouts.seconds), rate_text(steps_per_second(rollouts)),
-               rollouts.threads, rollouts.threads == 1 ? "" : "s");
+        print("{}\n", illegal_actions_line(summary.illegal_actions, preconditions));
+    print("{} steps in {}: {} steps/s with {} thread{}\n", grouped(rollouts.steps),
+          seconds_text(rollouts.seconds), rate_text(steps_per_second(rollouts)), rollouts.threads,
+          rollouts.threads == 1 ? "" : "s");
 }
 
 nlohmann::ordered_json spread_json(const solvers::Estimate& s) {
@@ -156,7 +154,7 @@ void print_json(const RunOptions& options, const Summary& summary, const Rollout
     if (const auto& first = rollouts.first_broken_invariant)
         out["first_broken_invariant"] =
             when(*first) + ": " + explainer.invariant(first->violation).line();
-    fmt::print("{}", json_document(out));
+    print("{}", json_document(out));
 }
 
 std::string header_line(const RunOptions& options, const LoadedProblem& problem,
@@ -218,7 +216,7 @@ void for_each_line(std::string_view lines, const auto& take) {
 
 ExitStatus run(const RunOptions& options) {
     if (options.pictures.visualizer == "list") {
-        fmt::print("{}", visualizer_list());
+        print("{}", visualizer_list());
         return success;
     }
     if (options.pictures.any()) require_drawn_episode(options);

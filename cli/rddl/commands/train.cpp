@@ -58,11 +58,11 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
     training.folder = folder_of(options, *simulator.problem, trainee.solver.c_str());
     const solvers::TrainingResult result = solvers::train(simulator, trainee, training);
     if (!training.quiet && result.has_best)
-        fmt::print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
-                   number_text(result.best_length), duration_text(result.seconds),
-                   training.folder.string());
+        print("best return {} in {} steps, after {}: {}\n", number_text(result.best_return),
+              number_text(result.best_length), duration_text(result.seconds),
+              training.folder.string());
     if (!training.quiet && result.has_best && trainee.summary)
-        fmt::print("{}", trainee.summary(result.best_policy));
+        print("{}", trainee.summary(result.best_policy));
     if (!training.quiet && result.faulted > 0)
         tell("rddl: warning: {} of {} episodes of the last evaluation ended by a fault: {}\n",
              result.faulted, result.episodes, result.first_fault);

@@ -104,8 +104,8 @@ ExitStatus verify(const VerifyOptions& options) {
     const std::string words = options.problem.first +
                               (options.problem.second.empty() ? "" : " " + options.problem.second);
     if (problem.invalid) {
-        fmt::print("{}", options.json ? json_document(invalid_program_json(problem))
-                                      : invalid_program_text(problem, words));
+        print("{}", options.json ? json_document(invalid_program_json(problem))
+                                 : invalid_program_text(problem, words));
         return diagnosed;
     }
     if (options.policy == Policy::Rddl) require_policy(problem);
@@ -117,11 +117,11 @@ ExitStatus verify(const VerifyOptions& options) {
         report.verdict = judge(problem, comparison, *report.walk.disagreement, options.seed);
     report.pyrddlgym = ask_pyrddlgym(options, problem, comparison, report.walk, begin);
     if (options.json)
-        fmt::print("{}", json_document(report_json(report)));
+        print("{}", json_document(report_json(report)));
     else if (!report.agrees())
-        fmt::print("{}", difference_text(report));
+        print("{}", difference_text(report));
     else if (!options.quiet)
-        fmt::print("{}", agreement_line(report));
+        print("{}", agreement_line(report));
     if (!report.agrees()) return diagnosed;
     if (!report.walk.interrupted) return success;
     tell("rddl: interrupted before all was compared\n");

@@ -17,6 +17,7 @@ void trim_trailing_blanks(std::string& text) {
 
 void Table::add_row(std::vector<std::string> cells) {
     cells.resize(columns_.size());
+    for (std::string& cell : cells) cell = printable_line(cell);
     rows_.push_back(std::move(cells));
 }
 

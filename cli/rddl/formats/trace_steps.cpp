@@ -4,6 +4,7 @@
 #include "formats/trace.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
+#include "support/utf8.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,7 +21,7 @@ namespace {
 std::string course_in(const nlohmann::json& header) {
     const auto policy = header.find("policy"), seed = header.find("seed");
     if (policy == header.end() || !policy->is_string()) return {};
-    const std::string text = "policy " + policy->get<std::string>();
+    const std::string text = "policy " + printable_line(policy->get<std::string>());
     return seed != header.end() && seed->is_number_integer() ? text + ", seed " + seed->dump()
                                                              : text;
 }
@@ -37,20 +38,13 @@ double reward_in(const nlohmann::json& line) {
     return number_in_json(*found).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-// A trace may be anybody's: nothing in it drives the terminal that shows it.
-std::string without_controls(std::string text) {
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-    return text;
-}
-
 // In a word or some: "terminated", "horizon, invariant".
 std::string end_in(const nlohmann::json& line) {
     std::string text;
     if (const auto causes = line.find("causes"); causes != line.end() && causes->is_array())
         for (const auto& cause : *causes)
             if (cause.is_string()) text += (text.empty() ? "" : ", ") + cause.get<std::string>();
-    if (!text.empty()) return without_controls(text);
+    if (!text.empty()) return printable_line(text);
     return is_set(line, "terminated") ? "terminated" : is_set(line, "truncated") ? "truncated" : "";
 }
 
@@ -93,12 +87,11 @@ std::optional<TraceStep> TraceSteps::read(std::string_view line) {
     nlohmann::json object;
     try {
         object = parse_json(line);
-    } catch (const nlohmann::json::exception&) {
+    } catch (const RefusedJson& refused) {
+        if (!refused.byte) fail(refused.what());
         const bool is_cut = line.front() == '{' && line.back() != '}';
         fail(is_cut ? "the line is cut off in the middle: the trace is not complete"
                     : "this is no JSON");
-    } catch (const RefusedJson& refused) {
-        fail(refused.what());
     }
     if (!object.is_object()) fail("the line is not a JSON object");
     if (!object.contains("rddl_trace")) return read_object(object);

@@ -178,7 +178,12 @@ std::string solver_of_run(const fs::path& folder) {
 std::optional<RunDescription> description_of(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     if (!is_there(file)) return std::nullopt;
-    const auto run = json_if_valid(read_file(file, largest_text));
+    nlohmann::json run;
+    try {
+        run = parse_json(read_file(file, largest_text));
+    } catch (const RefusedJson& refused) {
+        throw Failure(fmt::format("'{}' is no JSON of a run: {}", file.string(), refused.what()));
+    }
     if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
         throw Failure(fmt::format("'{}' does not tell the seed of a run", file.string()));
     std::string what;

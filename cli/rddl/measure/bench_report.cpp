@@ -3,6 +3,7 @@
 #include "formats/number_text.hpp"
 #include "formats/table.hpp"
 #include "support/json_text.hpp"
+#include "support/program.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -44,7 +45,7 @@ void print_costs(const BenchReport& report) {
     if (report.lanes > 1)
         table.add_row(
             {"packs", fmt::format("{} environments ({})", report.lanes, report.instruction_set)});
-    fmt::print("{}\n", table.text());
+    print("{}\n", table.text());
 }
 
 void print_measurements(const std::vector<Measurement>& all) {
@@ -58,7 +59,7 @@ void print_measurements(const std::vector<Measurement>& all) {
         table.add_row({grouped(m.environments), std::to_string(m.lanes), std::to_string(m.threads),
                        rate_text(m.steps_per_second()), seconds_text(1 / m.steps_per_second()),
                        fmt::format("{:.2f}", m.steps_per_second() / all[0].steps_per_second())});
-    fmt::print("{}", table.text());
+    print("{}", table.text());
 }
 
 bool is_slower(const Measurement& a, const Measurement& b) {
@@ -92,10 +93,10 @@ void print_peers(const BenchReport& report) {
                            ours ? fmt::format("{:.3g}", *ours / m.steps_per_second()) : "-"});
         }
     }
-    fmt::print("\n{}\n", table.text());
+    print("\n{}\n", table.text());
     for (const PeerFigures& peer : report.peers)
-        fmt::print("{}: first step {} after the files; before, {} to import it\n", peer.name,
-                   seconds_text(peer.first_step_seconds), seconds_text(peer.import_seconds));
+        print("{}: first step {} after the files; before, {} to import it\n", peer.name,
+              seconds_text(peer.first_step_seconds), seconds_text(peer.import_seconds));
 }
 
 nlohmann::ordered_json to_json(const std::vector<Measurement>& all) {
@@ -147,15 +148,15 @@ nlohmann::ordered_json to_json(const BenchReport& report) {
 }  // namespace
 
 void print_table(const BenchReport& report) {
-    fmt::print("{}, {}: random legal actions drawn beforehand, resets included\n\n", report.problem,
-               name_of(report.engine));
+    print("{}, {}: random legal actions drawn beforehand, resets included\n\n", report.problem,
+          name_of(report.engine));
     print_costs(report);
     print_measurements(report.measurements);
     if (!report.peers.empty()) print_peers(report);
 }
 
 void print_json(const BenchReport& report) {
-    fmt::print("{}", json_document(to_json(report)));
+    print("{}", json_document(to_json(report)));
 }
 
 }  // namespace rddlc::cli

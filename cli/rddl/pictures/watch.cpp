@@ -72,16 +72,17 @@ std::string iterm_image(const std::string& png) {
     return fmt::format("\x1b]1337;File=inline=1;size={}:{}\a\n", png.size(), render::base64(png));
 }
 
-// As many characters as stand in the columns.
-std::string cut_off(std::string_view text, std::size_t columns) {
+// As many characters as stand in the columns. Nothing in them drives the terminal.
+std::string cut_off(std::string_view line, std::size_t columns) {
+    const std::string text = printable_line(line);
     std::size_t width = 0, bytes = 0;
     while (bytes < text.size()) {
-        const Character character = first_character(text.substr(bytes));
+        const Character character = first_character(std::string_view(text).substr(bytes));
         if (width + character.width > columns) break;
         width += character.width;
         bytes += character.bytes.size();
     }
-    return std::string(text.substr(0, bytes));
+    return text.substr(0, bytes);
 }
 
 std::string heading(const render::Moment& moment) {

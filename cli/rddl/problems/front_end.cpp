@@ -29,7 +29,7 @@ CompileOptions check_options(const ProblemFiles& files, Stage last) {
 void print_diagnostics(const Compilation& compilation) {
     RenderOptions options;
     options.color = tells_in_color();
-    tell(render(compilation.diagnostics, compilation.sources, options));
+    tell_with_codes(render(compilation.diagnostics, compilation.sources, options));
     if (compilation.diagnostics.has_errors()) tell(closing_lines(compilation, "rddl"));
 }
 

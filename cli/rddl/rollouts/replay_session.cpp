@@ -43,13 +43,6 @@ void refuse_if(const std::optional<std::string>& message) {
     if (message) throw Refusal{*message};
 }
 
-// Without nlohmann's "[json.exception...] ".
-std::string message_of(const json::exception& error) {
-    const std::string_view what = error.what();
-    const std::size_t end = what.find("] ");
-    return std::string(end == std::string_view::npos ? what : what.substr(end + 2));
-}
-
 void check_members(const json& line) {
     if (!line.is_object()) throw Refusal{"the line is not a JSON object"};
     const auto contains = [](const auto& names, std::string_view name) {
@@ -117,8 +110,6 @@ std::string ReplaySession::answer(std::string_view line) {
     std::string message;
     try {
         return answer_object(parse_json(line), is_first);
-    } catch (const json::exception& error) {
-        message = message_of(error);
     } catch (const RefusedJson& error) {
         message = error.what();
     } catch (const ForeignTrace&) {

@@ -49,20 +49,15 @@ class SceneReader {
     }
 
   private:
-    static constexpr int most_brackets = 256;  // places are found by recursion
-
     Json parse() {
         try {
-            parse_json(source_.text(), most_brackets);  // and members that are given twice
             return parse_ordered_json(source_.text());
-        } catch (const nlohmann::json::parse_error& error) {
-            const auto at = static_cast<std::uint32_t>(
-                std::min(error.byte > 0 ? error.byte - 1 : 0, source_.text().size()));
+        } catch (const RefusedJson& refused) {
+            if (!refused.byte) fail(whole(), refused.what());
+            const auto at = static_cast<std::uint32_t>(*refused.byte);
             fail({file_, at, at}, "this is no JSON",
                  "JSON has names and texts in double quotes, no comments, and no comma before a "
                  "bracket that closes");
-        } catch (const RefusedJson& refused) {
-            fail(whole(), refused.what());
         }
     }
 

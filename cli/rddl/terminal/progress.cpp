@@ -1,6 +1,7 @@
 #include "terminal/progress.hpp"
 
 #include "support/program.hpp"
+#include "support/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ Progress::Progress(std::string what, std::int64_t total, bool wanted)
       shown_(wanted && tells_to_screen()) {}
 
 Progress::~Progress() {
-    if (drawn_) tell("\r\x1b[K");
+    if (drawn_) tell_with_codes("\r\x1b[K");
 }
 
 void Progress::advance(std::int64_t amount) {
@@ -34,8 +35,10 @@ void Progress::draw(Clock::time_point now) {
     const double part = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
     const int filled = static_cast<int>(part * bar_width);
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    tell("\r\x1b[K{} [{}{}] {:3.0f} %  {}", what_, std::string(filled, '='),
-         std::string(bar_width - filled, ' '), 100 * part, remaining_text(part, elapsed));
+    tell_with_codes("\r\x1b[K" + fmt::format("{} [{}{}] {:3.0f} %  {}", printable_line(what_),
+                                             std::string(filled, '='),
+                                             std::string(bar_width - filled, ' '), 100 * part,
+                                             remaining_text(part, elapsed)));
     std::fflush(stderr);
     drawn_ = true;
 }

@@ -12,9 +12,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <set>
 
 namespace rddlc::cli {
@@ -50,9 +50,7 @@ std::vector<json> read_answers(const fs::path& file) {
 }
 
 double real_of(const json& value) {
-    if (value.is_number()) return value.get<double>();
-    const auto text = value.get<std::string>();  // "nan", "inf", "-inf"
-    return std::strtod(text.c_str(), nullptr);
+    return number_in_json(value).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 // Answers as outcomes, without what draws take part in.

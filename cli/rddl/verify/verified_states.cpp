@@ -47,9 +47,8 @@ json read_line(const std::string& text, const auto& refuse) {
     json line;
     try {
         line = parse_json(text);
-    } catch (const json::exception&) {
     } catch (const RefusedJson& error) {
-        refuse(error.what());
+        refuse(error.byte ? "it is no JSON" : error.what());
     }
     if (!line.is_object()) refuse("it is not a JSON object");
     return line;
