@@ -336,8 +336,7 @@ void require_room_for(std::string_view text, std::int64_t memory_limit) {
 }
 
 std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::string_view text) {
-    constexpr int most_brackets = 100;
-    const Json json = parse_json(text, most_brackets);
+    const Json json = parse_json(text);
     require_format(json);
     const auto model = std::make_shared<PpoModel>();
     read_spaces(simulator, json, *model);
