@@ -172,6 +172,7 @@ Typed check_delta(Distribution distribution, Typed value, Span span, Scope& scop
 
 Typed check_sample(Distribution distribution, std::vector<Typed> parameters, Span span,
                    Scope& scope) {
+    scope.draws.push_back(span);
     model::Sample node{distribution, {}};
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const std::string what = argument_of(i, parameters.size(), name_of(distribution));

@@ -199,7 +199,8 @@ TEST(Messages, ABodyThatGoesOn) {
         report("r' = sum_{?x : t} [P(?x)] + 10;"),
         "this belongs to the body of 'sum', which goes on to the end\n"
         "note at '[P(?x)]': the body does not end with these brackets\n"
-        "hint: to end the body, put brackets around the whole aggregation: '[sum_{...} ...]'");
+        "hint: RDDL reads 'sum_{?x : t} [[P(?x)] + 10]'; '[sum_{?x : t} [P(?x)]] + 10' was probably "
+        "meant");
 }
 
 // One cause, one message: what depends on something wrong is not reported again.
