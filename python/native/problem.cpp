@@ -37,11 +37,13 @@ std::string text_of(const Compilation& compilation) {
 }
 
 LoadedProblem load(const std::string& domain, const std::string& instance,
-                   const std::string& repository, bool interpreted,
-                   const std::vector<std::string>& externs, bool extended, bool details) {
+                   const std::string& repository, const std::string& instance_name,
+                   bool interpreted, const std::vector<std::string>& externs, bool extended,
+                   bool details) {
     try {
         const nb::gil_scoped_release released;
         cli::ProblemFiles files = files_of(domain, instance, repository);
+        files.instance_name = instance_name;
         if (extended) files.standard = Standard::Rddlc;
         cli::LoadOptions options;
         options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
@@ -124,7 +126,8 @@ void add_problem(nb::module_& module) {
             return constants(*problem.simulator, fluent);
         });
     module.def("load", load, nb::arg("domain"), nb::arg("instance"), nb::arg("repository"),
-               nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"), nb::arg("details"));
+               nb::arg("instance_name"), nb::arg("interpreted"), nb::arg("externs"),
+               nb::arg("extended"), nb::arg("details"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
     module.def("is_path", cli::is_path, "Whether the text means a file or a folder.");

@@ -40,6 +40,7 @@ class Problem:
         domain: str | os.PathLike[str],
         instance: str | int | os.PathLike[str] | None = None,
         *,
+        instance_name: str = "",
         engine: str = "compiled",
         externs: Sequence[str | os.PathLike[str]] = (),
         extended: bool = False,
@@ -48,6 +49,7 @@ class Problem:
         """`domain` and `instance` are two files, one file that holds both, a folder and the name of
         its instance, or a problem and an instance of rddlrepository.
 
+        instance_name: the name of the instance to take, where the files hold several; else the last.
         engine: "compiled" (kept in ~/.cache/rddlc) or "interpreter", which needs no C++ compiler.
         externs: C++ headers that define external functions.
         extended: whether the extensions of docs/dialects.md are allowed.
@@ -59,6 +61,7 @@ class Problem:
         if engine not in ENGINES:
             raise ValueError(f"engine is '{engine}', which is none of {', '.join(ENGINES)}")
         self._options: dict[str, Any] = {
+            "instance_name": instance_name,
             "engine": engine,
             "externs": tuple(os.fspath(each) for each in externs),
             "extended": extended,
@@ -81,6 +84,7 @@ class Problem:
             domain,
             instance,
             repository="" if is_path else repository_folder(),
+            instance_name=self._options["instance_name"],
             interpreted=interpreted,
             externs=list(self._options["externs"]),
             extended=self._options["extended"],
