@@ -21,8 +21,13 @@ Character first_character(std::string_view text) {
         reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
         static_cast<utf8proc_ssize_t>(std::min(text.size(), longest)), &code_point);
     if (length <= 0)
-        return {.bytes = text.substr(0, 1), .is_valid = false, .is_visible = false, .width = 1};
+        return {.bytes = text.substr(0, 1),
+                .code_point = 0,
+                .is_valid = false,
+                .is_visible = false,
+                .width = 1};
     return {.bytes = text.substr(0, static_cast<std::size_t>(length)),
+            .code_point = code_point,
             .is_valid = true,
             .is_visible = !is_invisible(utf8proc_category(code_point)),
             .width = static_cast<std::size_t>(utf8proc_charwidth(code_point))};

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace rddlc {
 
 struct Character {
-    std::string_view bytes;  // a single byte, if it is not UTF-8
+    std::string_view bytes;   // a single byte, if it is not UTF-8
+    std::int32_t code_point;  // 0, if it is not UTF-8
     bool is_valid;
     bool is_visible;    // false for what is not UTF-8, for controls and for format characters
     std::size_t width;  // in columns of a terminal: 0 for an accent on the character before, or 2
