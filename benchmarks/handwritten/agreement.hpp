@@ -1,8 +1,8 @@
 // Whether two simulators of one problem tell the same.
 #pragma once
 
-#include "engines/batch.hpp"
 #include "measure/random_course.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include <rddl/simulator.h>
 
@@ -55,8 +55,8 @@ inline double greatest_difference(const rddl_simulator& a, const rddl_simulator&
     struct Side {
         Side(const rddl_simulator& its_simulator, const rddlc::cli::RandomCourse& course)
             : simulator(its_simulator),
-              batch(rddlc::cli::create_batch(its_simulator,
-                                             rddlc::cli::course_options(course.environments))),
+              batch(rddlc::solvers::create_batch(its_simulator,
+                                                 rddlc::cli::course_options(course.environments))),
               rewards(static_cast<std::size_t>(course.environments)),
               terminated(rewards.size()),
               truncated(rewards.size()),
@@ -74,7 +74,7 @@ inline double greatest_difference(const rddl_simulator& a, const rddl_simulator&
         }
 
         const rddl_simulator& simulator;
-        rddlc::cli::Batch batch;
+        rddlc::solvers::Batch batch;
         std::vector<double> rewards;
         std::vector<std::uint8_t> terminated, truncated;
         std::vector<std::byte> states;

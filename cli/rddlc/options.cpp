@@ -31,6 +31,7 @@ constexpr const char* examples =
 struct Arguments {
     std::vector<std::string> inputs;
     std::string policy;
+    std::string instance;
     std::string output;
     std::vector<std::string> extern_headers;
     std::vector<std::string> print;
@@ -83,6 +84,9 @@ void add_file_options(Command& command, Arguments& arguments) {
     add_input(command, "INSTANCE", "instance file", arguments);
     add_argument(command, "POLICY", "file with a policy block, which alone is taken from it",
                  arguments.policy);
+    add_text_option(command, "--instance", "NAME",
+                    "compile the instance of this name, where the files hold several",
+                    arguments.instance);
     add_text_option(command, "-o,--output", "FILE",
                     "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ text "
                     "goes to standard output",
@@ -295,6 +299,7 @@ CompileOptions compile_options(const Arguments& arguments) {
     CompileOptions options;
     options.inputs.assign(arguments.inputs.begin(), arguments.inputs.end());
     if (!arguments.policy.empty()) options.policy = arguments.policy;
+    options.instance = arguments.instance;
     if (!arguments.output.empty()) options.output = arguments.output;
     options.extern_headers = extern_headers(arguments);
     options.print = printed_forms(arguments);

@@ -1,3 +1,4 @@
+#include "ast/precedence.hpp"
 #include "ast/print.hpp"
 #include "support/match.hpp"
 
@@ -87,34 +88,6 @@ std::string_view spelling(const Binary& binary) {
             break;
     }
     return "/";
-}
-
-// Larger binds tighter.
-int precedence(BinaryOperator op) {
-    switch (op) {
-        case BinaryOperator::Equivalent:
-            return 1;
-        case BinaryOperator::Implies:
-            return 2;
-        case BinaryOperator::Or:
-            return 3;
-        case BinaryOperator::And:
-            return 4;
-        case BinaryOperator::Equal:
-        case BinaryOperator::NotEqual:
-        case BinaryOperator::Less:
-        case BinaryOperator::LessEqual:
-        case BinaryOperator::Greater:
-        case BinaryOperator::GreaterEqual:
-            return 5;
-        case BinaryOperator::Add:
-        case BinaryOperator::Subtract:
-            return 6;
-        case BinaryOperator::Multiply:
-        case BinaryOperator::Divide:
-            break;
-    }
-    return 7;
 }
 
 // "sum_{?x : t} " and its like: everything that stands before the body.

@@ -1,5 +1,6 @@
 // What binds variables: aggregations, distributions over objects, determinants.
 #include "check/expressions.hpp"
+#include "check/open_ends.hpp"
 #include "check/types.hpp"
 
 #include <fmt/format.h>
@@ -44,63 +45,6 @@ bool check_single(std::size_t variables, const ast::Name& name, Context& context
     context.report({one_variable_needed, name.span,
                     fmt::format("'{}' takes one variable, found {}", name.text, variables)});
     return false;
-}
-
-// The operators that give the same whether they stand inside or after the aggregation, so that
-// nothing is lost if the writer took the body to end earlier.
-bool is_harmless(Reduction op, ast::BinaryOperator after) {
-    using ast::BinaryOperator;
-    switch (op) {
-        case Reduction::Sum:
-            return after == BinaryOperator::Multiply || after == BinaryOperator::Divide;
-        case Reduction::Average:
-            return after == BinaryOperator::Multiply || after == BinaryOperator::Divide ||
-                   after == BinaryOperator::Add || after == BinaryOperator::Subtract;
-        case Reduction::Minimum:
-        case Reduction::Maximum:
-            return after == BinaryOperator::Add || after == BinaryOperator::Subtract;
-        case Reduction::ForAll:
-        case Reduction::Exists:
-            return after == BinaryOperator::And || after == BinaryOperator::Or;
-        default:
-            return false;
-    }
-}
-
-bool contains(Span outer, Span inner) {
-    return outer.file == inner.file && outer.begin <= inner.begin && inner.end <= outer.end;
-}
-
-bool uses_any(Span span, const std::vector<model::VariableId>& variables, const Scope& scope) {
-    return std::ranges::any_of(scope.variable_uses, [&](const VariableUse& use) {
-        return contains(span, use.span) &&
-               std::ranges::find(variables, use.variable) != variables.end();
-    });
-}
-
-// `sum_{?o : t} [v(?o)] + 10` adds 10 in every term, though it looks as if the brackets ended the
-// body. Warns where what follows the brackets has nothing to do with the aggregation's variables.
-void warn_of_long_body(const ast::Aggregation& aggregation, Reduction op,
-                       const std::vector<model::VariableId>& variables, Scope& scope) {
-    const Span body = aggregation.body->span;
-    const ast::Expr* left = &*aggregation.body;
-    std::optional<Span> rest;  // what follows the brackets
-    bool harmless = true;
-    while (const auto* binary = std::get_if<ast::Binary>(&left->node)) {
-        if (uses_any(binary->right->span, variables, scope)) return;
-        harmless = harmless && is_harmless(op, binary->op);
-        rest = Span{body.file, binary->op_span.begin, body.end};
-        left = &*binary->left;
-    }
-    if (harmless || !rest || !std::holds_alternative<ast::Group>(left->node)) return;
-    scope.context.report(
-        diagnose(long_body, rest,
-                 fmt::format("this belongs to the body of '{}', which goes on to the end",
-                             aggregation.op.text))
-            .note(left->span, "the body does not end with these brackets")
-            .with_hint(fmt::format("to end the body, put brackets around the whole aggregation: "
-                                   "'[{}_{{...}} ...]'",
-                                   aggregation.op.text)));
 }
 
 bool is_number(const ast::Expr& e) {
@@ -157,7 +101,7 @@ Typed check_aggregation(const ast::Aggregation& aggregation, Span span, Scope& s
     const auto variables = binder.variables();
     if (!body || !variables || !single) return std::nullopt;
     if (needs_objects(*op) && !check_nonempty(*variables, name, context)) return std::nullopt;
-    warn_of_long_body(aggregation, *op, *variables, scope);
+    warn_of_long_body(*op, *variables, scope);
     warn_of_unused_variables(*variables, *aggregation.body, name.text, scope);
 
     model::ValueType type = body->type;
@@ -168,6 +112,7 @@ Typed check_aggregation(const ast::Aggregation& aggregation, Span span, Scope& s
 
 Typed check_discrete_over(const ast::DiscreteOver& discrete, Span span, Scope& scope) {
     Context& context = scope.context;
+    scope.draws.push_back(span);
     const Binder binder(discrete.variables, discrete.name.text, span, scope);
     Typed weight = require_real(check_expression(*discrete.weight, scope),
                                 fmt::format("the weight of '{}'", discrete.name.text), scope);
@@ -193,6 +138,7 @@ Typed check_determinant(const ast::Determinant& determinant, Span span, Scope& s
     const model::VariableId row = variables->front();
     const model::VariableId column = variables->back();
     if (!check_square("det", row, column, span, context)) return std::nullopt;
+    warn_of_long_body({}, *variables, scope);
     return model::Expr{model::real_type, span,
                        model::Determinant{row, column, std::move(*element)}};
 }

@@ -1,9 +1,11 @@
 #include "check/blocks.hpp"
 
+#include "check/check.hpp"
 #include "support/match.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <variant>
 
@@ -18,11 +20,13 @@ struct Last {
 };
 
 template <class T>
-void choose(Last<T>& last, const T& node, Span span, std::string_view what, Context& context) {
+void choose(Last<T>& last, const T& node, Span span, std::string_view what, Context& context,
+            std::string hint = "") {
     if (last.node)
         context.report(diagnose(repeated_section, last.span,
                                 fmt::format("this '{}' is ignored: a later one replaces it", what))
-                           .note(span, "the one that counts"));
+                           .note(span, "the one that counts")
+                           .with_hint(std::move(hint)));
     last = {&node, span};
 }
 
@@ -107,32 +111,88 @@ bool has_non_fluents(const ast::Instance& instance) {
     return false;
 }
 
+// Where objects and non-fluents come from: a block of their own, or an instance of the 2018 form.
+using Origin = std::variant<const ast::NonFluents*, const ast::Instance*>;
+
 struct TopLevel {
     Last<ast::Domain> domain;
     Last<ast::Instance> instance;
     Last<ast::Policy> policy;
-    // Where objects and non-fluents come from: a block of its own, or an instance of the 2018
-    // form. Whichever stands last.
-    std::variant<std::monostate, const ast::NonFluents*, const ast::Instance*> non_fluents;
+    std::vector<Origin> origins;  // all that are written
+    std::optional<Origin> origin;
 };
+
+std::string hint_for_instances(const Last<ast::Instance>& last, const ast::Instance& next) {
+    if (!last.node || last.node->name.text == next.name.text) return "";
+    return fmt::format("'--instance {}' picks it", last.node->name.text);
+}
 
 TopLevel choose_blocks_of(const ast::Program& program, Context& context) {
     TopLevel chosen;
-    Last<ast::NonFluents> non_fluents;
     for (const ast::Block& block : program.blocks)
         match(
             block,
             [&](const ast::Domain& n) { choose(chosen.domain, n, n.span, "domain", context); },
             [&](const ast::Policy& n) { choose(chosen.policy, n, n.span, "policy", context); },
-            [&](const ast::NonFluents& n) {
-                choose(non_fluents, n, n.span, "non-fluents", context);
-                chosen.non_fluents = &n;
-            },
+            [&](const ast::NonFluents& n) { chosen.origins.emplace_back(&n); },
             [&](const ast::Instance& n) {
-                choose(chosen.instance, n, n.span, "instance", context);
-                if (has_non_fluents(n)) chosen.non_fluents = &n;
+                choose(chosen.instance, n, n.span, "instance", context,
+                       hint_for_instances(chosen.instance, n));
+                if (has_non_fluents(n)) chosen.origins.emplace_back(&n);
             });
     return chosen;
+}
+
+const ast::Name* name_given_by(const Last<ast::Instance>& instance) {
+    return instance.node ? named_non_fluents(*instance.node) : nullptr;
+}
+
+bool is_block_named(const Origin& origin, const ast::Name* name) {
+    const auto* block = std::get_if<const ast::NonFluents*>(&origin);
+    return name && block && (*block)->name.text == name->text;
+}
+
+bool is_of_other_instance(const Origin& origin, const ast::Instance* instance) {
+    const auto* other = std::get_if<const ast::Instance*>(&origin);
+    return other && *other != instance;
+}
+
+// What the instance names or holds itself, else any; of several the last.
+std::optional<Origin> choose_origin(const TopLevel& top) {
+    const ast::Name* name = name_given_by(top.instance);
+    const bool is_there = std::ranges::any_of(
+        top.origins, [&](const Origin& origin) { return is_block_named(origin, name); });
+    std::optional<Origin> any, chosen;
+    for (const Origin& origin : top.origins) {
+        any = origin;
+        const bool is_other_block = std::holds_alternative<const ast::NonFluents*>(origin) &&
+                                    is_there && !is_block_named(origin, name);
+        if (!is_other_block && !is_of_other_instance(origin, top.instance.node)) chosen = origin;
+    }
+    return chosen ? chosen : any;
+}
+
+// pyRDDLGym takes the last of all, whatever the instance names.
+void warn_of_ignored_non_fluents(const TopLevel& top, Context& context) {
+    const ast::Name* name = name_given_by(top.instance);
+    const Span counts = std::visit([](const auto* block) { return block->span; }, *top.origin);
+    for (const Origin& origin : top.origins) {
+        const auto* block = std::get_if<const ast::NonFluents*>(&origin);
+        if (!block || origin == *top.origin) continue;
+        const bool by_name = is_block_named(*top.origin, name) && !is_block_named(origin, name);
+        const std::string why = by_name ? fmt::format("the instance names '{}'", name->text)
+                                : std::holds_alternative<const ast::Instance*>(*top.origin)
+                                    ? std::string("the instance has non-fluents of its own")
+                                    : "a later one replaces it";
+        const bool is_last = origin == top.origins.back();
+        context.report(diagnose(repeated_section, (*block)->span,
+                                fmt::format("this 'non-fluents' is ignored: {}", why))
+                           .note(counts, "the one that counts")
+                           .with_hint(is_last
+                                          ? "pyRDDLGym takes this one, as it is the last: write "
+                                            "the one that counts behind it"
+                                          : ""));
+    }
 }
 
 // True if there.
@@ -209,22 +269,49 @@ void take_policy(const ast::Policy& policy, Blocks& blocks, Context& context) {
     blocks.policy_cpfs = sections.cpfs.node;
 }
 
+// The objects of the non-fluents block, else those of the instance.
+const ast::Objects* choose_objects(const ast::NonFluents& block, const Last<ast::Objects>& own,
+                                   const Last<ast::Objects>& of_instance, Context& context) {
+    if (!of_instance.node) return own.node;
+    Diagnostic diagnostic =
+        own.node ? diagnose(ignored_objects, of_instance.span,
+                            "these objects are ignored: objects come from the non-fluents block")
+                 : diagnose(assumed_non_fluents, of_instance.span,
+                            "the non-fluents block has no 'objects': these are taken")
+                       .with_hint("pyRDDLGym takes objects from the non-fluents block alone");
+    context.report(std::move(diagnostic).note(block.name.span, "the non-fluents block"));
+    return own.node ? own.node : of_instance.node;
+}
+
+void warn_of_no_non_fluents(const ast::Instance& instance, Context& context) {
+    const ast::Name* name = named_non_fluents(instance);
+    context.report(
+        diagnose(assumed_non_fluents, name ? name->span : instance.name.span,
+                 fmt::format("there is no non-fluents block{}: it is read as an empty one",
+                             name ? fmt::format(" '{}'", name->text) : ""))
+            .with_hint(fmt::format("pyRDDLGym needs one: 'non-fluents {} {{ domain = ...; objects "
+                                   "{{ ... }}; }}'",
+                                   name ? name->text : "NAME")));
+}
+
 // `sections` are the instance's own.
 void take_non_fluents(const TopLevel& top, const InstanceSections& sections, Blocks& blocks,
                       Context& context) {
+    if (!top.origin) {
+        if (!blocks.instance) return;
+        warn_of_no_non_fluents(*blocks.instance, context);
+        blocks.objects = sections.objects.node;
+        return;
+    }
+    warn_of_ignored_non_fluents(top, context);
     match(
-        top.non_fluents, [](std::monostate) {},
+        *top.origin,
         [&](const ast::NonFluents* block) {
             const InstanceSections own = choose_sections(block->sections, context);
-            blocks.objects = own.objects.node;
+            blocks.objects = choose_objects(*block, own.objects, sections.objects, context);
             blocks.non_fluents = own.non_fluents.node;
             warn_of_other_domain(own.domain, *blocks.domain, context);
             warn_of_other_non_fluents(sections.non_fluents_name, block->name, context);
-            if (sections.objects.node)
-                context.report(
-                    diagnose(ignored_objects, sections.objects.span,
-                             "these objects are ignored: objects come from the non-fluents block")
-                        .note(block->name.span, "the non-fluents block"));
         },
         [&](const ast::Instance* instance) {
             const InstanceSections own = instance == blocks.instance
@@ -318,33 +405,27 @@ void check_action_limit(std::int64_t limit, Span span, Context& context) {
 }  // namespace
 
 std::optional<Blocks> choose_blocks(const ast::Program& program, Context& context) {
-    const TopLevel top = choose_blocks_of(program, context);
-    const bool has_non_fluents_block = top.non_fluents.index() != 0;
+    TopLevel top = choose_blocks_of(program, context);
+    top.origin = choose_origin(top);
     // Each of them, so that all are reported.
     const bool domain = require_block(top.domain.node != nullptr, "domain",
                                       "give the domain's file before the instance's", context);
     const bool is_enough = domain && !context.needs_instance;
     const bool instance = require_block(is_enough || top.instance.node != nullptr, "instance",
                                         "give the instance's file after the domain's", context);
-    const bool non_fluents = require_block(is_enough || !instance || has_non_fluents_block, "non-fluents",
-                                           "write 'non-fluents NAME { domain = ...; objects { ... "
-                                           "}; }', or put both 'objects { ... };'"
-                                           " and 'non-fluents { ... };' into the instance",
-                                           context);
     if (!domain || !instance) return std::nullopt;
 
     Blocks blocks;
     take_domain(*top.domain.node, blocks, context);
     if (top.policy.node) take_policy(*top.policy.node, blocks, context);
-    blocks.has_objects = has_non_fluents_block;
+    blocks.has_objects = top.instance.node || top.origin;
     if (top.instance.node)
         take_instance(*top.instance.node, top, blocks, context);
     else
         take_non_fluents(top, {}, blocks, context);
     context.model.domain_name = blocks.domain->name.text;
     if (blocks.instance) context.model.instance_name = blocks.instance->name.text;
-    // Without objects every fluent would be complained about.
-    if (!non_fluents || !blocks.pvariables) return std::nullopt;
+    if (!blocks.pvariables) return std::nullopt;
     return blocks;
 }
 

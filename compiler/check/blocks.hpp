@@ -8,12 +8,14 @@
 namespace rddlc::checking {
 
 // The last section of each kind, taken from the last block of each kind; the others are forgotten.
-// Objects and non-fluents come from the non-fluents block or, in the 2018 form, from the instance.
+// Objects and non-fluents come from the non-fluents block that the instance names or, in the 2018
+// form, from the instance.
 struct Blocks {
     const ast::Domain* domain = nullptr;
     const ast::Instance* instance = nullptr;
     const ast::Policy* policy = nullptr;
-    // Objects and non-fluents are given, by an instance or by a block of their own.
+    // Objects and non-fluents are given, by an instance or by a block of their own. A block that is
+    // missing is an empty one.
     bool has_objects = false;
 
     const ast::Types* types = nullptr;

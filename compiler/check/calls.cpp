@@ -162,6 +162,17 @@ model::ValueType sample_type(Distribution distribution) {
 // KronDelta takes bools and ints, DiracDelta any number; both give what they take.
 Typed check_delta(Distribution distribution, Typed value, Span span, Scope& scope) {
     const std::string what = argument_of(0, 1, name_of(distribution));
+    if (value && is_object(value->type)) {
+        const Context& context = scope.context;
+        scope.context.report(
+            diagnose(number_needed, value->span,
+                     fmt::format("{} must be a number or a bool, found {}", what,
+                                 describe(context, value->type)))
+                .with_hint(fmt::format("leave out '{}': write '{}' alone, which is as certain",
+                                       name_of(distribution),
+                                       context.sources.text_on_one_line(value->span))));
+        return std::nullopt;
+    }
     value = require_number(std::move(value), what, scope);
     if (value && distribution == Distribution::KronDelta && value->type == model::real_type)
         value = require_int(std::move(value), what, scope);
@@ -172,6 +183,7 @@ Typed check_delta(Distribution distribution, Typed value, Span span, Scope& scop
 
 Typed check_sample(Distribution distribution, std::vector<Typed> parameters, Span span,
                    Scope& scope) {
+    scope.draws.push_back(span);
     model::Sample node{distribution, {}};
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const std::string what = argument_of(i, parameters.size(), name_of(distribution));

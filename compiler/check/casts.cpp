@@ -177,13 +177,23 @@ std::string hint_for(model::ValueType found, const Need& need) {
     return "";
 }
 
-void report_misfit(Span span, model::ValueType found, const Need& need, Scope& scope) {
+// A real interm-fluent may be whole by its definition; its type is the declared one all the same.
+std::string hint_for_declared_real(const model::Expr& e, const Need& need, const Context& context) {
+    const auto* reference = std::get_if<model::Reference>(&e.node);
+    if (!reference || need.type != model::int_type || e.type != model::real_type) return "";
+    const model::Fluent& fluent = context.fluent(reference->fluent);
+    if (fluent.role != Role::Interm && fluent.role != Role::Derived) return "";
+    return fmt::format("if '{}' is always whole, declare it as int", fluent.name);
+}
+
+void report_misfit(Span span, model::ValueType found, const Need& need, Scope& scope,
+                   std::string hint) {
     Diagnostic diagnostic{
         need.code, span,
         fmt::format("{} must be {}, found {}", need.what, describe(scope.context, need.type),
                     describe(scope.context, found))};
     if (need.note) diagnostic.notes.push_back(*need.note);
-    diagnostic.hint = hint_for(found, need);
+    diagnostic.hint = hint.empty() ? hint_for(found, need) : std::move(hint);
     scope.context.report(std::move(diagnostic));
 }
 
@@ -221,8 +231,9 @@ Typed require(Typed expression, const Need& need, Scope& scope) {
     if (!expression) return std::nullopt;
     const Span span = expression->span;
     const model::ValueType found = expression->type;
+    std::string hint = hint_for_declared_real(*expression, need, scope.context);
     Typed result = try_require(std::move(*expression), need, scope);
-    if (!result) report_misfit(span, found, need, scope);
+    if (!result) report_misfit(span, found, need, scope, std::move(hint));
     return result;
 }
 

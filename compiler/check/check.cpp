@@ -69,4 +69,12 @@ std::optional<model::Model> check_domain(const ast::Program& program, const Sour
     return std::move(context.model);
 }
 
+const ast::Name* named_non_fluents(const ast::Instance& instance) {
+    const ast::Name* name = nullptr;
+    for (const ast::InstanceSection& section : instance.sections)
+        if (const auto* named = std::get_if<ast::NonFluentsName>(&section.node))
+            name = &named->name;
+    return name;
+}
+
 }  // namespace rddlc

@@ -25,4 +25,7 @@ std::optional<model::Model> check(const ast::Program& program, const Sources& so
                                   Diagnostics& diagnostics,
                                   Standard standard = Standard::PyRddlGym);
 
+// The name in `non-fluents = NAME`; null without one. Of several the last counts.
+const ast::Name* named_non_fluents(const ast::Instance& instance);
+
 }  // namespace rddlc

@@ -45,6 +45,7 @@ inline constexpr Code long_body{'W', 204};
 inline constexpr Code other_domain{'W', 205};
 inline constexpr Code ignored_objects{'W', 206};
 inline constexpr Code other_non_fluents{'W', 207};
+inline constexpr Code assumed_non_fluents{'W', 208};
 
 // 03xx: types
 inline constexpr Code bool_needed{'E', 301};

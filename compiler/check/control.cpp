@@ -209,6 +209,7 @@ Typed check_switch(const ast::Switch& choice, Span span, Scope& scope) {
 
 Typed check_discrete(const ast::DiscreteCases& discrete, Span span, Scope& scope) {
     Context& context = scope.context;
+    scope.draws.push_back(span);
     std::vector<Label> labels;
     std::vector<Typed> weights;
     bool sound = true;

@@ -111,6 +111,12 @@ std::string hint_for(const Rule& rule, const FluentUse& use, const model::Model&
     const bool next = use.next;
     const std::string allowed =
         fmt::format("{} may depend on {}", rule.title, allowed_list(rule, model));
+    if (rule.definition == Definition::StateInvariant && fluent.role == Role::Action)
+        return fmt::format("move it to 'action-preconditions', which may depend on actions: {}",
+                           allowed);
+    if (rule.definition == Definition::Termination && fluent.role == Role::Action)
+        return fmt::format("store in a state-fluent what the action does, and test that: {}",
+                           allowed);
     if (rule.definition == Definition::Observ && fluent.role == Role::State && !next)
         return fmt::format("write '{}'': {}", fluent.name, allowed);
     if (next && rule.state && !is_of_policy(rule.definition))

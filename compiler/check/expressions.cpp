@@ -6,7 +6,9 @@
 
 namespace rddlc::checking {
 
-Typed check_expression(const ast::Expr& e, Scope& scope) {
+namespace {
+
+Typed check_node(const ast::Expr& e, Scope& scope) {
     return match(
         e.node,
         [&](const ast::Boolean& n) -> Typed {
@@ -40,6 +42,15 @@ Typed check_expression(const ast::Expr& e, Scope& scope) {
                  fmt::format("'{}' can only be the whole right-hand side of a CPF", n.name.text)});
             return std::nullopt;
         });
+}
+
+}  // namespace
+
+Typed check_expression(const ast::Expr& e, Scope& scope) {
+    scope.path.push_back(&e);
+    Typed result = check_node(e, scope);
+    scope.path.pop_back();
+    return result;
 }
 
 const ast::Expr& without_groups(const ast::Expr& expression) {

@@ -1,5 +1,6 @@
 #include "check/scope.hpp"
 
+#include "check/open_ends.hpp"
 #include "check/types.hpp"
 
 #include <fmt/format.h>
@@ -10,9 +11,11 @@
 namespace rddlc::checking {
 namespace {
 
+// The innermost of that name.
 const Binding* find_binding(const Scope& scope, const std::string& name) {
-    const auto found = std::ranges::find(scope.bindings, name, &Binding::name);
-    return found == scope.bindings.end() ? nullptr : &*found;
+    const auto found =
+        std::ranges::find(scope.bindings.rbegin(), scope.bindings.rend(), name, &Binding::name);
+    return found == scope.bindings.rend() ? nullptr : &*found;
 }
 
 Span last_character(Span span) {
@@ -53,8 +56,8 @@ std::optional<model::VariableId> bind(const ast::Name& name, std::optional<model
         scope.context.report(diagnose(repeated_variable, name.span,
                                       fmt::format("variable '?{}' is bound already", name.text))
                                  .note(outer->span, "bound here")
-                                 .with_hint("use another name"));
-        return std::nullopt;
+                                 .with_hint(hint_for_bound_again(name.text, scope)));
+        type.reset();
     }
     std::optional<model::VariableId> variable;
     if (type) {

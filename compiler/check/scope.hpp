@@ -38,6 +38,9 @@ struct Scope {
     std::vector<EndedBinding> ended = {};
     std::vector<FluentUse> fluent_uses = {};
     std::vector<VariableUse> variable_uses = {};
+    std::vector<Span> draws = {};
+    // What is being checked, with everything around it, outermost first.
+    std::vector<const ast::Expr*> path = {};
     std::optional<model::TypeId> range = {};  // an enumerated type that the whole is of
     bool may_name_objects = false;            // those of the instance: in its own expressions
 };

@@ -16,5 +16,6 @@ inline constexpr Code refused_external{'E', 908};
 inline constexpr Code table_too_large{'E', 909};
 inline constexpr Code broken_cpp_compiler{'E', 910};
 inline constexpr Code no_policy_block{'E', 911};
+inline constexpr Code no_such_instance{'E', 912};
 
 }  // namespace rddlc

@@ -5,6 +5,7 @@
 #include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
+#include "driver/given_blocks.hpp"
 #include "driver/large_tables.hpp"
 #include "driver/version.hpp"
 #include "driver/write.hpp"
@@ -117,26 +118,6 @@ EmitOptions emit_options(const CompileOptions& options) {
             .extern_headers = include_paths(options)};
 }
 
-// A policy may come in the file of a whole problem, which is not the one that is compiled.
-void take_policy_alone(ast::Program& tree, FileId file, const Sources& sources,
-                       Diagnostics& diagnostics) {
-    const auto is_of_file = [&](const ast::Block& block) {
-        return match(block, [](const auto& any) { return any.span; }).file == file;
-    };
-    const auto is_policy_of_file = [&](const ast::Block& block) {
-        return is_of_file(block) && std::holds_alternative<ast::Policy>(block);
-    };
-    if (std::ranges::none_of(tree.blocks, is_policy_of_file))
-        diagnostics.report(
-            Diagnostic{no_policy_block,
-                       {},
-                       fmt::format("there is no policy block in '{}'", sources[file].path())}
-                .with_hint("write one: policy NAME { cpfs { ... }; }"));
-    std::erase_if(tree.blocks, [&](const ast::Block& block) {
-        return is_of_file(block) && !std::holds_alternative<ast::Policy>(block);
-    });
-}
-
 // Who gives several files means one of them to be the instance.
 bool may_stand_alone(const CompileOptions& options) {
     return options.domain_may_stand_alone && options.inputs.size() == 1;
@@ -158,6 +139,7 @@ void run_stages(Run& run) {
                             [&] { return parse(result.sources, files, diagnostics, standard); });
     if (diagnostics.has_errors()) return;
     if (run.options.policy) take_policy_alone(tree, files.back(), result.sources, diagnostics);
+    if (!run.options.instance.empty()) take_instance(tree, run.options.instance, diagnostics);
     if (diagnostics.has_errors()) return;
     if (run.options.extend) run.options.extend(tree, result.sources, diagnostics);
     if (diagnostics.has_errors()) return;

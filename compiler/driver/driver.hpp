@@ -38,6 +38,7 @@ Stage stage_of(Form form);  // the stage that makes it
 struct CompileOptions {
     std::vector<std::filesystem::path> inputs;    // domain and instance, or one file with both
     std::optional<std::filesystem::path> policy;  // of which the policy block alone is taken
+    std::string instance;                         // its name; empty: the last one
     // .cpp, .hpp or .so; absent: nothing is written.
     std::optional<std::filesystem::path> output;
     // C++ headers that define the external functions.

@@ -1,5 +1,6 @@
 #include "format/expressions.hpp"
 
+#include "ast/precedence.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -9,37 +10,6 @@ namespace rddlc::format {
 namespace {
 
 using ast::Expr;
-
-constexpr int product_precedence = 6;
-
-// From the loosest to the tightest.
-int precedence(ast::BinaryOperator op) {
-    using enum ast::BinaryOperator;
-    switch (op) {
-        case Equivalent:
-            return 0;
-        case Implies:
-            return 1;
-        case Or:
-            return 2;
-        case And:
-            return 3;
-        case Equal:
-        case NotEqual:
-        case Less:
-        case LessEqual:
-        case Greater:
-        case GreaterEqual:
-            return 4;
-        case Add:
-        case Subtract:
-            return 5;
-        case Multiply:
-        case Divide:
-            break;
-    }
-    return product_precedence;
-}
 
 // The operators of a tree's left edge that are of one precedence, from left to right.
 std::vector<const ast::Binary*> chain_of(const Expr& expr) {
@@ -103,7 +73,8 @@ class ExpressionLayout {
         const std::vector<const ast::Binary*> operators = chain_of(expr);
         const Doc first = layout(*operators.front()->left);
         const std::vector<Operand> others = operands(operators);
-        const bool is_product = precedence(operators.front()->op) == product_precedence;
+        const bool is_product =
+            precedence(operators.front()->op) == precedence(ast::BinaryOperator::Multiply);
         const Doc in_lines = is_product ? filled(first, others) : one_a_line(first, others);
         const bool broken = std::any_of(others.begin(), others.end(),
                                         [](const Operand& other) { return other.begins_line; });

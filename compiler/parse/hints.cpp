@@ -203,6 +203,56 @@ std::string misspelt_word(const SyntaxError& error) {
     return meant ? fmt::format("did you mean '{}'?", *meant) : "";
 }
 
+// rddlsim writes "$s1" for an object; in RDDL of pyRDDLGym '$' calls an external function.
+std::string object_with_dollar(const SyntaxError& error) {
+    const bool is_found = is(&error.found(), Parser::DOLLAR);
+    const bool is_before = is(error.before(2), Parser::DOLLAR) && is(error.before(1), Parser::ID) &&
+                           error.expects(Parser::OPEN_SQUARE);
+    if (!is_found && !is_before) return "";
+    if (inside(error, Parser::RuleInstance) || inside(error, Parser::RuleNonFluents))
+        return "objects are written without '$'";
+    return "objects have no '$', and the domain cannot name objects of the instance: use a "
+           "non-fluent that the instance sets for this object, or make its type a list of values "
+           "{@a, @b}";
+}
+
+std::string case_of_a_number(const SyntaxError& error) {
+    static const TokenTypes others = {Parser::INT,   Parser::REAL, Parser::BOOLEAN,
+                                      Parser::MINUS, Parser::NOT,  Parser::OPEN_ROUND};
+    if (!is(error.before(1), Parser::CASE) || !others.contains(error.found().getType())) return "";
+    return "'switch' is for values of an enumerated type: 'case @a'; for numbers and bools write "
+           "'if (x == 0) then ... else if ...'";
+}
+
+struct SectionMeant {
+    std::string_view word, section;
+};
+
+// What other readers or people call the sections of a domain.
+constexpr std::array sections_meant = {
+    SectionMeant{"terminal", "termination"},
+    SectionMeant{"terminals", "termination"},
+    SectionMeant{"terminate", "termination"},
+    SectionMeant{"terminate-when", "termination"},
+    SectionMeant{"termination-conditions", "termination"},
+    SectionMeant{"goal", "termination"},
+    SectionMeant{"done", "termination"},
+    SectionMeant{"preconditions", "action-preconditions"},
+    SectionMeant{"action-constraints", "action-preconditions"},
+    SectionMeant{"invariants", "state-invariants"},
+    SectionMeant{"state-constraints", "state-invariants"},
+};
+
+std::string section_of_conditions(const SyntaxError& error) {
+    constexpr std::string_view form = "write '{} {{ condition; ... }};'";
+    if (is(error.before(1), Parser::CONSTRAINTS) && error.expects(Parser::OPEN_CURLY))
+        return fmt::format(form, error.before(1)->getText());
+    if (!error.expects(Parser::CONSTRAINTS)) return "";
+    const std::string word = error.found().getText();
+    const auto meant = std::ranges::find(sections_meant, word, &SectionMeant::word);
+    return meant == sections_meant.end() ? "" : fmt::format(form, meant->section);
+}
+
 std::string type_form(const SyntaxError& error) {
     if (error.expects(Parser::OBJECT)) return "a type is an 'object' or a list of values {@a, @b}";
     const bool value = error.expects(Parser::ENUM) && !error.expects(Parser::ID);
@@ -215,6 +265,9 @@ std::string type_form(const SyntaxError& error) {
 
 std::string hint_for(const SyntaxError& error) {
     constexpr std::array guesses = {
+        object_with_dollar,
+        case_of_a_number,
+        section_of_conditions,
         round_brackets_of_a_function,
         square_brackets_of_a_distribution,
         binder_form,

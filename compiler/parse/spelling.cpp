@@ -1,5 +1,6 @@
 #include "parse/spelling.hpp"
 
+#include "parse/characters.hpp"
 #include "parse/codes.hpp"
 #include "support/utf8.hpp"
 
@@ -50,13 +51,12 @@ constexpr CharacterHint character_hints[] = {
     {"∨", "'or' is written '|'"},
     {"¬", "'not' is written '~'"},
     {"..", "list all values: {@a, @b, @c}"},
-    {"\xC2\xA0", "this is a no-break space; replace it by an ordinary one"},
 };
 
 std::string hint_for_character(std::string_view characters) {
     for (const CharacterHint& known : character_hints)
         if (known.characters == characters) return std::string(known.hint);
-    return "";
+    return hint_for_lookalike(characters);
 }
 
 // A number with an exponent in the form that RDDL has, where that is of reasonable length.
@@ -183,7 +183,7 @@ class Repair {
         const bool control = found.size() == 1 && static_cast<unsigned char>(found[0]) < 0x20;
         if (control) return fmt::format("illegal character with code {}", int{found[0]});
         if (found.size() > longest) return "characters that mean nothing in RDDL";
-        return fmt::format("'{}' means nothing in RDDL", found);
+        return fmt::format("{} means nothing in RDDL", spoken(found));
     }
 
     std::string text(const Token& token) const {

@@ -17,7 +17,10 @@ std::string masked(std::string_view text) {
     std::replace_if(
         ascii.begin(), ascii.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; },
         stand_in);
-    if (text.starts_with(byte_order_mark)) ascii.replace(0, byte_order_mark.size(), "   ");
+    // Files that were joined or saved again have several marks at their beginning.
+    for (std::size_t at = 0; text.substr(at).starts_with(byte_order_mark);
+         at += byte_order_mark.size())
+        ascii.replace(at, byte_order_mark.size(), byte_order_mark.size(), ' ');
     return ascii;
 }
 

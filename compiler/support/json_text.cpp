@@ -65,7 +65,7 @@ std::string with_visible_characters(std::string_view json) {
             out += character.bytes;
             continue;
         }
-        const std::uint32_t code = character.code_point;
+        const auto code = static_cast<std::uint32_t>(character.code_point);
         if (code < 0x10000)
             out += fmt::format("\\u{:04x}", code);
         else

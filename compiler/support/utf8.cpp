@@ -14,7 +14,7 @@ bool is_invisible(utf8proc_category_t category) {
 }
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
-constexpr std::uint32_t replacement_code = 0xFFFD;
+constexpr std::int32_t replacement_code = 0xFFFD;
 
 std::string with_replacements(std::string_view text, std::string_view allowed) {
     std::string out;
@@ -44,15 +44,15 @@ Character first_character(std::string_view text) {
         static_cast<utf8proc_ssize_t>(std::min(text.size(), longest)), &code_point);
     if (length <= 0)
         return {.bytes = text.substr(0, 1),
+                .code_point = replacement_code,
                 .is_valid = false,
                 .is_visible = false,
-                .width = 1,
-                .code_point = replacement_code};
+                .width = 1};
     return {.bytes = text.substr(0, static_cast<std::size_t>(length)),
+            .code_point = code_point,
             .is_valid = true,
             .is_visible = !is_invisible(utf8proc_category(code_point)),
-            .width = static_cast<std::size_t>(utf8proc_charwidth(code_point)),
-            .code_point = static_cast<std::uint32_t>(code_point)};
+            .width = static_cast<std::size_t>(utf8proc_charwidth(code_point))};
 }
 
 bool is_utf8(std::string_view text) {

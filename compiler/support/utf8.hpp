@@ -10,13 +10,13 @@
 namespace rddlc {
 
 struct Character {
-    std::string_view bytes;  // a single byte, if it is not UTF-8
+    std::string_view bytes;   // a single byte, if it is not UTF-8
+    std::int32_t code_point;  // U+FFFD, if it is not UTF-8
     bool is_valid;
     // False for what is not UTF-8, for controls, and for format characters, which change the
     // direction of a line or end it.
     bool is_visible;
-    std::size_t width;         // in columns of a terminal: 0 for an accent on the one before, or 2
-    std::uint32_t code_point;  // U+FFFD, if it is not UTF-8
+    std::size_t width;  // in columns of a terminal: 0 for an accent on the one before, or 2
 };
 
 // The text must not be empty.

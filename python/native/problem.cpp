@@ -38,13 +38,14 @@ std::string text_of(const Compilation& compilation) {
 }
 
 LoadedProblem load(const nb::object& domain, const nb::object& instance,
-                   const nb::object& repository, bool interpreted, const nb::object& externs,
-                   bool extended, bool details) {
+                   const nb::object& repository, const std::string& instance_name, bool interpreted,
+                   const nb::object& externs, bool extended, bool details) {
     const std::string names[] = {path_of(domain), path_of(instance), path_of(repository)};
     const std::vector<std::string> headers = paths_of(externs);
     try {
         const nb::gil_scoped_release released;
         cli::ProblemFiles files = files_of(names[0], names[1], names[2]);
+        files.instance_name = instance_name;
         if (extended) files.standard = Standard::Rddlc;
         cli::LoadOptions options;
         options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
@@ -127,7 +128,8 @@ void add_problem(nb::module_& module) {
             return constants(*problem.simulator, fluent);
         });
     module.def("load", load, nb::arg("domain"), nb::arg("instance"), nb::arg("repository"),
-               nb::arg("interpreted"), nb::arg("externs"), nb::arg("extended"), nb::arg("details"));
+               nb::arg("instance_name"), nb::arg("interpreted"), nb::arg("externs"),
+               nb::arg("extended"), nb::arg("details"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
     module.def(

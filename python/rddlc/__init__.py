@@ -47,7 +47,7 @@ __all__ = [
     "problems",
 ]
 
-_OF_PROBLEM = ("engine", "externs", "extended", "details")
+_OF_PROBLEM = ("instance_name", "engine", "externs", "extended", "details")
 
 
 def make(
@@ -58,7 +58,8 @@ def make(
     """A `gymnasium.Env` of a problem: two files, one file that holds both, a folder and an instance,
     a problem and an instance of rddlrepository, or a `Problem`.
 
-    engine: "compiled" (default) or "interpreter"; externs, extended, details: see `Problem`.
+    engine: "compiled" (default) or "interpreter"; instance_name, externs, extended, details: see
+        `Problem`.
     vectorized: keys are fluents and values arrays, instead of a key for each grounding.
     observations: "dict", or "flat": float32 (features,).
     actions: "dict"; "simplified": Discrete, MultiDiscrete, Box or both in a Dict, as pyRDDLGym-rl
@@ -86,7 +87,7 @@ def make_vec(
 ) -> RDDLVectorEnv:
     """A `gymnasium.vector.VectorEnv` of `num_envs` environments in one batch; problems as in `make`.
 
-    engine, externs, extended, details, horizon, normalize: as in `make`.
+    instance_name, engine, externs, extended, details, horizon, normalize: as in `make`.
     observations: "flat" (default): float32 (num_envs, features); "dict": arrays (num_envs, *shape).
     actions: "simplified" (default), "box", or "dict" of arrays.
     autoreset_mode: "NextStep" (default), "SameStep" or "Disabled", or a Gymnasium AutoresetMode.

@@ -44,6 +44,7 @@ class Problem:
         domain: str | os.PathLike[str],
         instance: str | int | os.PathLike[str] | None = None,
         *,
+        instance_name: str = "",
         engine: str = "compiled",
         externs: Sequence[str | os.PathLike[str]] = (),
         extended: bool = False,
@@ -52,6 +53,7 @@ class Problem:
         """`domain` and `instance` are two files, one file that holds both, a folder and the name of
         its instance, or a problem and an instance of rddlrepository.
 
+        instance_name: the name of the instance to take, where the files hold several; else the last.
         engine: "compiled" (kept in ~/.cache/rddlc) or "interpreter", which needs no C++ compiler.
         externs: C++ headers that define external functions.
         extended: whether the extensions of docs/dialects.md are allowed.
@@ -64,6 +66,7 @@ class Problem:
         if isinstance(externs, (str, bytes, os.PathLike)):
             raise ArgumentError(f"externs is a list of headers, not {externs!r}")
         self._options: dict[str, Any] = {
+            "instance_name": instance_name,
             "engine": engine,
             "externs": tuple(os.fsdecode(each) for each in externs),
             "extended": extended,
@@ -86,6 +89,7 @@ class Problem:
             domain,
             instance,
             repository="" if is_path else repository_folder(),
+            instance_name=self._options["instance_name"],
             interpreted=interpreted,
             externs=list(self._options["externs"]),
             extended=self._options["extended"],

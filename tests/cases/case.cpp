@@ -32,6 +32,8 @@ void read_options(const fs::path& file, Case& result) {
             result.standard = *standard;
         else if (option == "--real=float")
             result.real = RealType::Float;
+        else if (option.starts_with("--instance="))
+            result.instance = option.substr(option.find('=') + 1);
         else if (option.starts_with("-Wno-") && warning)
             result.disabled_warnings.insert(*warning);
         else

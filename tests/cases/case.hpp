@@ -28,6 +28,7 @@ struct Case {
     std::vector<Mark> marks;
     Standard standard = Standard::PyRddlGym;
     RealType real = RealType::Double;
+    std::string instance;
     std::set<Code> disabled_warnings;
 
     bool expects(const std::string& file) const { return std::filesystem::exists(folder / file); }

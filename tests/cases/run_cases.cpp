@@ -81,6 +81,7 @@ CompileOptions options_of(const Case& expected) {
     options.inputs.assign(expected.files.begin(), expected.files.end());
     options.extern_headers = expected.headers;
     options.standard = expected.standard;
+    options.instance = expected.instance;
     options.real = expected.real;
     options.diagnostics.disabled_warnings = expected.disabled_warnings;
     return options;

@@ -156,7 +156,8 @@ TEST(Messages, ForbiddenDependencies) {
     EXPECT_EQ(report("termination { ab; };"),
               "a termination condition may not depend on 'ab', an action-fluent\n"
               "note at 'ab': declared here\n"
-              "hint: a termination condition may depend on non-fluents and state-fluents");
+              "hint: store in a state-fluent what the action does, and test that: a termination "
+              "condition may depend on non-fluents and state-fluents");
 }
 
 TEST(Messages, CyclesAreShownWhole) {
@@ -195,11 +196,12 @@ TEST(Messages, ValuesInTheInstance) {
 }
 
 TEST(Messages, ABodyThatGoesOn) {
-    EXPECT_EQ(
-        report("r' = sum_{?x : t} [P(?x)] + 10;"),
-        "this belongs to the body of 'sum', which goes on to the end\n"
-        "note at '[P(?x)]': the body does not end with these brackets\n"
-        "hint: to end the body, put brackets around the whole aggregation: '[sum_{...} ...]'");
+    EXPECT_EQ(report("r' = sum_{?x : t} [P(?x)] + 10;"),
+              "this belongs to the body of 'sum', which goes on to the end\n"
+              "note at '[P(?x)]': the body does not end with these brackets\n"
+              "hint: RDDL reads 'sum_{?x : t} [[P(?x)] + 10]'; '[sum_{?x : t} [P(?x)]] + 10' was "
+              "probably "
+              "meant");
 }
 
 // One cause, one message: what depends on something wrong is not reported again.

@@ -1,6 +1,6 @@
 #include "../runtime/tiny_simulator.hpp"
 #include "formats/records_json.hpp"
-#include "rollouts/random_actions.hpp"
+#include "solvers/policies/random_actions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,8 +58,8 @@ struct ActionProblem {
 
 using ActionValues = std::vector<std::int64_t>;
 
-ActionValues act(RandomPolicy& policy, const ActionProblem& problem, std::int64_t environment,
-                 std::int64_t step) {
+ActionValues act(solvers::RandomPolicy& policy, const ActionProblem& problem,
+                 std::int64_t environment, std::int64_t step) {
     ActionValues record(problem.defaults.size(), -1);
     policy.act(environment, step, reinterpret_cast<std::byte*>(record.data()));
     return record;
@@ -73,7 +73,8 @@ double as_real(std::int64_t bits) {
 
 TEST(RandomPolicy, DependsOnSeedEnvironmentAndStepOnly) {
     const ActionProblem problem({{RDDL_REAL, 0, 1}, {RDDL_REAL, 0, 1}, {RDDL_BOOL}}, 2);
-    RandomPolicy first(problem.problem, 5), second(problem.problem, 5), other(problem.problem, 6);
+    solvers::RandomPolicy first(problem.problem, 5), second(problem.problem, 5),
+        other(problem.problem, 6);
     for (std::int64_t step = 0; step < 10; ++step) act(second, problem, 99, step);  // elsewhere
     std::map<ActionValues, int> distinct;
     for (std::int64_t environment = 0; environment < 5; ++environment)
@@ -95,7 +96,7 @@ TEST(RandomPolicy, StaysWithinTheBounds) {
                                  {RDDL_INT, -infinity, -0.5},
                                  {RDDL_INT, -infinity, infinity, 0},
                                  {RDDL_INT, 0.2, 0.8}});
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     std::map<std::int64_t, int> ints, colours;
     for (std::int64_t step = 0; step < 2000; ++step) {
         const ActionValues a = act(policy, problem, 0, step);
@@ -120,7 +121,7 @@ TEST(RandomPolicy, StaysWithinTheBounds) {
 
 TEST(RandomPolicy, HasTheMomentsItPromises) {
     const ActionProblem problem({{RDDL_REAL}, {RDDL_REAL, 2, infinity}, {RDDL_REAL, 0, 4}});
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     constexpr int draws = 20000;
     double sum[3] = {}, squares[3] = {};
     for (std::int64_t environment = 0; environment < draws; ++environment) {
@@ -147,7 +148,7 @@ TEST(RandomPolicy, HasTheMomentsItPromises) {
 
 TEST(RandomPolicy, KeepsTheLimitOfNonDefaultValues) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(10, {RDDL_REAL, 1, 2}), 3);
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     std::vector<int> chosen(10);
     for (std::int64_t step = 0; step < 3000; ++step) {
         const ActionValues a = act(policy, problem, 0, step);
@@ -164,7 +165,7 @@ TEST(RandomPolicy, KeepsTheLimitOfNonDefaultValues) {
 
 TEST(RandomPolicy, DoesNothingWhenNothingMayDiffer) {
     const ActionProblem problem({{RDDL_BOOL}, {RDDL_BOOL}}, 0);
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     for (std::int64_t step = 0; step < 20; ++step)
         EXPECT_EQ(act(policy, problem, 0, step), (ActionValues{0, 0}));
 }
@@ -172,10 +173,10 @@ TEST(RandomPolicy, DoesNothingWhenNothingMayDiffer) {
 // ------------------------------------------------------------------------- legal actions
 
 // All that the policy proposes at one timestep to someone who never finds an action legal.
-std::vector<ActionValues> proposals(RandomPolicy& policy, const ActionProblem& problem,
+std::vector<ActionValues> proposals(solvers::RandomPolicy& policy, const ActionProblem& problem,
                                     std::int64_t environment) {
     std::vector<ActionValues> all{act(policy, problem, environment, 3)};
-    RandomPolicy::Search search;
+    solvers::RandomPolicy::Search search;
     ActionValues record = all.back();
     while (policy.try_another(environment, 3, search, reinterpret_cast<std::byte*>(record.data())))
         all.push_back(record);
@@ -191,7 +192,7 @@ int changes(const ActionValues& from, const ActionValues& to) {
 
 TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(6, {RDDL_REAL, 1, 2}));
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     const std::vector<ActionValues> all = proposals(policy, problem, 0);
     ASSERT_EQ(all.size(), 128u * 7 + 6 * 2) << "128 actions, each with 6 resets; 6 single changes";
     for (std::size_t k = 0; k < 128 * 7; ++k) {
@@ -207,7 +208,7 @@ TEST(RandomPolicy, ResetsOneValueAfterTheOtherThenDrawsAnew) {
 
 TEST(RandomPolicy, TriesEverySingleChange) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(40, {RDDL_BOOL}));
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     const std::vector<ActionValues> all = proposals(policy, problem, 0);
     std::map<ActionValues, int> last;
     for (std::size_t k = all.size() - 80; k < all.size(); ++k) ++last[all[k]];
@@ -216,7 +217,7 @@ TEST(RandomPolicy, TriesEverySingleChange) {
 
 TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
     ActionProblem problem(std::vector<ActionProblem::Fluent>(800, {RDDL_REAL, 1, 2}));
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     const std::vector<ActionValues> all = proposals(policy, problem, 0);
     EXPECT_EQ(changes(all[1], all[0]), 100);
     EXPECT_EQ(changes(all[1], problem.defaults), 700);
@@ -226,7 +227,7 @@ TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
 // Where the default is forbidden, what is wanted may be too unlikely for independent values.
 TEST(RandomPolicy, TriesAllAndNoBoolsOfAFluent) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(2, {RDDL_BOOL}));
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     std::map<ActionValues, int> found;
     for (const ActionValues& record : proposals(policy, problem, 0)) ++found[record];
     for (const ActionValues& record : {ActionValues{0, 0}, {0, 1}, {1, 0}, {1, 1}})
@@ -235,11 +236,11 @@ TEST(RandomPolicy, TriesAllAndNoBoolsOfAFluent) {
 
 TEST(RandomPolicy, ResetsEachValueAlike) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(4, {RDDL_REAL, 1, 2}));
-    RandomPolicy policy(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1);
     std::vector<int> first(4);
     for (std::int64_t environment = 0; environment < 2000; ++environment) {
         ActionValues record = act(policy, problem, environment, 0);
-        RandomPolicy::Search search;
+        solvers::RandomPolicy::Search search;
         policy.try_another(environment, 0, search, reinterpret_cast<std::byte*>(record.data()));
         for (std::size_t i = 0; i < 4; ++i) first[i] += record[i] == 0;
     }
@@ -249,14 +250,14 @@ TEST(RandomPolicy, ResetsEachValueAlike) {
 
 TEST(RandomPolicy, SearchesWithinTheLimitAndReproducibly) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(10, {RDDL_REAL, 1, 2}), 3);
-    RandomPolicy policy(problem.problem, 1), other(problem.problem, 1);
+    solvers::RandomPolicy policy(problem.problem, 1), other(problem.problem, 1);
     const std::vector<ActionValues> all = proposals(policy, problem, 7);
     for (const ActionValues& record : all) EXPECT_LE(changes(record, problem.defaults), 3);
     proposals(other, problem, 8);
     EXPECT_EQ(proposals(other, problem, 7), all);
 
     const ActionProblem bound({{RDDL_BOOL}, {RDDL_BOOL}}, 0);
-    RandomPolicy idle(bound.problem, 1);
+    solvers::RandomPolicy idle(bound.problem, 1);
     EXPECT_EQ(proposals(idle, bound, 0).size(), 1u);
 }
 

@@ -5,7 +5,6 @@
 #include "learning/learned_policy.hpp"
 #include "learning/learning_curves.hpp"
 #include "pictures/reel.hpp"
-#include "rollouts/finite_values.hpp"
 #include "rollouts/replay_session.hpp"
 #include "scenes/scene.hpp"
 #include "solvers/cgp/formula.hpp"
@@ -109,8 +108,7 @@ struct FileReaders::State {
           loaded(load(problem)),
           simulator(*loaded.simulator),
           plain(load(plain_problem)),
-          world(simulator),
-          finite(loaded.files, interpreted()) {
+          world(simulator) {
         fs::create_directories(folder);
     }
 
@@ -239,7 +237,7 @@ struct FileReaders::State {
         attempt([&] {
             cli::Record initial(static_cast<std::size_t>(simulator.problem->state_size));
             simulator.initial_state(&simulator, initial.data());
-            cli::read_states(path, *simulator.problem, initial, finite);
+            cli::read_states(path, *simulator.problem, initial);
         });
         attempt([&] { draw(*render::find_visualizer("auto"), bytes); });
         if (refusal) throw Failure(*refusal);
@@ -257,7 +255,6 @@ struct FileReaders::State {
     const rddl_simulator& simulator;
     cli::LoadedProblem plain;
     render::World world;
-    cli::FiniteValues finite;
 };
 
 FileReaders::FileReaders(const fs::path& problem, const fs::path& plain, fs::path folder)

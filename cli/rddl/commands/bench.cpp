@@ -1,9 +1,9 @@
 // rddl bench: what a problem costs to compile, how fast it steps, and how fast others step it.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "engines/batch.hpp"
 #include "formats/table.hpp"
 #include "measure/bench_report.hpp"
+#include "solvers/batches/batch.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
@@ -55,7 +55,7 @@ std::vector<Stepping> steppings(const rddl_simulator& simulator, std::int64_t ba
 
 double first_step_seconds(const rddl_simulator& simulator) {
     const auto begin = std::chrono::steady_clock::now();
-    const Batch batch = create_batch(simulator, course_options(1));
+    const solvers::Batch batch = solvers::create_batch(simulator, course_options(1));
     const rddl_transition nothing{};
     simulator.step(batch.get(), simulator.problem->default_action, &nothing);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -130,7 +130,7 @@ ExitStatus bench(const BenchOptions& options) {
     std::vector<std::int64_t> batches = options.batches;
     if (batches.empty()) batches.push_back(suitable_batch(*simulator.problem));
     const std::int64_t largest = *std::max_element(batches.begin(), batches.end());
-    require_room(simulator, largest, files.memory_limit);
+    solvers::require_room(simulator, largest, files.memory_limit);
     report.memory_per_environment = memory_per_environment(simulator, largest);
     measure_all(simulator, batches, options, report);
     options.json ? print_json(report) : print_table(report);

@@ -13,6 +13,7 @@ ProblemFiles ProblemArguments::files() const {
 }
 
 ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
+    files.instance_name = instance_name;
     files.standard = standard;
     files.memory_limit = memory_limit;
     return files;
@@ -26,6 +27,9 @@ void add_problem_arguments(Command& command, ProblemArguments& arguments, bool r
         arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
+    add_text_option(command, "--instance", "NAME",
+                    "Take the instance of this name, where the files hold several",
+                    arguments.instance_name);
     add_standard_option(command, arguments.standard);
     add_option(
         command, "--memory-limit", "SIZE",

@@ -25,6 +25,7 @@ inline constexpr std::int64_t longest_horizon = std::numeric_limits<std::int64_t
 struct ProblemArguments {
     std::string first;   // DOMAIN or NAME
     std::string second;  // INSTANCE; may be empty for a file that holds both blocks
+    std::string instance_name;
     Standard standard = Standard::PyRddlGym;
     std::int64_t memory_limit = default_memory_limit;
 
@@ -32,7 +33,7 @@ struct ProblemArguments {
     // Others, read as the options say.
     ProblemFiles with_options(ProblemFiles files) const;
 };
-// These, --std and --memory-limit.
+// These, --instance, --std and --memory-limit.
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required = true);
 
 // --seed; may be a std::optional

@@ -69,9 +69,10 @@ std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& 
     if (!options.remembers || options.engine != Engine::Compiled || options.ignore_cache ||
         !options.externs.empty())
         return std::nullopt;
-    const std::string told = fmt::format(
-        "{} {} {} {} {}", static_cast<int>(files.standard), static_cast<int>(options.real),
-        options.details, options.passes.fast_math, fmt::join(options.passes.without, ","));
+    const std::string told =
+        fmt::format("{} {} {} {} {} {}", files.instance_name, static_cast<int>(files.standard),
+                    static_cast<int>(options.real), options.details, options.passes.fast_math,
+                    fmt::join(options.passes.without, ","));
     return key_of_files(files.all(), told);
 }
 
@@ -81,10 +82,9 @@ LoadedProblem built(const Compilation& compilation, const ProblemFiles& files,
     const std::string& text = compilation.text;
     costs.emitted_lines = std::count(text.begin(), text.end(), '\n');
     costs.emitted_bytes = static_cast<std::int64_t>(text.size());
-    const CompiledSimulator compiled = compiled_simulator(
-        text,
-        {files.name, options.ignore_cache, options.quiet, extern_files(options.externs).headers,
-         options.real});
+    const CompiledSimulator compiled =
+        compiled_simulator(text, {files.name, options.ignore_cache, options.quiet,
+                                  extern_files(options.externs).headers, options.real});
     costs.build_seconds = compiled.object.build_seconds;
     if (const auto key = key_of(files, options)) remember_object(*key, compiled.object.path);
     costs.object_bytes =

@@ -106,10 +106,11 @@ PeerFigures measure_peer(std::string_view name, const ProblemFiles& files,
     const Peer& peer = peer_named(name);
     const std::string python = python_command(options.python);
     const TemporaryFolder folder;
+    const PythonFiles read = files_for_python(files, folder.path());
     const auto result =
-        run_process({python, program_file(peer).string(), argument_of(files.domain),
-                     argument_of(instance_for_python(files, folder.path())), "--seconds",
-                     fmt::format("{}", options.seconds), "--cores", std::to_string(options.cores)});
+        run_process({python, program_file(peer).string(), argument_of(read.domain),
+                     argument_of(read.instance), "--seconds", fmt::format("{}", options.seconds),
+                     "--cores", std::to_string(options.cores)});
     if (!result)
         throw Failure(fmt::format("cannot run '{}'", python),
                       "--python names the interpreter to use");

@@ -1,7 +1,7 @@
 #include "measure/random_course.hpp"
 
-#include "engines/batch.hpp"
-#include "rollouts/random_actions.hpp"
+#include "solvers/batches/batch.hpp"
+#include "solvers/policies/random_actions.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <algorithm>
@@ -51,9 +51,9 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
 
     rddl_batch_options options = course_options(environments);
     options.thread_count = 0;
-    const Batch batch = create_batch(simulator, options);
-    RandomPolicy policy(*simulator.problem, 0);
-    RandomActions random(simulator, policy, environments);
+    const solvers::Batch batch = solvers::create_batch(simulator, options);
+    solvers::RandomPolicy policy(*simulator.problem, 0);
+    solvers::RandomActions random(simulator, policy, environments);
     std::vector<std::uint8_t> causes(static_cast<std::size_t>(environments));
     rddl_transition ends{};
     ends.causes = causes.data();

@@ -14,6 +14,7 @@ CompileOptions compile_options(const ProblemFiles& files, Stage last) {
     CompileOptions options;
     options.inputs = files.inputs();
     options.policy = files.policy;
+    options.instance = files.instance_name;
     options.stop_after = last;
     options.standard = files.standard;
     options.memory_limit = files.memory_limit;

@@ -17,7 +17,8 @@ struct ProblemFiles {
     std::filesystem::path domain;
     std::optional<std::filesystem::path> instance;     // absent: `domain` holds both
     std::optional<std::filesystem::path> policy = {};  // a file with a policy block for it
-    Standard standard = Standard::PyRddlGym;           // in which they are written
+    std::string instance_name = {};           // of several that the files hold; empty: the last one
+    Standard standard = Standard::PyRddlGym;  // in which they are written
     std::int64_t memory_limit = default_memory_limit;  // bytes that its simulators may take
 
     std::vector<std::filesystem::path> inputs() const;  // without the policy

@@ -1,5 +1,6 @@
 #include "python/python_command.hpp"
 
+#include "problems/front_end.hpp"
 #include "support/files.hpp"
 
 #include <cstdlib>
@@ -15,13 +16,18 @@ std::string python_command(const std::string& named) {
                : "python3";
 }
 
-std::filesystem::path instance_for_python(const ProblemFiles& files,
-                                          const std::filesystem::path& folder) {
-    if (files.instance) return *files.instance;
-    const std::filesystem::path empty = folder / "no-instance.rddl";
+PythonFiles files_for_python(const ProblemFiles& files, const std::filesystem::path& folder) {
+    const bool is_chosen = !files.instance_name.empty();
+    if (files.instance && !is_chosen) return {files.domain, *files.instance};
     UsedFiles used;
-    write_file(empty, "", used);
-    return empty;
+    PythonFiles result{files.domain, folder / "no-instance.rddl"};
+    write_file(result.instance, "", used);
+    if (!is_chosen) return result;
+    CompileOptions options = compile_options(files, Stage::Parse);
+    options.print = {Form::Ast};
+    result.domain = folder / "problem.rddl";
+    write_file(result.domain, compile_or_give_up(options).printed, used);
+    return result;
 }
 
 }  // namespace rddlc::cli

@@ -11,8 +11,12 @@ namespace rddlc::cli {
 // `named` if it is not empty, else that of $VIRTUAL_ENV, else python3.
 std::string python_command(const std::string& named);
 
-// pyRDDLGym reads two files: beside one that holds both blocks an empty one, in `folder`.
-std::filesystem::path instance_for_python(const ProblemFiles& files,
-                                          const std::filesystem::path& folder);
+struct PythonFiles {
+    std::filesystem::path domain, instance;
+};
+
+// pyRDDLGym reads two files: beside one that holds both blocks an empty one, in `folder`. It takes
+// the last instance; if another one is wanted, the first file holds what belongs to that alone.
+PythonFiles files_for_python(const ProblemFiles& files, const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli

@@ -1,9 +1,9 @@
 // Answers the lines of `rddl replay` (docs/traces.md), one environment behind them.
 #pragma once
 
-#include "engines/batch.hpp"
 #include "formats/records_json.hpp"
 #include "rollouts/violations.hpp"
+#include "solvers/batches/batch.hpp"
 #include "support/failure.hpp"
 
 #include <rddl/simulator.h>
@@ -68,7 +68,7 @@ class ReplaySession {
     Record read_state(const nlohmann::json& values, bool fresh) const;
     Record read_action(const nlohmann::json& values) const;
 
-    Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
+    solvers::Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
     void prepare(const Request& request);
     void require_running() const;
     // Empty if the action is legal, else what is wrong; may replace it.
@@ -95,7 +95,7 @@ class ReplaySession {
     bool has_begun_ = false;        // some line was not blank
     std::int64_t environment_ = 0;  // identity of the one that is stepped
     std::int64_t next_sample_;      // identity of the next environment that draws a sample
-    Batch batch_;
+    solvers::Batch batch_;
     Record initial_state_;
 };
 

@@ -198,12 +198,13 @@ PyRddlGymComparison compare_with_pyrddlgym(const ProblemFiles& files, const rddl
                    answers_file = folder.path() / "answers";
     write_questions(questions, comparison, samples);
     const std::string python = python_command(options.python);
+    const PythonFiles read = files_for_python(files, folder.path());
     // Reading a large problem takes it minutes.
     const std::chrono::seconds limit{300 + static_cast<std::int64_t>(options.seconds)};
     const auto process =
-        run_process({python, "-c", std::string(pyrddlgym_outcomes_program), files.domain.string(),
-                     instance_for_python(files, folder.path()).string(), questions.string(),
-                     answers_file.string(), fmt::format("{}", options.seconds)},
+        run_process({python, "-c", std::string(pyrddlgym_outcomes_program), read.domain.string(),
+                     read.instance.string(), questions.string(), answers_file.string(),
+                     fmt::format("{}", options.seconds)},
                     {}, limit);
     if (!process) {
         result.not_compared = fmt::format("there is no '{}'", python);

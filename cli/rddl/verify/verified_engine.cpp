@@ -27,7 +27,7 @@ VerifiedEnvironments::VerifiedEnvironments(const VerifiedEngine& engine, std::in
     options.environment_count = engine.one_by_one ? 1 : count;
     for (std::int64_t first = 0; first < count; first += options.environment_count) {
         options.first_environment = first;
-        batches_.push_back(create_batch(*simulator_, options));
+        batches_.push_back(solvers::create_batch(*simulator_, options));
     }
 }
 

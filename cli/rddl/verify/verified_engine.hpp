@@ -1,9 +1,9 @@
 // Environments of one engine that is compared with others: all that a step shows.
 #pragma once
 
-#include "engines/batch.hpp"
 #include "engines/load_simulator.hpp"
 #include "rollouts/step_outcome.hpp"
+#include "solvers/batches/batch.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -67,7 +67,7 @@ class VerifiedEnvironments {
 
     Simulator simulator_;
     std::int64_t count_;
-    std::vector<Batch> batches_;
+    std::vector<solvers::Batch> batches_;
     std::vector<std::byte> policy_actions_;  // empty: it was not asked since the last step
 };
 

@@ -1,6 +1,6 @@
 #include "verify/walk_in_step.hpp"
 
-#include "rollouts/random_actions.hpp"
+#include "solvers/policies/random_actions.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress.hpp"
 
@@ -258,9 +258,9 @@ class Walker {
     const WalkOptions& options_;
     const rddl_problem& problem_;
     std::vector<VerifiedEnvironments> environments_;  // by engine
-    RandomPolicy random_policy_;
+    solvers::RandomPolicy random_policy_;
     std::size_t quickest_;
-    RandomActions random_actions_;
+    solvers::RandomActions random_actions_;
     RandomStates random_states_;
     std::mt19937_64 sample_choice_;
     std::uint64_t candidates_ = 0;

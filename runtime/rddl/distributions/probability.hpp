@@ -13,7 +13,8 @@ namespace rddl {
 
 // How far out; floats round 5e8 times as coarsely as doubles.
 template <class Element>
-inline constexpr Element probability_rounding = std::is_same_v<Element, float> ? 1e-5 : 1e-9;
+inline constexpr Element probability_rounding = std::is_same_v<Element, float> ? Element(1e-5)
+                                                                               : Element(1e-9);
 
 template <class L>
 RDDL_INLINE typename L::Bool is_weight(typename L::Real w) {
