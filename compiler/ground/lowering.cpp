@@ -54,7 +54,8 @@ ir::Definition Lowering::definition_of(const model::Cpf& cpf) {
     ir::Store store{.target = buffers.next.value_or(buffers.current), .indices = {}, .value = {}};
     for (ir::VariableId parameter : scope_) store.indices.push_back(builder_.index(parameter));
     store.value = lower_as(cpf.body, scalar_of(model_.fluents[cpf.fluent].range));
-    program_.buffers[store.target.index].range = range_of_reals(store.value);
+    ir::Buffer& target = program_.buffers[store.target.index];
+    if (target.is_computed_in_step()) target.range = range_of_reals(store.value);
 
     ir::Block body = std::exchange(prelude_, {});
     body.push_back(looped({store}, scope_));

@@ -81,10 +81,16 @@ struct Buffer {
     // Constant: the table; State, Memory: initial; Action: defaults.
     Table values = {};
     Span span;
-    // Within which every element lies, where that is known; of reals that are no constants.
+    // Within which every element lies, where that is known: of reals that the step computes
+    // (is_computed_in_step), and of those of a program for moderate values.
     std::optional<Range> range = {};
 
     std::int64_t count() const;
+    // Its readers get what the step has computed. Actions and observations may come from elsewhere,
+    // also in a program whose policy computes them.
+    bool is_computed_in_step() const {
+        return storage == Storage::Scratch || storage == Storage::Next;
+    }
 };
 
 // Where a draw or a fault happens: a site of the program text and the place inside its scope.

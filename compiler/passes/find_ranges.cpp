@@ -46,7 +46,8 @@ class Ranges {
         });
         for (const auto& [id, range] : stored) {
             ir::Buffer& buffer = program_.buffers[id.index];
-            if (buffer.scalar != ir::Scalar::Real || !range) continue;
+            if (buffer.scalar != ir::Scalar::Real || !buffer.is_computed_in_step() || !range)
+                continue;
             if (!buffer.range || !ir::is_finite(*buffer.range))
                 newly_finite_ += ir::is_finite(*range);
             buffer.range = range;
