@@ -451,14 +451,17 @@ std::string moderate_test(const Unit& unit) {
     for (const ir::BufferId id : ir::reals_from_outside(unit.program)) {
         const ir::Storage storage = unit.program[id].storage;
         (storage == ir::Storage::State ? uses.state : uses.action) = true;
-        tests += (tests.empty() ? "" : " &&\n" + std::string(level * indentation + 11, ' ')) +
-                 "rddl::is_moderate<L>(" + words_of(storage).parameter + "." +
-                 unit.names.buffers[id.index] + ")";
+        tests += (tests.empty() ? "" : " && ") + std::string("rddl::is_moderate<L>(") +
+                 words_of(storage).parameter + "." + unit.names.buffers[id.index] + ")";
     }
+    std::string body;
+    for (const std::string& line : fill_chain("return ", (tests.empty() ? "true" : tests) + ";",
+                                              {"&&"}, (level + 1) * indentation))
+        body += indented(line, level + 1);
     return function("typename L::Bool", "is_for",
                     {record_parameter(ir::Storage::State, uses.state, false),
                      record_parameter(ir::Storage::Action, uses.action, false)},
-                    indented("return " + (tests.empty() ? "true" : tests) + ";", level + 1));
+                    body);
 }
 
 std::string policy(const Unit& unit) {
