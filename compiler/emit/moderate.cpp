@@ -24,8 +24,7 @@ std::string moderate_section(const Unit& around) {
 }
 
 std::string stepping_type(const Unit& unit) {
-    return unit.program.moderate ? "rddl::WithModerateStep<Simulator, moderate::Step>"
-                                 : "Simulator";
+    return unit.program.moderate ? "FastSimulator" : "Simulator";
 }
 
 }  // namespace rddlc::cpp

@@ -200,7 +200,7 @@ TEST_F(PolicyFiles, OfPpoWithWrongNumbersAreRefused) {
     for (const char* const units : {"-1", "0", "64.5", "2147483647", "1e400", "\"8\"", "null"})
         for (const char* const pointer : {"/hidden/0", "/recurrent/units"})
             refuses_value(pointer, units,
-                          std::string(units) == "1e400" ? "it is no policy of PPO"
+                          std::string(units) == "1e400" ? "number overflow parsing '1e400'"
                                                         : "its number of units is ");
     refuses_value("/hidden/0", "9", "its layers do not fit");
     refuses_value("/hidden", "[]", "its layers do not fit");
