@@ -213,7 +213,7 @@ TEST_F(PolicyFiles, OfPpoWithWrongNumbersAreRefused) {
     refuses_value("/policy/0/weights/0/0", "true", "its weight is not a number");
     refuses_value("/log_deviations/0", "100", "its noise is too large");
     refuses_value("/correlation", "1.5", "its correlation is 1.5, not from 0 to 1");
-    refuses_text(std::string(200'000, '['), "more than 100 brackets");
+    refuses_text(std::string(200'000, '['), "more than 256 brackets");
     refuses_text("[" + std::string(20'000'000, ',') + "]", "more than the limit of 100 MiB");
     // A small file whose layers would be large.
     json wide = policy;
