@@ -243,11 +243,10 @@ struct Step {
     template <class L>
     using Scratch = moderate::Scratch<L>;
 
-    // Whether the step is for them.
+    // Whether all reals are moderate.
     template <class L>
     static typename L::Bool is_for(const State<L>& state, const Action<L>& action) {
-        return rddl::is_moderate<L>(state.water) &&
-               rddl::is_moderate<L>(action.release);
+        return rddl::is_moderate<L>(state.water) && rddl::is_moderate<L>(action.release);
     }
 
     // All CPFs, each after those that it depends on.
@@ -312,6 +311,9 @@ struct Step {
 };
 
 }  // namespace moderate
+
+// Makes that step where it may, else the one of Simulator.
+using FastSimulator = rddl::WithModerateStep<Simulator, moderate::Step>;
 
 static_assert(sizeof(State<rddl::Scalar>) == 32);
 static_assert(sizeof(Action<rddl::Scalar>) == 32);
@@ -448,8 +450,8 @@ inline constexpr rddl::Site sites[] = {
 }  // namespace about
 
 inline const rddl_simulator* simulator() {
-    using Engine = rddl::Compiled<rddl::WithModerateStep<Simulator, moderate::Step>, about::problem>;
-    using Packed = rddl::Packed<rddl::WithModerateStep<Simulator, moderate::Step>, about::problem, 16>;
+    using Engine = rddl::Compiled<FastSimulator, about::problem>;
+    using Packed = rddl::Packed<FastSimulator, about::problem, 16>;
     constexpr rddl::About description{about::problem, about::sites, about::constants};
     static const rddl::SimulatorTable<Engine, Packed> table(description, Engine());
     return table.get();
