@@ -243,7 +243,7 @@ struct Step {
     template <class L>
     using Scratch = moderate::Scratch<L>;
 
-    // Whether the step is for them.
+    // Whether all reals are moderate.
     template <class L>
     static typename L::Bool is_for(const State<L>& state, const Action<L>& action) {
         return rddl::is_moderate<L>(state.water) && rddl::is_moderate<L>(action.release);

@@ -109,15 +109,16 @@ std::string member(const std::string& type, const std::string& name) {
            name + ";";
 }
 
-// The same table under the same name.
-bool has_table(const Unit& unit, const std::string& name, const ir::Buffer& table) {
+// The same table under the same name and, as reals are `real`, of the same type.
+bool has_table(const Unit& unit, const std::string& name, const ir::Buffer& table, RealType real) {
     for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
         const bool is_named =
             unit.names.buffers[index] == name || unit.names.initial[index] == name;
         if (!is_named) continue;
         const ir::Buffer& buffer = unit.program.buffers[index];
-        return unit.program.real == RealType::Double && buffer.scalar == table.scalar &&
-               buffer.shape == table.shape && identical(buffer.values, table.values);
+        const bool is_same_type = table.scalar != ir::Scalar::Real || unit.program.real == real;
+        return is_same_type && buffer.scalar == table.scalar && buffer.shape == table.shape &&
+               identical(buffer.values, table.values);
     }
     return false;
 }
@@ -289,8 +290,9 @@ std::string tables(const Unit& unit, const Unit* around) {
         const std::string& initial = unit.names.initial[index];
         if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
         const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
-        if (around && has_table(*around, name, buffer)) continue;
         const RealType real = unit.program.real;
+        // Episodes start in the program around.
+        if (around && (!initial.empty() || has_table(*around, name, buffer, real))) continue;
         const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
         text += (text.empty() ? "" : "\n") + std::string("// ") + comment_text(buffer.name) + ", " +
                 unit.where(buffer.span) + "\n";

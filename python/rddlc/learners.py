@@ -9,7 +9,8 @@ from __future__ import annotations
 import html
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
@@ -18,7 +19,7 @@ from . import _native
 from .arguments import SEEDS, seed_of, thread_count, whole, whole_or_none
 from .dictionaries import GroundedReader, LiftedReader
 from .environment import RDDLEnv
-from .errors import Error
+from .errors import ArgumentError, Error
 from .lifted import LiftedRows
 from .problems import Problem
 from .vector import RDDLVectorEnv
@@ -69,6 +70,15 @@ class Evaluation:
     def __str__(self) -> str:
         returns = self.returns
         return f"return {returns.mean:.6g} +- {returns.half_width:.3g} ({self.episodes} episodes)"
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """An option that is refused is an argument that cannot be."""
+    try:
+        yield
+    except _native.Refused as refused:
+        raise ArgumentError(str(refused)) from None
 
 
 @dataclass(frozen=True)
@@ -293,7 +303,8 @@ class PPO(Learner):
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        return _native.ppo(self.problem.simulator, options)
+        with _refusals():
+            return _native.ppo(self.problem.simulator, options)
 
 
 class CGP(Learner):
@@ -313,7 +324,8 @@ class CGP(Learner):
         self._new_native({"generations": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        return _native.cgp(self.problem.simulator, options)
+        with _refusals():
+            return _native.cgp(self.problem.simulator, options)
 
     @property
     def formula(self) -> str:

@@ -219,14 +219,14 @@ class Learners(unittest.TestCase):
             for keyword, values in wrong.items():
                 for value in values:
                     with self.subTest(keyword=keyword, value=value):
-                        with self.assertRaisesRegex(rddlc.Error, f"^{keyword}: "):
+                        with self.assertRaisesRegex(rddlc.ArgumentError, f"^{keyword}: "):
                             learner(problem, **{keyword: value})
 
     def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
         problem = example("network").problem
-        with self.assertRaisesRegex(rddlc.Error, "'minibach'; did you mean 'minibatch'"):
+        with self.assertRaisesRegex(rddlc.ArgumentError, "'minibach'; did you mean 'minibatch'"):
             rddlc.PPO(problem, minibach=5)
-        with self.assertRaisesRegex(rddlc.Error, "'node'; did you mean 'nodes'"):
+        with self.assertRaisesRegex(rddlc.ArgumentError, "'node'; did you mean 'nodes'"):
             rddlc.CGP(problem, node=5)
 
     def test_every_option_of_the_command_line_is_a_keyword(self) -> None:

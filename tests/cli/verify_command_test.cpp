@@ -75,6 +75,10 @@ TEST_F(Program, TellsWhatItCannotVerify) {
     EXPECT_EQ(run("verify domain.rddl instance.rddl --lanes 3").status, 2);
     EXPECT_EQ(run("verify domain.rddl instance.rddl --engine pyrddlgym").status, 2);
     EXPECT_EQ(run("verify domain.rddl instance.rddl --steps 0").status, 2);
+    write_file(folder_ / "trace.jsonl", "{}\n");
+    const Outcome plan = run("verify domain.rddl instance.rddl --policy trace.jsonl");
+    EXPECT_EQ(plan.status, 2);
+    EXPECT_NE(plan.err.find("--states takes the states of a trace"), std::string::npos) << plan.err;
     EXPECT_EQ(run("verify domain.rddl instance.rddl --without no_such_pass").status, 2);
     EXPECT_EQ(run("verify domain.rddl none.rddl").status, 1);
     write_file(folder_ / "wrong.rddl", "domain d { oops }");
@@ -128,6 +132,22 @@ with open(answers, "w") as out:
         return run("verify tank.rddl --engine interpreter --steps 400 --python ./python");
     }
 };
+
+// pyRDDLGym takes the last non-fluents of a file.
+TEST_F(PyRddlGym, ReadsTheNonFluentsThatTheInstanceNames) {
+    std::string text = tank;
+    const std::size_t begin = text.find("instance i");
+    ASSERT_NE(begin, std::string::npos);
+    write_file(
+        folder_ / "tank.rddl",
+        text.substr(0, begin) + "non-fluents other { domain = tank; }\n" + text.substr(begin));
+    write_file(folder_ / "python", "#!/bin/sh\ncat \"$3\" >given.rddl\n");
+    std::filesystem::permissions(folder_ / "python", std::filesystem::perms::owner_all);
+    run("verify tank.rddl --engine interpreter --steps 20 --python ./python");
+    const std::string given = read_file(folder_ / "given.rddl");
+    EXPECT_NE(given.find("non-fluents n {"), std::string::npos) << given;
+    EXPECT_EQ(given.find("other"), std::string::npos) << given;
+}
 
 constexpr const char* right = "water + 2.0 if pump else water - 1.0";
 

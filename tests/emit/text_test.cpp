@@ -14,14 +14,17 @@ namespace rddlc {
 namespace {
 
 std::string emitted(const std::string& text, const EmitOptions& options = {},
-                    const PassOptions& passes = {}) {
+                    const PassOptions& passes = {}, RealType real = RealType::Double) {
     Sources sources;
     Diagnostics diagnostics;
     const FileId file = sources.add("problem.rddl", text);
     const ast::Program tree = parse(sources, std::array{file}, diagnostics);
     const auto model = check(tree, sources, diagnostics);
     if (!model) throw std::logic_error(diagnostics.all().front().message);
-    return emit(optimise(ground(*model, diagnostics).value(), passes), sources, options);
+    ir::Program program = ground(*model, diagnostics).value();
+    program.real = real;
+    if (program.moderate) (*program.moderate)->real = real;
+    return emit(optimise(std::move(program), passes), sources, options);
 }
 
 // A problem over `count` objects whose non-fluent W has a different value for each.
@@ -77,6 +80,27 @@ TEST(EmittedText, WrapsLargeTables) {
     const std::string text = emitted(problem(100'000));
     EXPECT_LE(widest_line(text), 100u);
     EXPECT_NE(text.find("99999.5\n};"), std::string::npos);
+}
+
+TEST(EmittedText, LaysOutTheStepForModerateValues) {
+    std::string sparse = problem(20);
+    sparse.replace(sparse.find("a(o) : { action-fluent, bool, default = false }"), 47,
+                   "L(o, o) : { non-fluent, bool, default = false }; a(o) : { action-fluent, real, "
+                   "default = 0.0 }; heat(o) : { state-fluent, real, default = 0.0 }");
+    sparse.replace(sparse.find("on'(?o) = on(?o) ^ Bernoulli(0.5) | a(?o);"), 42,
+                   "on'(?o) = on(?o); "
+                   "heat'(?o) = heat(?o) / 2 + (sum_{?p : o} [L(?p, ?o) * (a(?p) + heat(?p))]);");
+    sparse.replace(sparse.find("W(o0) ="), 7, "L(o1, o2) = true; L(o2, o4) = true; W(o0) =");
+    const std::string text = emitted(sparse);
+    EXPECT_NE(text.find("        return rddl::is_moderate<L>(action.a) && "
+                        "rddl::is_moderate<L>(state.heat);\n"),
+              std::string::npos)
+        << text;
+    EXPECT_LE(widest_line(text), 100u);
+    const std::string floats = emitted(sparse, {}, {}, RealType::Float);
+    EXPECT_LE(widest_line(floats), 100u);
+    EXPECT_EQ(count(floats, "std::array<float, o_count> W_ = {"), 1u)
+        << "the simulator's own table serves";
 }
 
 // clang and g++ compute constants with so many steps and no more.

@@ -355,7 +355,7 @@ class Errors(PictureTest):
         cause = "\x1b]0;mine\x07\x1b[2J\x7f</text><script>&\"'"
         (self.folder / "t.jsonl").write_text("".join(lines) + json.dumps({**json.loads(last), "causes": [cause]}) + "\n")
         done = self.rddl("render", "t.jsonl", "--watch", "--svg=a.svg", "--quiet")
-        self.assertIn("ended: ?]0;mine??[2J?</text>", done.stdout)
+        self.assertIn("ended: \ufffd]0;mine\ufffd\ufffd[2J\ufffd</text>", done.stdout)
         self.assertNotRegex(done.stdout, "[\x00-\x09\x0b-\x1f\x7f]")
         self.assertNotIn("<script", (self.folder / "a.svg").read_text())
         xml.etree.ElementTree.parse(self.folder / "a.svg")

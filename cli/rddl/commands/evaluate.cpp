@@ -221,7 +221,7 @@ Command evaluate_command() {
     add_option(
         command, "--policy", "POLICY",
         "random, noop, rddl (the policy block), a policy file, the folder of a run, or a trace "
-        "(.jsonl), whose first episode is a plan",
+        "(.jsonl), whose episodes are played one after the other",
         [options](const std::string& name) { options->policies = {name}; })
         .suggestions = {"random", "noop", "rddl"};
     add_common_options(command, *options);

@@ -104,7 +104,13 @@ void choose_policy(const std::string& name, Policy& policy,
     if (!is_path(name))
         throw UsageError(
             fmt::format("--policy: '{}' is neither random, noop, rddl nor a file", name));
-    if (learned && is_learned_policy(name)) {
+    if (is_learned_policy(name)) {
+        if (!learned)
+            throw UsageError(
+                fmt::format("--policy: '{}' is a trace or what a solver has learned, which this "
+                            "command does not "
+                            "take; --states takes the states of a trace",
+                            name));
         policy = Policy::Learned;
         *learned = name;
         return;
@@ -119,10 +125,12 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
                        std::filesystem::path* learned) {
     add_option(
         command, "--policy", "POLICY",
-        "random (default): legal random actions; noop: default actions; rddl: the policy "
-        "block of the problem; FILE: the policy block in it, what a solver has learned, or the "
-        "actions of a trace (.jsonl): episode 0 plays those of its episode 0 and so on, and after "
-        "its last episode comes its first one again",
+        std::string("random (default): legal random actions; noop: default actions; rddl: the "
+                    "policy block of the problem; FILE: the policy block in it") +
+            (learned ? ", what a solver has learned, or the actions of a trace (.jsonl): episode 0 "
+                       "plays those of its episode 0 and so on, and after its last episode comes "
+                       "its first one again"
+                     : ""),
         [&policy, &file, learned](const std::string& name) {
             choose_policy(name, policy, file, learned);
         })

@@ -16,7 +16,8 @@ struct PythonFiles {
 };
 
 // pyRDDLGym reads two files: beside one that holds both blocks an empty one, in `folder`. It takes
-// the last instance; if another one is wanted, the first file holds what belongs to that alone.
+// the last instance and the last non-fluents; if others are wanted, the first file holds what belongs
+// to the wanted instance alone.
 PythonFiles files_for_python(const ProblemFiles& files, const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli
