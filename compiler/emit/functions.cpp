@@ -448,7 +448,7 @@ StepFunctions step_functions(const Unit& unit) {
 std::string moderate_test(const Unit& unit) {
     Uses uses;
     std::string tests;
-    for (const ir::BufferId id : ir::reals_from_outside(unit.program)) {
+    for (const ir::BufferId id : ir::reals_taken_for_moderate(unit.program)) {
         const ir::Storage storage = unit.program[id].storage;
         (storage == ir::Storage::State ? uses.state : uses.action) = true;
         tests += (tests.empty() ? "" : " && ") + std::string("rddl::is_moderate<L>(") +

@@ -24,7 +24,7 @@ struct StepFunctions {
 };
 StepFunctions step_functions(const Unit& unit);
 
-// Whether all reals that the program reads from the state and the action are moderate.
+// Whether all reals of the state and the action are moderate that the program takes to be.
 std::string moderate_test(const Unit& unit);
 
 // The struct Policy; nothing if there is none.

@@ -54,6 +54,18 @@ void report_large_tables(const ir::Program& program, Diagnostics& diagnostics) {
     }
 }
 
+// Reals that no expression reads may be anything, so that a step does not ask for their values.
+// This is known only now: passes may leave out the last read of a real because it is moderate.
+void forget_ranges_of_unread_reals(ir::Program& program) {
+    std::vector<bool> is_read(program.buffers.size(), false);
+    for (const ir::Node& node : program.nodes) {
+        if (const auto* load = std::get_if<ir::Load>(&node.form))
+            is_read[load->buffer.index] = true;
+    }
+    for (const ir::BufferId id : ir::reals_taken_for_moderate(program))
+        if (!is_read[id.index]) program.buffers[id.index].range.reset();
+}
+
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
                                   std::int64_t memory_limit, bool only_moderate) {
     const std::size_t errors_before = diagnostics.error_count();
@@ -75,6 +87,7 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         if (diagnostics.error_count() == errors_before)
             grounding::warn_of_certain_faults(builder, diagnostics);
     }
+    forget_ranges_of_unread_reals(program);
     report_large_tables(program, diagnostics);
     report_memory(program, memory_limit, diagnostics);
     if (diagnostics.error_count() > errors_before) return std::nullopt;

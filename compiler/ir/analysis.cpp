@@ -632,18 +632,15 @@ std::vector<bool> reachable_nodes(const Program& program) {
     return reachable;
 }
 
-std::vector<BufferId> reals_from_outside(const Program& program) {
-    const std::vector<bool> reachable = reachable_nodes(program);
-    std::set<BufferId> found;
-    for (std::size_t index = 0; index < program.nodes.size(); ++index) {
-        const auto* load = std::get_if<Load>(&program.nodes[index].form);
-        if (!load || !reachable[index]) continue;
-        const Buffer& buffer = program[load->buffer];
-        if (buffer.scalar == Scalar::Real &&
-            (buffer.storage == Storage::State || buffer.storage == Storage::Action))
-            found.insert(load->buffer);
+std::vector<BufferId> reals_taken_for_moderate(const Program& program) {
+    std::vector<BufferId> found;
+    for (std::uint32_t index = 0; index < program.buffers.size(); ++index) {
+        const Buffer& buffer = program.buffers[index];
+        const bool is_from_outside =
+            buffer.storage == Storage::State || buffer.storage == Storage::Action;
+        if (is_from_outside && buffer.range) found.push_back({index});
     }
-    return {found.begin(), found.end()};
+    return found;
 }
 
 bool is_stochastic(const Program& program) {

@@ -111,8 +111,9 @@ std::vector<NodeId> roots_of(const Program& program);
 // By NodeId::index: is the node part of something that the program evaluates?
 std::vector<bool> reachable_nodes(const Program& program);
 
-// The buffers of reals of the state and the action that expressions read.
-std::vector<BufferId> reals_from_outside(const Program& program);
+// The buffers of the state and the action whose reals have a range, so that a step relies on it.
+// Some are not read any more: what is left out for them is right for finite values only.
+std::vector<BufferId> reals_taken_for_moderate(const Program& program);
 
 // Does reset, the step, the reward or a condition draw at random? And does the policy?
 bool is_stochastic(const Program& program);

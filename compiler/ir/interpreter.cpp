@@ -31,7 +31,7 @@ bool does_reset_fill_tables(const Program& program) {
 // The fields of a record that a program for moderate values relies on.
 std::vector<Field> relied_on(const Program& program, Storage storage) {
     if (!program.only_moderate) return {};
-    const std::vector<BufferId> reals = reals_from_outside(program);
+    const std::vector<BufferId> reals = reals_taken_for_moderate(program);
     std::vector<Field> fields = record_layout(program, storage).fields;
     std::erase_if(fields, [&](const Field& field) {
         return std::ranges::find(reals, field.buffer) == reals.end();

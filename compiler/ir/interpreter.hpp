@@ -45,8 +45,8 @@ class Interpreter {
                 std::byte* next, std::byte* observation, Context& context,
                 Outcomes* outcomes) const;
 
-    // Of a program for moderate values only: are all reals moderate that it reads from the state
-    // and the action? Any other program may step from anywhere.
+    // Of a program for moderate values only: are all reals of the state and the action moderate
+    // that it takes to be? Any other program may step from anywhere.
     bool may_step_from(const std::byte* state, const std::byte* action) const;
 
     // Does any termination condition hold?
