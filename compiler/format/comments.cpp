@@ -20,7 +20,7 @@ class Reader {
   public:
     explicit Reader(std::string_view text) : text_(text) {
         constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-        if (text.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+        while (text.substr(at_).starts_with(byte_order_mark)) at_ += byte_order_mark.size();
     }
 
     std::vector<Token> read() {

@@ -112,7 +112,7 @@ TEST(UnnormalisedDiscrete, ChecksItsWeights) {
     EXPECT_EQ(faults(0.0, 0.0), FaultKind::WeightSum);
     EXPECT_EQ(faults(infinity, 1.0), FaultKind::WeightSum);
     EXPECT_EQ(faults(1e308, 1e308), FaultKind::WeightSum);
-    EXPECT_EQ(faults(1.0, -1e-9), FaultKind::Weight);
+    EXPECT_EQ(faults(1.0, -2e-9), FaultKind::Weight);
     EXPECT_EQ(faults(nan, 1.0), FaultKind::Weight);
 }
 
