@@ -20,7 +20,7 @@ struct Declarations {
     std::vector<FluentBuffers> buffers;  // by model::FluentId
 };
 
-// Of a program for moderate values only, or for any (ir::Program::only_moderate).
+// The program is for moderate values only, or for any (ir::Program::only_moderate).
 Declarations declare(const model::Model& model, bool only_moderate);
 
 ir::Scalar scalar_of(model::ValueType type);

@@ -12,7 +12,6 @@
 #include "ir/verify.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace rddlc {

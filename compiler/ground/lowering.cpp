@@ -31,10 +31,6 @@ bool needs_an_object(Reduction op) {
            op == Reduction::ArgMax;
 }
 
-bool is_never_zero(const ir::Facts& facts) {
-    return facts.range && (facts.range->lower > 0 || facts.range->upper < 0);
-}
-
 }  // namespace
 
 Lowering::Lowering(const model::Model& model, const std::vector<FluentBuffers>& buffers,
@@ -277,7 +273,8 @@ ir::NodeId Lowering::product(const model::Apply& form) {
     const ir::NodeId first = lower(first_expr);
     const bool is_scalar = is_fixed_in_scope(first);
     const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
-    const bool is_plain = !is_scalar || is_never_zero(builder_.facts(first)) || keeps_zeros(other);
+    const bool is_plain =
+        !is_scalar || ir::excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;

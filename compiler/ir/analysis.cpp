@@ -329,9 +329,6 @@ class Collector {
     static bool is_never_negative(const std::optional<Range>& range) {
         return range && range->lower >= 0;
     }
-    static bool excludes_zero(const std::optional<Range>& range) {
-        return range && (range->lower > 0 || range->upper < 0);
-    }
 
     // Of the operators that may fault.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {

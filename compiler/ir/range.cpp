@@ -75,6 +75,10 @@ bool is_finite(const Range& range) {
     return magnitude(range) <= std::numeric_limits<float>::max();
 }
 
+bool excludes_zero(const std::optional<Range>& range) {
+    return range && (range->lower > 0 || range->upper < 0);
+}
+
 Range join(Range a, Range b) {
     return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }

@@ -50,7 +50,9 @@ class Search {
             case Operator::Multiply:
                 return number(value) == 0 ? of_product(a, b, value) : Conditions();
             case Operator::Divide:
-                return number(value) == 0 && is_never_zero(b) ? of(a, value) : Conditions();
+                return number(value) == 0 && ir::excludes_zero(builder_.facts(b).range)
+                           ? of(a, value)
+                           : Conditions();
             case Operator::Negate:
                 return number(value) == 0 ? of(a, value) : Conditions();
             case Operator::Add:
@@ -81,11 +83,6 @@ class Search {
     bool is_constant(ir::NodeId id, const ir::Value& value) const {
         const auto* constant = std::get_if<ir::Constant>(&program()[id].form);
         return constant && constant->value == value;
-    }
-
-    bool is_never_zero(ir::NodeId id) const {
-        const auto& range = builder_.facts(id).range;
-        return range && (range->lower > 0 || range->upper < 0);
     }
 
     static Conditions all(Conditions a, const Conditions& b) {

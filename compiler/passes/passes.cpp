@@ -178,7 +178,6 @@ std::int64_t terms_left_out(const std::vector<PassRun>& runs) {
 
 // The step and the reward, and the tables that they read.
 ir::Program step_alone(ir::Program program) {
-    program.only_moderate = true;
     program.preconditions.clear();
     program.invariants.clear();
     program.terminations.clear();
