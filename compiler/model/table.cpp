@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 namespace rddlc {
 namespace {
@@ -48,10 +46,6 @@ double as_real(const Value& value) {
 
 bool is_negative_zero(const Value& value) {
     return identical(value, -0.0);
-}
-
-bool is_finite(const Value& value) {
-    return std::abs(as_real(value)) <= std::numeric_limits<float>::max();
 }
 
 bool identical(const Value& a, const Value& b) {

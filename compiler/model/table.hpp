@@ -20,9 +20,6 @@ bool are_identical(std::span<const Value> a, std::span<const Value> b);
 // 0 and 1 for bools.
 double as_real(const Value& value);
 bool is_negative_zero(const Value& value);
-// Neither nan nor infinite, and not when it is a float, either: simulators may compute in floats
-// (--real=float).
-bool is_finite(const Value& value);
 
 class Table {
   public:
