@@ -57,7 +57,7 @@ class Comparison:
 
 # GCC would put halves of one environment's polynomials into registers together, and lose half of its speed;
 # and keep coefficients that are used twice in registers, and numbers elsewhere. GCC 12 makes wrong copies of
-# constants (rddl/tables.hpp).
+# constants (rddl/values/tables.hpp).
 NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns"]
 # As rddl has it (compiler/driver/shared_object.cpp).
 INLINE_MORE = ["--param", "max-inline-insns-single=400"]

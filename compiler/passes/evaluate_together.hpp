@@ -1,5 +1,5 @@
 // Marks the loops whose iterations may be evaluated several at once, in vector registers, where
-// there is but one environment (rddl/objects.hpp). Nothing else changes.
+// there is but one environment (rddl/object_lanes/objects.hpp). Nothing else changes.
 //
 //     for x in computer                               for x in computer, several at once
 //         next.up[x] = sample bernoulli@0[x](P[x])  =>    next.up[x] = sample bernoulli@0[x](P[x])

@@ -1,6 +1,6 @@
-// Whether expressions can be evaluated for several objects at once (rddl/objects.hpp): they need
-// elements of their own objects, what is the same for all, or what they choose from constants, and no
-// aggregations.
+// Whether expressions can be evaluated for several objects at once (rddl/object_lanes/objects.hpp):
+// they need elements of their own objects, what is the same for all, or what they choose from
+// constants, and no aggregations.
 #pragma once
 
 #include "ir/analysis.hpp"

@@ -1,6 +1,6 @@
 #include "passes/straighten_rows.hpp"
 
-#include <rddl/line.hpp>
+#include <rddl/values/line.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What becomes of actions that violate a precondition, and what is kept of them.
 #pragma once
 
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "passes/make_aggregations_sparse.hpp"
 #include "texts.hpp"
 
-#include <rddl/math.hpp>
+#include <rddl/values/math.hpp>
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include "support/failure.hpp"
 #include "support/files.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 
 #include <dlfcn.h>
 #include <fmt/format.h>

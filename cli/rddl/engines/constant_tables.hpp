@@ -3,7 +3,7 @@
 
 #include "ir/ir.hpp"
 
-#include <rddl/constants.hpp>
+#include <rddl/interface/constants.hpp>
 
 #include <cstdint>
 #include <deque>

@@ -4,7 +4,7 @@
 #include "ir/details.hpp"
 #include "ir/interpreter.hpp"
 
-#include <rddl/details.hpp>
+#include <rddl/interface/details.hpp>
 #include <rddl/simulator.h>
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include "ir/interpreter.hpp"
 #include "ir/layout.hpp"
 
-#include <rddl/abi.hpp>
+#include <rddl/interface/abi.hpp>
 
 #include <optional>
 #include <string>

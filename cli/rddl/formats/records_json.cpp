@@ -3,7 +3,7 @@
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
 
-#include <rddl/describe.hpp>
+#include <rddl/interface/describe.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,7 @@
 #include "ir/layout.hpp"
 #include "support/match.hpp"
 
-#include <rddl/fault_text.hpp>
+#include <rddl/interface/fault_text.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

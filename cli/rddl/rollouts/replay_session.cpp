@@ -6,7 +6,7 @@
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

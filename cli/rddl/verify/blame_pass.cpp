@@ -3,7 +3,7 @@
 #include "ir/interpreter.hpp"
 #include "ir/verify.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 
