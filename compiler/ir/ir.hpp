@@ -226,7 +226,7 @@ struct Loop {
     VariableId variable;
     Block body;
     // With the loops right inside of it, it may run over several objects at once: no iteration
-    // needs another (passes/evaluate_together.hpp).
+    // needs another (passes/lanes/evaluate_together.hpp).
     bool several_at_once = false;
 };
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
