@@ -79,8 +79,8 @@ def build_references(options: argparse.Namespace) -> Path:
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
     program = options.folder / "handwritten"
     measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json")
-    sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
-    folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler", ROOT]
+    sources = [FOLDER / "main.cpp", *(ROOT / f"workbench/{name}.cpp" for name in measuring)]
+    folders = [options.folder, ROOT / "runtime", ROOT / "workbench", ROOT]
     libraries = [options.build / "solvers/librddl_solvers.a", options.build / "support/librddlc_support.a",
                  "-lfmt", "-lutf8proc", "-ldl", "-pthread"]
     run([options.cxx, *FLAGS, *INLINING, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])

@@ -7,7 +7,7 @@
 #
 #   rddlc_stage(check SOURCES check.cpp ... USES model ast support [LIBRARIES fmt::fmt ...] [FAST])
 #
-# FAST is for what runs long: compiled for speed.
+# USES names stages, and libraries of ours that are none as rddl::solvers. FAST is for what runs long: compiled for speed.
 # Headers are included as "check/check.hpp"; including a stage that is not in USES does not compile.
 include(RddlcUnity)
 
@@ -22,7 +22,7 @@ endfunction()
 function(rddlc_stage stage)
   cmake_parse_arguments(ARG "FAST" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   rddlc_include_folder(include ${CMAKE_CURRENT_SOURCE_DIR})
-  list(TRANSFORM ARG_USES PREPEND rddlc_)
+  list(TRANSFORM ARG_USES PREPEND rddlc_ REGEX "^[a-z_]+$")
   add_library(rddlc_${stage} STATIC ${ARG_SOURCES})
   target_include_directories(rddlc_${stage} PUBLIC $<BUILD_INTERFACE:${include}>)
   target_link_libraries(rddlc_${stage} PUBLIC ${ARG_USES} PRIVATE ${ARG_LIBRARIES} rddlc_options)

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ["support", "compiler", "runtime", "render", "solvers", "cli", "python/native", "templates"]
+FOLDERS = ["support", "compiler", "runtime", "render", "solvers", "workbench", "cli", "python/native", "templates"]
 PRINTS = re.compile(r"\bfmt::print\(|\bstd::c(out|err|log)\b|\b(std::)?(puts|fputs|putchar|printf|fprintf|perror)\(")
 KNOWS_LOCALE = re.compile(r"\b(v?s?n?printf|strto(d|f|ld)|atof|setlocale|imbue)\(|\bstd::sto(d|f|ld)\b"
                           r"|\{:[^}\"]*L\}")
@@ -18,7 +18,7 @@ KNOWS_LOCALE = re.compile(r"\b(v?s?n?printf|strto(d|f|ld)|atof|setlocale|imbue)\
 PRINTERS = {
     "support/program.cpp": "print() and tell() themselves",
     "compiler/ir/verify.cpp": "a mistake of our own, before the program ends",
-    "cli/rddl/pictures/watch.cpp": "escape codes that move a terminal's cursor; its texts are printable",
+    "workbench/pictures/watch.cpp": "escape codes that move a terminal's cursor; its texts are printable",
 }
 
 
