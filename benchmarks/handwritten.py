@@ -81,7 +81,7 @@ def build_references(options: argparse.Namespace) -> Path:
     measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json")
     sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
     folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler", ROOT]
-    libraries = [options.build / "solvers/librddl_solvers.a", options.build / "compiler/support/librddlc_support.a",
+    libraries = [options.build / "solvers/librddl_solvers.a", options.build / "support/librddlc_support.a",
                  "-lfmt", "-lutf8proc", "-ldl", "-pthread"]
     run([options.cxx, *FLAGS, *INLINING, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])
     return program

@@ -95,7 +95,7 @@ def summaries(rddl: str) -> dict[str, str]:
 def draw_scenes(rddl: str) -> None:
     """Those that are shipped, for docs/scenes.md; their states are those of the visualizers."""
     for shot in SHOTS:
-        scene = ROOT / f"runtime/render/scenes/{shot.name}.json"
+        scene = ROOT / f"render/scenes/{shot.name}.json"
         if scene.exists():
             with_scene = Shot(shot.name, shot.problem, shot.instance, shot.step,
                               options=["--scene", str(scene)])

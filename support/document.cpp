@@ -1,4 +1,4 @@
-#include "format/document.hpp"
+#include "support/document.hpp"
 
 #include "support/match.hpp"
 
@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-namespace rddlc::format {
+namespace rddlc::document {
 
 // With a name, since Document is known to other files.
 namespace document_nodes {
@@ -307,4 +307,4 @@ void render(const Doc& doc, std::string head, std::size_t indent, std::vector<Te
     Renderer(std::move(head), lines).render(doc, indent);
 }
 
-}  // namespace rddlc::format
+}  // namespace rddlc::document

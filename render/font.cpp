@@ -4,7 +4,7 @@
 
 #include <cairo-ft.h>
 
-// RDDL_FONT_FILE is put here byte by byte (runtime/render/CMakeLists.txt names the file).
+// RDDL_FONT_FILE is put here byte by byte (render/CMakeLists.txt names the file).
 __asm__(
     ".section .rodata\n"
     ".balign 16\n"

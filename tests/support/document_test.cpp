@@ -1,9 +1,9 @@
 // The algebra of documents.
-#include "format/document.hpp"
+#include "support/document.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rddlc::format {
+namespace rddlc::document {
 namespace {
 
 std::string rendered(const Doc& doc, std::string head = "") {
@@ -67,4 +67,4 @@ TEST(Document, FlatWidthIsThatOfOneLine) {
 }
 
 }  // namespace
-}  // namespace rddlc::format
+}  // namespace rddlc::document

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace rddlc::format {
+namespace rddlc::document {
 
 inline constexpr std::size_t page_width = 100;
 inline constexpr std::size_t indentation = 4;
@@ -55,4 +55,4 @@ struct TextLine {
 // other lines are indented by `indent`.
 void render(const Doc& doc, std::string head, std::size_t indent, std::vector<TextLine>& lines);
 
-}  // namespace rddlc::format
+}  // namespace rddlc::document
