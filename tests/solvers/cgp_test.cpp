@@ -8,6 +8,7 @@
 #include "solvers/cgp/search.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/training/run_log.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -67,6 +68,27 @@ TEST(Archive, RefusesWhatIsNoBoolAndOtherSizes) {
     std::vector<float> four(4);
     LoadingArchive other(longer.bytes());
     EXPECT_THROW(other.fixed(four), Failure);
+}
+
+TEST(RunLog, RefusesWhatIsNoLog) {
+    const auto refused = [](const std::string& columns, const std::vector<double>& numbers) {
+        SavingArchive saved;
+        saved(columns);
+        saved(numbers);
+        LoadingArchive archive(saved.bytes());
+        RunLog log;
+        try {
+            log.archive(archive);
+        } catch (const Failure&) {
+            return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(refused("loss\n", {1.5, 2000, 0.5, -3}));
+    EXPECT_TRUE(refused("loss\n", {1.5, 2000, 0.5})) << "a row without its loss";
+    EXPECT_TRUE(refused("loss", {1.5, 2000, 0.5})) << "a column whose name has no end";
+    for (const double steps : {8e264, -1.0, 0.5, std::nan("")})
+        EXPECT_TRUE(refused("loss\n", {1.5, steps, 0.5, -3})) << steps;
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,
