@@ -113,11 +113,11 @@ struct ProblemRow {
 
 void print_table(const std::vector<RepositoryProblem>& problems,
                  const std::vector<ProblemRow>& rows) {
-    Table table({{"problem"},
-                 {"instances", Align::Right},
-                 {"without errors", Align::Right},
-                 {"errors", Align::Right},
-                 {"warnings", Align::Right}});
+    TextTable table({{"problem"},
+                     {"instances", Align::Right},
+                     {"without errors", Align::Right},
+                     {"errors", Align::Right},
+                     {"warnings", Align::Right}});
     for (std::size_t i = 0; i < rows.size(); ++i) table.add_row(rows[i].cells(problems[i].name));
     print("{}\n", table.text());
 }

@@ -70,17 +70,17 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
                  const EvaluationOptions& options) {
     print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
           options.episodes.episodes, options.episodes.seed);
-    Table table({{"policy"},
-                 {"return", Align::Right},
-                 {"discounted", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right},
-                 {"length", Align::Right},
-                 {"ended", Align::Right},
-                 {"illegal", Align::Right},
-                 {"faults", Align::Right},
-                 {"steps/s", Align::Right}});
+    TextTable table({{"policy"},
+                     {"return", Align::Right},
+                     {"discounted", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right},
+                     {"length", Align::Right},
+                     {"ended", Align::Right},
+                     {"illegal", Align::Right},
+                     {"faults", Align::Right},
+                     {"steps/s", Align::Right}});
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
         table.add_row(

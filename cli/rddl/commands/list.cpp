@@ -98,7 +98,7 @@ std::size_t instance_count(const std::vector<ListedProblem>& all) {
 
 void print_table(const std::vector<ListedProblem>& all, const Repository& repository) {
     constexpr std::size_t description_width = 32;
-    Table table({{"problem"}, {"instances"}, {"kind"}, {"actions"}, {"description"}});
+    TextTable table({{"problem"}, {"instances"}, {"kind"}, {"actions"}, {"description"}});
     for (const ListedProblem& listed : all)
         table.add_row({listed.problem.name, instances_text(listed.problem.instances),
                        kind_text(listed), actions_text(listed),

@@ -89,11 +89,11 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
           name_of(options.rollouts.policy), options.rollouts.seed, name_of(options.load.engine));
-    Table table({{""},
-                 {"mean", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right}});
+    TextTable table({{""},
+                     {"mean", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right}});
     const auto add = [&](std::string what, const solvers::Estimate& s) {
         table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
                        number_text(s.minimum), number_text(s.maximum)});
