@@ -40,7 +40,7 @@ std::vector<Stepping> steppings(const rddl_simulator& simulator, std::int64_t ba
 
 double first_step_seconds(const rddl_simulator& simulator) {
     const auto begin = std::chrono::steady_clock::now();
-    const solvers::Batch batch = solvers::create_batch(simulator, course_options(1));
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, course_options(1));
     const rddl_transition nothing{};
     simulator.step(batch.get(), simulator.problem->default_action, &nothing);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
