@@ -1,15 +1,15 @@
 // The native part of the Python package; python/rddlc/ is what people use.
-#include "native/batch.hpp"
 #include "native/enumeration.hpp"
 #include "native/learners.hpp"
 #include "native/painter.hpp"
 #include "native/problem.hpp"
 #include "native/row_writer.hpp"
+#include "native/vector_env.hpp"
 
 NB_MODULE(_native, module) {
     module.doc() = "Simulators of RDDL problems, for the package rddlc.";
     rddlc::python::add_problem(module);
-    rddlc::python::add_batch(module);
+    rddlc::python::add_vector_env(module);
     rddlc::python::add_row_writer(module);
     rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);

@@ -61,7 +61,7 @@ class Entries {
 
 }  // namespace
 
-RowWriter::RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits,
+RowWriter::RowWriter(VectorEnv& batch, std::int64_t first, std::vector<RowLimits> limits,
                      bool categories)
     : batch_(batch), first_(first), limits_(std::move(limits)), categories_(categories) {
     if (first < 0 || first + static_cast<std::int64_t>(limits_.size()) > batch.action_columns() ||
@@ -121,7 +121,7 @@ void add_row_writer(nb::module_& module) {
                           "does not take.")
         .def(
             "__init__",
-            [](RowWriter* self, Batch& batch, std::int64_t first,
+            [](RowWriter* self, VectorEnv& batch, std::int64_t first,
                const std::vector<std::tuple<float, float, float>>& limits, bool categories) {
                 std::vector<RowLimits> all;
                 for (const auto& [lower, upper, offset] : limits)

@@ -1,7 +1,7 @@
 // Actions of many environments, checked and written in one pass.
 #pragma once
 
-#include "native/batch.hpp"
+#include "native/vector_env.hpp"
 
 #include <nanobind/nanobind.h>
 
@@ -21,7 +21,7 @@ struct RowLimits {
 // are int64, or numbers, which are float.
 class RowWriter {
   public:
-    RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories);
+    RowWriter(VectorEnv& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories);
 
     // False, and nothing is changed, for rows of another kind or size, and those with an entry
     // outside its limits or that is nan.
@@ -33,7 +33,7 @@ class RowWriter {
     template <class T>
     void copy(const T* entries);
 
-    Batch& batch_;
+    VectorEnv& batch_;
     std::int64_t first_;
     std::vector<RowLimits> limits_;
     bool categories_;

@@ -53,7 +53,7 @@ class DictionaryActions:
     bools, too."""
 
     def __init__(
-        self, problem: Problem, batch: _native.Batch, *, lifted: bool, limits_all: bool
+        self, problem: Problem, batch: _native.VectorEnv, *, lifted: bool, limits_all: bool
     ) -> None:
         model = problem.model
         columns = columns_of(model.actions)

@@ -68,7 +68,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         }
         self.problem = problem
         self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self._batch = _native.Batch(
+        self._batch = _native.VectorEnv(
             problem.simulator,
             horizon=batch_horizon(horizon),
             records=observations == "dict",
@@ -77,7 +77,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._seed: int | None = None
         # An episode may go on with other random numbers than its own.
         self._luck: int | None = None  # the seed of these
-        self._own: _native.Batch | None = None  # a batch that has the episode's own
+        self._own: _native.VectorEnv | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
@@ -235,7 +235,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     def _why_violated(self) -> str:
         if self.problem.has_details:
             return self._batch.explain_violation(0)
-        batch = _native.Batch(self.problem.detailed, values=False)
+        batch = _native.VectorEnv(self.problem.detailed, values=False)
         batch.reset()
         record = np.zeros(self.model.state_size, np.uint8)
         self._batch.read_state(0, record)
@@ -382,7 +382,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self.spec,
         )
 
-    def _take(self, other: RDDLEnv, batch: _native.Batch) -> None:
+    def _take(self, other: RDDLEnv, batch: _native.VectorEnv) -> None:
         self._batch = batch
         self._connect()
         self._seed, self._ended, self._luck = other._seed, other._ended, other._luck

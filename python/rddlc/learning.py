@@ -86,7 +86,7 @@ class ChoiceActions:
     """
 
     def __init__(
-        self, problem: Problem, batch: _native.Batch, *, box: bool, normalize: bool
+        self, problem: Problem, batch: _native.VectorEnv, *, box: bool, normalize: bool
     ) -> None:
         self.plan: ActionPlan = plan_of(problem)
         self._batch, self._values = batch, batch.action_values
@@ -102,7 +102,7 @@ class ChoiceActions:
         self._quick_rows = None if self._squash is not None else self._new_row_writer(batch)
         self._quick = quick_writer(self.plan, self._values[0]) if self._squash is None else None
 
-    def _new_row_writer(self, batch: _native.Batch) -> _native.RowWriter | None:
+    def _new_row_writer(self, batch: _native.VectorEnv) -> _native.RowWriter | None:
         """For rows of categories or of numbers, if each sets a value of its own and these stand
         together."""
         plan = self.plan
@@ -146,7 +146,7 @@ class ChoiceActions:
         self.write_rows(_first_row(action))
 
     def step_rows(self, actions: Any, into: Any) -> bool:
-        """A step by a row for each environment; `into`: see `_native.Batch.step`. Whether an episode
+        """A step by a row for each environment; `into`: see `_native.VectorEnv.step`. Whether an episode
         has ended. Raises ActionError, and has changed nothing then."""
         if self._quick_rows is not None:
             ended = self._quick_rows.step(actions, into)

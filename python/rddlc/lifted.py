@@ -37,7 +37,7 @@ class LiftedRows:
 class LiftedActions:
     """Writes actions {"push": (n, *shape), ...}; fluents that are not there have their default."""
 
-    def __init__(self, problem: Problem, batch: _native.Batch) -> None:
+    def __init__(self, problem: Problem, batch: _native.VectorEnv) -> None:
         model = problem.model
         self._batch = batch
         self._views = lifted_views(batch.actions, model.actions)

@@ -21,7 +21,7 @@ class ActionMasks:
     """For each environment of a batch and each category of an action whether it is legal, while all
     others have their default."""
 
-    def __init__(self, problem: Problem, batch: _native.Batch, writer: Any) -> None:
+    def __init__(self, problem: Problem, batch: _native.VectorEnv, writer: Any) -> None:
         self._problem, self._batch = problem, batch
         self._space: spaces.Space[Any] = writer.space
         self._plan: ActionPlan | None = getattr(writer, "plan", None)

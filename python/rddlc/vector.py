@@ -51,7 +51,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         num_envs = whole("num_envs", num_envs, 1)
         self.metadata = {**self.metadata, "autoreset_mode": mode}
         self.problem, self.num_envs = problem, num_envs
-        self._batch = _native.Batch(
+        self._batch = _native.VectorEnv(
             problem.simulator,
             environments=num_envs,
             threads=thread_count(threads),

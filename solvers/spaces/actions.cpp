@@ -63,7 +63,7 @@ double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
     if (simulator.problem->precondition_count == 0 || is_stopped(&stops)) return otherwise;
     rddl_batch_options options{};
     options.thread_count = 1;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     std::vector<std::byte> action(records.record_size());
     std::vector<float> values = defaults;
     double largest = 0;

@@ -525,7 +525,7 @@ TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     for (const int p : {0, 1}) {
         rddl_batch_options options{};
         options.environment_count = 1;
-        const Batch batch = create_batch(simulator, options);
+        const BatchHandle batch = create_batch(simulator, options);
         require_done(simulator, simulator.reset(batch.get(), nullptr, nullptr));
         double first[2], least[2], most[2], values[2];
         require_done(simulator, simulator.get_observation_values(batch.get(), RDDL_DOUBLE, values));

@@ -21,6 +21,9 @@ struct ProblemDescription {
     solvers::Refusals refusals;  // of learners
 };
 
+// Fails on errors in the files, which are printed.
+ProblemDescription describe(const ProblemFiles& files);
+
 // Tables, at most about 100 columns wide.
 std::string description_text(const ProblemDescription& description);
 

@@ -67,7 +67,7 @@ class VerifiedEnvironments {
 
     Simulator simulator_;
     std::int64_t count_;
-    std::vector<solvers::Batch> batches_;
+    std::vector<solvers::BatchHandle> batches_;
     std::vector<std::byte> policy_actions_;  // empty: it was not asked since the last step
 };
 

@@ -20,7 +20,7 @@
 
 namespace rddlc::python {
 
-struct BatchSettings {
+struct VectorEnvSettings {
     std::int64_t environments = 1;
     int threads = 0;  // 0: one per core
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
@@ -41,15 +41,15 @@ struct Outputs {
 // Its arrays stay where they are, so that Python looks at them without copies. Values are the same
 // numbers as records, a column each. Functions that step release Python's lock. A step that Ctrl-C
 // does not wait for is made nevertheless; what comes next waits for it.
-class Batch {
+class VectorEnv {
   public:
-    Batch(workbench::Simulator simulator, const BatchSettings& settings);
-    Batch(const Batch& other);
-    Batch& operator=(const Batch&) = delete;
+    VectorEnv(workbench::Simulator simulator, const VectorEnvSettings& settings);
+    VectorEnv(const VectorEnv& other);
+    VectorEnv& operator=(const VectorEnv&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
     const workbench::Simulator& shared_simulator() const { return simulator_; }
-    const BatchSettings& settings() const { return settings_; }
+    const VectorEnvSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
@@ -74,7 +74,7 @@ class Batch {
                       std::span<const std::int64_t> steps);
     // Its environments, and what they will draw, are those of the other, which has as many of the
     // same simulator.
-    void become(Batch& other);
+    void become(VectorEnv& other);
     void read_interm(std::int64_t environment, std::byte* record);
     std::pair<std::int64_t, std::int64_t> progress(std::int64_t environment);  // steps, episodes
     std::uint8_t causes(std::int64_t environment);
@@ -109,8 +109,8 @@ class Batch {
     bool has_ended() const;
 
     workbench::Simulator simulator_;  // outlives the batch
-    BatchSettings settings_;
-    solvers::Batch batch_;
+    VectorEnvSettings settings_;
+    solvers::BatchHandle batch_;
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
     Arrays arrays_;
@@ -118,6 +118,6 @@ class Batch {
     LongCalls calls_;  // the last one: a step that goes on writes into the others
 };
 
-void add_batch(nanobind::module_& module);
+void add_vector_env(nanobind::module_& module);
 
 }  // namespace rddlc::python
