@@ -73,7 +73,7 @@ class Enumeration {
             causes |= RDDL_TRUNCATED_INVARIANT;
         if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
         if (context.fault)
-            throw Refused("one of the outcomes has no result: sample() tells the fault");
+            throw Refused("one of the outcomes has no result: sample() reports the fault");
         const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
         Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
         mass.probability += outcomes.probability();

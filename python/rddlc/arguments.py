@@ -73,7 +73,7 @@ def finite(name: str, given: Any) -> float:
 
 def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
     if not any(given is each or (isinstance(given, str) and given == each) for each in known):
-        raise ArgumentError(f"{name} is {shown(given)}, which is none of {_listed(map(repr, known))}")
+        raise ArgumentError(f"{name} is {shown(given)}, which is not one of {_listed(map(repr, known))}")
     return given
 
 

@@ -198,7 +198,7 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
         most, cost = self._most_reward, self._most_reward - outcome.reward
         if cost < -COST_ERROR * max(1.0, abs(most)):
             raise Error(
-                f"a step earns {outcome.reward:g}: say most_reward={outcome.reward:g} or more, "
+                f"a step has the reward {outcome.reward:g}: say most_reward={outcome.reward:g} or more, "
                 f"instead of {most:g}"
             )
         left = self.transitions.horizon - outcome.state.steps if outcome.state.causes else 0

@@ -96,7 +96,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if actions in ("simplified", "box"):
             box = actions == "box"
             return ChoiceActions(self.problem, self._batch, box=box, normalize=normalize)
-        raise ArgumentError(f"actions is {actions!r}, which is none of 'simplified', 'box' and 'dict'")
+        raise ArgumentError(f"actions is {actions!r}, which is not one of 'simplified', 'box' and 'dict'")
 
     @property
     def model(self) -> Model:

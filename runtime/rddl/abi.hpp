@@ -63,7 +63,7 @@ inline rddl_error check_options(const rddl_batch_options& given, std::int64_t la
         return bad_argument("thread_count is negative: ", std::int64_t{given.thread_count});
     if (number_of(given.autoreset) < RDDL_AUTORESET_DISABLED ||
         number_of(given.autoreset) > RDDL_AUTORESET_SAME_STEP)
-        return bad_argument("autoreset is none of the three: ",
+        return bad_argument("autoreset is not one of the three: ",
                             std::int64_t{number_of(given.autoreset)});
     if (given.horizon < RDDL_NO_HORIZON)
         return bad_argument("horizon is negative, and not RDDL_NO_HORIZON: ", given.horizon);

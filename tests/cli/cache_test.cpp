@@ -171,7 +171,7 @@ TEST_F(Program, TellsOfWrongEnvironmentVariables) {
     };
     EXPECT_EQ(
         told("RDDL_INSTRUCTION_SET=foo "),
-        "rddl: error: RDDL_INSTRUCTION_SET is 'foo', which is none of sse2, avx2 and avx512\n");
+        "rddl: error: RDDL_INSTRUCTION_SET is 'foo', which is not one of sse2, avx2 and avx512\n");
     EXPECT_EQ(told("RDDLC_INCLUDE=/nonexistent "),
               "rddl: error: RDDLC_INCLUDE is '/nonexistent', which holds no rddl/simulator.hpp\n");
     EXPECT_EQ(told("RDDL_INSTRUCTION_SET= "), "");

@@ -163,7 +163,7 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     const auto refuses = [&](const std::string& sentence, const std::string& more = "") {
         const Outcome outcome = run(on_tanks("train cgp", options + "--resume " + more));
         EXPECT_EQ(outcome.status, 1);
-        expect_part(outcome.err, "cannot go on from 'c/checkpoint': " + sentence);
+        expect_part(outcome.err, "cannot resume from 'c/checkpoint': " + sentence);
     };
     for (const std::size_t at :
          {std::size_t{20}, std::size_t{26}, whole.size() / 2, whole.size() - 1}) {
@@ -175,12 +175,12 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     write_file(file, whole.substr(0, whole.size() - 1));
     refuses("it is damaged");
     write_file(file, whole.substr(0, 10));
-    refuses("it is no checkpoint, or one of another version of this program");
+    refuses("it is not a checkpoint, or one of another version of this program");
     std::filesystem::resize_file(file, 100'000'000'000);
     refuses("it has 93.1 GiB, more than the limit of 4 GiB");
     std::filesystem::remove(file);
     std::filesystem::create_symlink("/dev/zero", file);
-    refuses("it is no checkpoint, nor a file");
+    refuses("it is not a regular file");
     std::filesystem::remove(file);
     write_file(file, whole);
     const Outcome ppo = run(on_tanks("train ppo", "--resume --out c"));
@@ -253,9 +253,8 @@ TEST_F(LearningProgram, ReplaysRecordedPlans) {
     EXPECT_NE(run(on_tanks("evaluate", "--policy plan.jsonl")).err.find("plan.jsonl', line 1"),
               std::string::npos);
     write_file(folder_ / "empty.jsonl", "\n");
-    EXPECT_NE(
-        run(on_tanks("evaluate", "--policy empty.jsonl")).err.find("there is no action in it"),
-        std::string::npos);
+    EXPECT_NE(run(on_tanks("evaluate", "--policy empty.jsonl")).err.find("it holds no actions"),
+              std::string::npos);
 }
 
 // Width and height in the header of a PNG file.
@@ -376,7 +375,7 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     const Outcome fitting = run(on_tanks("train ppo", "--steps 100 --memory-limit 2M --out f"));
     EXPECT_EQ(fitting.status, 0) << fitting.err;
     expect_part(fitting.err, " in place of 128, since this problem is large");
-    refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
+    refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is not a CGP function");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
     refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");
     write_file(folder_ / "broken.json",

@@ -228,7 +228,7 @@ class Movies(PictureTest):
         # A step of 0.05 s takes 0.1 s.
         self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
-        self.assertIn("does not tell how long a step is", refused.stderr)
+        self.assertIn("does not say how long a step is", refused.stderr)
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", "--fps=3", status=USAGE)
         self.assertIn("--fps and --real-time-factor both", refused.stderr)
         self.assertEqual(self.left_behind(), ["a.gif"])
@@ -362,7 +362,7 @@ class Errors(PictureTest):
 
     def test_what_is_no_trace(self):
         (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)
-        self.assertIn("'t.bin' is no trace: its first line is no JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
+        self.assertIn("'t.bin' is not a trace: its first line is not JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
         text = self.refuse("render", EXAMPLE, "1", "--gif=a.gif")
         self.assertIn("is a folder, and no trace", text)
         self.assertIn("rddl run --gif", text)

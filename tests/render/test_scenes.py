@@ -179,9 +179,9 @@ class Scenes(PictureTest):
     def test_mistakes_in_the_file(self):
         circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
         for scene, complaint in (
-                ("{", "this is no JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
+                ("{", "this is not JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
                 ('{"shapes": [], "shapes": []}', "given twice"), ('{"world": {"left": 1e400}, "shapes": []}', "1e400"),
-                ('{"shapes": [], "about": "\\ud800"}', "this is no JSON"),
+                ('{"shapes": [], "about": "\\ud800"}', "this is not JSON"),
                 ({"shapes": [{}]}, "'shape' of the shape is missing"),
                 ({"shapes": [{"shape": "cirle"}]}, "did you mean 'circle'?"),
                 ({"shapes": [{"shape": "circle"}]}, "'x' of the circle is missing"),

@@ -113,7 +113,7 @@ class Replacing(CommandTest):
         result = self.run_command(RDDL, "fmt", "pipe.rddl")
         writer.join()
         self.assertEqual(result.status, DIAGNOSED, result)
-        self.assertIn("'pipe.rddl' is no regular file", result.errors)
+        self.assertIn("'pipe.rddl' is not a regular file", result.errors)
 
     def test_descriptors_are_written_to(self):
         """What stands before in the same file stays."""

@@ -360,7 +360,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
         return complaint([&] { read_ppo_policy(car, other); });
     };
     EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is not complete, or no JSON");
-    EXPECT_EQ(read("{}"), "it is no policy of PPO");
+    EXPECT_EQ(read("{}"), "it is not a PPO policy");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
     EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 4");

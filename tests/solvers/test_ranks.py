@@ -112,7 +112,7 @@ exec "{OPTIONS.rddl}" "$@"
         os.kill(self.last_rank(run.pid), signal.SIGKILL)
         told = run.communicate(timeout=60)[0]
         self.assertNotEqual(run.returncode, 0)
-        self.assertIn("waits in vain for another one, which has ended", told)
+        self.assertIn("lost contact with another rank, which has ended", told)
         self.assertIn("the last checkpoint is whole", told)
         self.assertEqual(self.file("killed", "checkpoint"), before)
         self.assertEqual(self.train("ppo", "killed", [*options, "--resume", "--time", "1"], 2).returncode, 0)

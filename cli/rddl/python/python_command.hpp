@@ -1,4 +1,4 @@
-// Which Python runs programs of ours, and what they are given.
+// Chooses the Python that runs our scripts, and passes their arguments.
 #pragma once
 
 #include "problems/problem_lookup.hpp"
@@ -16,8 +16,8 @@ struct PythonFiles {
 };
 
 // pyRDDLGym reads two files: beside one that holds both blocks an empty one, in `folder`. It takes
-// the last instance and the last non-fluents; if others are wanted, the first file holds what belongs
-// to the wanted instance alone.
+// the last instance and the last non-fluents; if others are wanted, the first file holds what
+// belongs to the wanted instance alone.
 PythonFiles files_for_python(const ProblemFiles& files, const std::filesystem::path& folder);
 
 }  // namespace rddlc::cli
