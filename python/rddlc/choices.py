@@ -29,7 +29,6 @@ class ActionPlan:
     of the default action: of a bool, in its order, to its other value; of an object or an int to
     each other value; of a number to the one that is chosen for it. The last category changes
     nothing.
-
     """
 
     defaults: Array  # (columns,)

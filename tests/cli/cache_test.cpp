@@ -1,4 +1,5 @@
-// What is kept between runs: compiled once, made anew where it is damaged, and nobody else's.
+// The cache between runs: things are compiled once, compiled again if damaged, and not shared with
+// other users.
 #include "program.hpp"
 
 #include <fcntl.h>
@@ -91,7 +92,7 @@ TEST_F(Cache, KeepsWhatIsPreparedForTheLatestToolchains) {
 
 TEST_F(Cache, CompilesWithoutAPrecompiledHeader) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
-    // A compiler that makes none is not asked again.
+    // A compiler that cannot precompile headers is not asked again.
     write_file(folder_ / "log.sh",
                "echo \"$@\" >>log; case \"$*\" in *c++-header*) exit 1; esac; exec c++ \"$@\"");
     EXPECT_EQ(run(run_it, "CXX='sh log.sh'").status, 0);

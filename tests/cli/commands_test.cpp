@@ -1,4 +1,4 @@
-// What users see of list, info, check, run and bench.
+// The output of list, info, check, run and bench.
 #include "program.hpp"
 
 #include <algorithm>
@@ -199,7 +199,7 @@ TEST_F(Program, DescribesAProblem) {
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
 }
 
-// As training would refuse it, but without a step.
+// Training would refuse it with the same sentence, but this takes no step.
 TEST_F(Program, TellsWhichLearnersTakeAProblem) {
     write_file(folder_ / "idle.rddl",
                "domain idle { pvariables { x : { state-fluent, real, default = 1.0 }; };\n"
@@ -357,7 +357,7 @@ TEST_F(Program, ChecksADomainAlone) {
                               "no instance was given: "})
         EXPECT_NE(bad.err.find(place), std::string::npos) << place << '\n' << bad.err;
 
-    // Nobody else can do without, nor is a second file meant to be another domain.
+    // Other commands need an instance, and a second file is not read as another domain.
     EXPECT_EQ(run("info domain.rddl").status, 1);
     EXPECT_EQ(run("check domain.rddl domain.rddl").status, 1);
 }
@@ -423,8 +423,7 @@ TEST_F(Program, CountsFaults) {
         << message;
 }
 
-// Lamp b heats up so fast that it faults in most episodes; those of the others go on to the
-// horizon.
+// Lamp b heats up so fast that it faults in most episodes; the others continue to the horizon.
 constexpr const char* risky_problem = R"(domain risky {
     types { lamp : object; };
     pvariables {

@@ -5,7 +5,8 @@
 namespace rddlc {
 namespace {
 
-// With tables: NEXT has one object a row but for b3, TWO has several; CODE tells objects apart.
+// A problem with tables: NEXT has one object a row except for b3, TWO has several; CODE
+// distinguishes objects.
 Texts of(const std::string& cpf_of_x) {
     Problem problem{
         .pvariables =
@@ -45,7 +46,8 @@ TEST(IndexDirectly, TakesTheObjectThatIsEqual) {
               "0.0 + state.v[state.at]")
         << "a sum is never -0.0";
     EXPECT_EQ(of("2.0 + sum_{?c : color} [(at == ?c) * v(?c)]").after, "2.0 + state.v[state.at]");
-    EXPECT_EQ(of("sum_{?c : color} [(at == ?c) * abs[v(?c)]]").after, "absolute(state.v[state.at])");
+    EXPECT_EQ(of("sum_{?c : color} [(at == ?c) * abs[v(?c)]]").after,
+              "absolute(state.v[state.at])");
     EXPECT_EQ(of("prod_{?c : color} [if (?c == at) then v(?c) else 1]").after, "state.v[state.at]");
 }
 

@@ -450,20 +450,21 @@ class Terminal(PictureTest):
         try:
             while chunk := os.read(screen, 1 << 16):
                 text += chunk
-        except OSError:  # how Linux tells that the other end is closed
+        except OSError:  # Linux reports in this way that the other end is closed
             pass
         os.close(screen)
         return text.decode().replace("\r\n", "\n")
 
     def watch(self, *words, **options) -> str:
-        """What the terminal gets of three steps."""
+        """Returns the terminal output of three steps."""
         process, screen = self.start(*words, "--horizon=3", **options)
         text = self.rest_of(screen)
         self.assertEqual(process.wait(), SUCCESS, text)
         return text
 
     def test_progress(self):
-        """While files are drawn, a bar on the terminal that is gone in the end; none with --quiet."""
+        """A bar on the terminal shows that files are drawn, and is wiped at the end; --quiet hides
+        it."""
         self.run_car("--trace=t.jsonl", "--policy=noop", horizon=900)
         for option, bars in ([], True), (["--quiet"], False):
             ours, theirs = pty.openpty()
@@ -531,7 +532,8 @@ class Terminal(PictureTest):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 0  step \d+ / 30", text, re.M)), 31)
-        # With files of one episode all are shown, too, and a trace is the same as ever.
+        # The options for files of one episode do not change that all are shown, and a trace is the
+        # same as ever.
         both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
         self.assertTrue(both.startswith(text))
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 1  step \d+ / 30", both, re.M)), 31)
