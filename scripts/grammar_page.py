@@ -26,7 +26,7 @@ FOREIGN = "// Spellings of other languages."
 PIECE = re.compile(
     r"'(?:\\.|[^'\\])*'|\[(?:\\.|[^\]\\])*\]|//[^\n]*|\s+|\w+=(?=['(])|->[^;]*|#\s*\w+|;|.", re.S
 )
-# Tokens that the grammar's rules spell out are no names for readers.
+# Tokens that the grammar's rules spell out; the page shows their text in place of their names.
 SPELLED_OUT = re.compile(r"^[A-Z_]+ : '[^']*' ;$")
 
 
