@@ -48,9 +48,9 @@ class LiftedReader:
 
 
 class DictionaryActions:
-    """Writes action dictionaries into the first record. Names may be grounded or lifted; values that
-    are not there have their default. `limits_all`: whether max-nondef-actions counts others than
-    bools, too."""
+    """Writes action dictionaries into the first record. Names may be grounded or lifted; missing
+    values have their default. `limits_all`: whether max-nondef-actions also counts types other
+    than bool."""
 
     def __init__(
         self, problem: Problem, batch: _native.Batch, *, lifted: bool, limits_all: bool
@@ -131,7 +131,7 @@ class DictionaryActions:
 
 
 class _Entry:
-    """What an action value may be."""
+    """The type and bounds of an action value."""
 
     def __init__(self, column: Column) -> None:
         self._name = column.name
@@ -141,7 +141,7 @@ class _Entry:
         self._lower, self._upper = column.bounds
 
     def value(self, given: Any) -> Any:
-        """As a Python number. Arrays of one element are that element."""
+        """Returns a Python number. Arrays of one element are that element."""
         if isinstance(given, str):
             return self._index_of(given)
         if isinstance(given, np.ndarray):
@@ -175,7 +175,7 @@ class _Entry:
 
 
 def _defaults(problem: Problem) -> list[Any]:
-    """Of all action values, as Python numbers."""
+    """Returns all action values, as Python numbers."""
     values: list[Any] = []
     for fluent in problem.model.actions:
         convert = float if fluent.scalar == "real" else int

@@ -138,7 +138,7 @@ class ChoiceActions:
         return spaces.Dict({"discrete": discrete, "continuous": continuous})
 
     def write(self, action: Any) -> None:
-        """Of the first environment. Raises ActionError, and has changed nothing then."""
+        """Steps the first environment. Raises ActionError, and has changed nothing then."""
         if self._quick is not None and self._quick(action):
             return
         if isinstance(action, Mapping) and "action" in action:
@@ -200,7 +200,7 @@ class ChoiceActions:
         lower, upper = self._row_limits
         if (numbers >= lower).all() and (numbers <= upper).all():
             return
-        outside = ~((numbers >= self._lower) & (numbers <= self._upper))  # nan, too
+        outside = ~((numbers >= self._lower) & (numbers <= self._upper))  # also nan
         row, place = np.argwhere(outside)[0]
         raise ActionError(
             f"the number for '{self.plan.numbers[place].name}' is {numbers[row, place]:g}, "

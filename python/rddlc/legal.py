@@ -16,11 +16,12 @@ Array = NDArray[Any]
 
 DRAWS = 8  # are made before values of an illegal action fall back to their default
 TRIES = 128
-"""Actions that are tried. Of an environment in which none is legal the last one stays."""
+"""Actions that are tried. If no action is legal in an environment, the last one stays."""
 
 
 class Writer(Protocol):
-    """What knows the form of actions (`DictionaryActions`, `LiftedActions`, `ChoiceActions`)."""
+    """The writer that knows the form of actions (`DictionaryActions`, `LiftedActions`,
+    `ChoiceActions`)."""
 
     space: spaces.Space[Any]  # of one environment
 

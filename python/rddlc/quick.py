@@ -19,7 +19,7 @@ MOST_NUMBERS = 8  # of more, numpy is quicker
 
 
 def quick_writer(plan: ActionPlan, row: Array) -> QuickWriter | None:
-    """`row`: the action values. None: there is none for such actions."""
+    """`row`: the action values. Returns None if such actions have no quick writer."""
     if len(plan.category_counts) == 1 and not plan.numbers:
         return _writer_of_change(plan, row) if plan.picks else _writer_of_value(plan, row)
     if not plan.category_counts and len(plan.numbers) <= MOST_NUMBERS:
@@ -55,7 +55,7 @@ def _writer_of_change(plan: ActionPlan, row: Array) -> QuickWriter:
             return False
         if not 0 <= category < count:
             return False
-        row[:] = defaults  # whatever was written there, and by whom
+        row[:] = defaults  # whatever earlier calls wrote there
         column = columns[category]
         if column >= 0:
             row[column] = values[category]

@@ -46,7 +46,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         horizon: int | None = None,
         copy: bool = True,
     ) -> None:
-        """See `rddlc.make_vec`, which loads the problem, too."""
+        """See `rddlc.make_vec`, which also loads the problem."""
         mode = _mode_of(autoreset_mode)
         num_envs = whole("num_envs", num_envs, 1)
         self.metadata = {**self.metadata, "autoreset_mode": mode}
@@ -96,7 +96,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if actions in ("simplified", "box"):
             box = actions == "box"
             return ChoiceActions(self.problem, self._batch, box=box, normalize=normalize)
-        raise ArgumentError(f"actions is {actions!r}, which is none of 'simplified', 'box' and 'dict'")
+        raise ArgumentError(f"actions is {actions!r}, which is not one of 'simplified', 'box' and 'dict'")
 
     @property
     def model(self) -> Model:
@@ -108,10 +108,10 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: Mapping[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Starts episodes: of seed + i, or of the i-th seed; without seeds the next ones. options:
-        {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts them in that
-        state, each with random numbers of its own, and {"state": [State or None, ...]} each in its
-        own state, or in its initial one."""
+        """Starts episodes with seed + i, or with the i-th seed; without seeds the next ones.
+        options: {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts
+        them in that state, each with random numbers of its own, and {"state": [State or None, ...]}
+        each in its own state, or in its initial one."""
         given = options_of_reset(options, ("reset_mask", "state"))
         mask = self._mask_of(given.get("reset_mask"))
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
@@ -137,7 +137,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return mask
 
     def _states_of(self, given: Any, chosen: NDArray[np.int64]) -> dict[int, State]:
-        """By the places of environments; a state that is over starts no episode."""
+        """Returns the states by the places of environments; a state that is over starts no episode."""
         if isinstance(given, State):
             states: Any = [given] * self.num_envs
         elif given is None or isinstance(given, (list, tuple)):
@@ -166,7 +166,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 self._batch.set_seeds(place, [its])
 
     def _seeds_of(self, seed: Any) -> list[int | None]:
-        """One for each environment; None: it goes on with its own."""
+        """One for each environment; None: it continues with its own."""
         if not _is_list(seed):
             first = seed_of(seed)
             if first + self.num_envs > SEEDS:
@@ -197,8 +197,8 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return rows, *into[1:], self._infos() if any_ended else {}
 
     def _room(self) -> tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any]]:
-        """New arrays for a step: observations (None if they are not the engine's values), rewards,
-        terminated, truncated."""
+        """Returns new arrays for a step: observations (None if they are not the engine's values),
+        rewards, terminated, truncated."""
         count = self.num_envs
         shape = self._engine_shape
         return (
