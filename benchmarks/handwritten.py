@@ -44,7 +44,7 @@ GREATEST_DIFFERENCE = 1e-9  # of reals, relative; the order of sums is not the s
 
 @dataclass
 class Comparison:
-    """Of one instance and size of batch."""
+    """The figures of one instance and size of batch."""
 
     label: str
     environments: int
@@ -59,7 +59,7 @@ class Comparison:
 # and keep coefficients that are used twice in registers, and numbers elsewhere. GCC 12 makes wrong copies of
 # constants (rddl/values/tables.hpp).
 NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns"]
-# As rddl has it (compiler/driver/shared_object.cpp).
+# The flags of rddl (compiler/driver/shared_object.cpp).
 INLINE_MORE = ["--param", "max-inline-insns-single=400"]
 FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES, *INLINE_MORE]
 # Each reference as if it were alone in its program.

@@ -1,6 +1,6 @@
-# What simulators are compiled with, by rddl_add_simulator and by rddlc and rddl at run time
-# (compiler/driver/cpp_compiler.cpp), as far as the compiler takes it. Global, as functions are: who calls
-# rddl_add_simulator may be another folder than the one that includes this.
+# The flags with which simulators are compiled, by rddl_add_simulator and by rddlc and rddl at run
+# time (compiler/driver/cpp_compiler.cpp), as far as the compiler accepts them. Global, as functions
+# are: rddl_add_simulator may be called in another folder than the one that includes this.
 
 # For right results in all code that includes the runtime: the same digits as the interpreter's, and no
 # copies of loops over constant tables, in which GCC 12 is wrong (rddl/values/tables.hpp).

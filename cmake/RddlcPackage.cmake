@@ -1,4 +1,4 @@
-# What `cmake --install` installs for other CMake projects (component "rddlc").
+# The files that `cmake --install` installs for other CMake projects (component "rddlc").
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/rddlc)
 

@@ -246,7 +246,8 @@ void Canvas::text(Point place, std::string_view text, const TextStyle& style) {
     if (!(style.size > 0 && style.size < farthest)) return;
     cairo_t* const context = context_.get();
     const double width = style.align == Align::Left ? 0 : text_width(text, style.size);
-    // Of capital letters: so that texts of one line share a base line, whatever their letters.
+    // The height of capital letters, so that texts of one line share a base line, whatever their
+    // letters.
     const double height = 0.73 * style.size;
     const double x = style.align == Align::Left     ? 0
                      : style.align == Align::Center ? -width / 2
@@ -309,7 +310,7 @@ void Canvas::cells(const Box& whole, int columns, int rows, std::span<const std:
     if (columns <= 0 || rows <= 0 || !is_finite(whole)) return;
     const Box box = near(whole);
     if (std::min(box.width, box.height) < 1 / farthest) return;
-    // Where there are more cells than pixels, a pixel is an average; the others stay sharp.
+    // If there are more cells than pixels, a pixel is an average; the others stay sharp.
     const int pixel_rows = std::max(static_cast<int>(box.height * scale_), 1);
     const int pixel_columns = std::max(static_cast<int>(box.width * scale_), 1);
     std::vector<std::uint32_t> averages;

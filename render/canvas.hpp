@@ -1,8 +1,8 @@
-// What pictures are drawn on: antialiased shapes and text, in points.
+// The canvas of pictures: antialiased shapes and text, in points.
 //
 // The scale is chosen so that the canvas is at least 600 points wide and 400 points high, whatever
 // its size in pixels: a text of 12 points is always a thirty-third of a picture of usual shape, and
-// who draws needs to think of one size only.
+// a visualizer needs to think of one size only.
 #pragma once
 
 #include "render/color.hpp"
@@ -32,12 +32,12 @@ struct TextStyle {
     bool halo = false;  // light around the letters, which are read then whatever they lie on
 };
 
-// What has a coordinate, an angle or a size that is no number is not drawn.
+// A canvas skips shapes with a coordinate, an angle or a size that is not a number.
 class Canvas {
   public:
     // Pixels, from 16 to 8,192 each; throws Error on others.
     Canvas(int width, int height);
-    // A vector graphic of that size in pixels, of which finish_svg() tells the bytes.
+    // A vector graphic of that size in pixels; finish_svg() returns its bytes.
     static Canvas svg(int width, int height);
 
     Box area() const;  // all of it, in points
@@ -64,7 +64,7 @@ class Canvas {
     // `columns` x `rows` colours (0x00RRGGBB) as rectangles that fill the box.
     void cells(const Box& box, int columns, int rows, std::span<const std::uint32_t> colors);
 
-    // What is drawn meanwhile is moved and turned, or cut off outside the box.
+    // Drawing during the life of this object is moved and turned, or clipped to the box.
     class Saved {
       public:
         explicit Saved(_cairo* saved) : context_(saved) {}  // takes over what is saved already

@@ -1,5 +1,5 @@
-// Colours. Those for things that must be told apart are Okabe and Ito's, which people with colour
-// blindness can (M. Okabe, K. Ito, Color Universal Design, 2008).
+// Colours. Those for things that must be distinguished are Okabe and Ito's, which people with
+// colour blindness can distinguish (M. Okabe, K. Ito, Color Universal Design, 2008).
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ inline constexpr Color paper = white;
 
 }  // namespace colors
 
-// Of series that stand side by side: the palette's colours in turn.
+// The colours of series that stand side by side: the palette's colours in turn.
 Color series_color(std::size_t number);
 
 // From light (0) to dark (1), readable in grey and by everybody: a scale of blues.

@@ -13,15 +13,15 @@ namespace rddl::render {
 
 class Film {
   public:
-    // World and visualizer must outlive it. `horizon` is 0 where there is none. The size is in
-    // pixels; Error on those that no canvas has.
+    // World and visualizer must outlive it. `horizon` is 0 if there is no horizon. The size is in
+    // pixels; throws Error for sizes that no canvas has.
     Film(const World& world, const Visualizer& visualizer, int width, int height,
          std::int64_t episode, std::int64_t horizon);
 
     // The next state of the episode.
     void add(Step step);
 
-    // Of the state that was added last.
+    // The moment of the state that was added last.
     Moment moment() const { return Moment(world_, steps_, episode_, horizon_); }
     const Picture& picture();  // drawn when it is first asked for
     std::string svg() const;

@@ -40,7 +40,7 @@ ColorMapObject* color_map(const std::vector<std::uint32_t>& colors, std::size_t 
 
 }  // namespace
 
-// Where the next frame differs from the last, and how.
+// The rectangle in which the next frame differs from the last, and its pixels.
 struct GifWriter::Changed {
     int left = 0, top = 0, width = 1, height = 1;
     std::vector<std::uint32_t> pixels;  // of the rectangle, row by row

@@ -1,4 +1,4 @@
-// What a visualizer sees: an episode up to a state, by the names of fluents, as numbers.
+// The input of a visualizer: an episode up to a state, by the names of fluents, as numbers.
 #pragma once
 
 #include "render/picture.hpp"
@@ -27,7 +27,7 @@ struct Values {
     int count(int parameter) const;  // of objects
     // The name of an object of a parameter's type.
     const char* object(int parameter, int index) const;
-    // Of a value that is an object; else NULL.
+    // The type of a value that is an object; otherwise NULL.
     const rddl_type* range() const;
 
     // One index for each parameter.
@@ -54,10 +54,10 @@ class World {
 
     const rddl_simulator& simulator() const { return simulator_; }
     const rddl_problem& problem() const { return *simulator_.problem; }
-    // Of "pos|position" the first that there is: domains call the same thing differently, and all
-    // that looks for a name does so. NULL: there is none.
+    // The first fluent of "pos|position" that exists: domains name the same thing differently, and
+    // all look-ups by name accept such lists. NULL: no such fluent.
     const rddl_fluent* find(std::string_view names) const;
-    // Of a non-fluent, read once.
+    // The values of a non-fluent, read once.
     const Values& constant(const rddl_fluent& fluent) const;
     // "rlevel(t1)"
     std::string name_of(const rddl_fluent& fluent, std::int64_t grounding) const;
@@ -78,12 +78,12 @@ struct Step {
     std::string end;                // why the episode ended here: "terminated", "horizon", ...
 };
 
-// Of a longer episode only the last states are remembered.
+// A longer episode remembers only its last states.
 inline constexpr std::size_t most_steps_remembered = 1000;
 
 class Moment {
   public:
-    // The last step is now. `horizon` is 0 where nobody knows it. World and steps must outlive it.
+    // The last step is now. `horizon` is 0 if it is unknown. World and steps must outlive it.
     Moment(const World& world, const std::deque<Step>& steps, std::int64_t episode,
            std::int64_t horizon)
         : world_(world), steps_(steps), episode_(episode), horizon_(horizon) {}
@@ -97,8 +97,8 @@ class Moment {
     bool acts() const { return !now().action.empty(); }
 
     bool has(std::string_view name) const { return world_.find(name) != nullptr; }
-    // Of a non-fluent, a state-fluent or an action-fluent; throws Error if there is none. An action
-    // that is not taken, at an episode's end, has its default.
+    // The values of a non-fluent, a state-fluent or an action-fluent; throws Error if no fluent has
+    // the name. An action that is not taken, at an episode's end, has its default.
     const Values& operator[](std::string_view name) const;
     const Values& values(const rddl_fluent& fluent) const;
     // The only value of a fluent without parameters.
@@ -106,11 +106,11 @@ class Moment {
     double number_or(std::string_view name, double otherwise) const {
         return has(name) ? number(name) : otherwise;
     }
-    // Of a state- or action-fluent in one of steps().
+    // The values of a state- or action-fluent in one of steps().
     Values values_in(const Step& step, const rddl_fluent& fluent) const;
     double number_in(const Step& step, std::string_view name, std::size_t grounding = 0) const;
 
-    // Of an action-fluent.
+    // The default of an action-fluent.
     double default_of(std::string_view name, std::size_t grounding = 0) const;
 
   private:

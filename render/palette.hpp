@@ -20,7 +20,7 @@ class Palette {
     const std::vector<std::uint32_t>& colors() const { return colors_; }
     bool is_exact() const { return is_exact_; }
 
-    // Of a pixel that it was made of.
+    // The index of a pixel from which the palette was made.
     std::uint8_t index_of(std::uint32_t pixel) const;
 
   private:

@@ -83,7 +83,7 @@ std::string objects_of(const Moment& moment, const rddl_fluent& fluent, std::int
 std::vector<Box> panel_boxes(const Box& area, std::size_t count, double wanted_shape, double gap) {
     std::vector<Box> boxes;
     if (count == 0) return boxes;
-    // As many columns as bring panels nearest to the wanted width over height.
+    // Chooses the columns that bring panels nearest to the wanted width over height.
     std::size_t columns = 1;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t c = 1; c <= count; ++c) {

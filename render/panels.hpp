@@ -1,4 +1,4 @@
-// Which fluents a general picture shows, and where.
+// The choice of fluents that a general picture shows, and their layout.
 #pragma once
 
 #include "render/canvas.hpp"
@@ -31,8 +31,8 @@ Range range_of(const Moment& moment, const rddl_fluent& fluent);
 // The colour of a value within its range; objects have colours of their own.
 Color value_color(const Values& values, double value, const Range& range);
 
-// What the colours of its values mean, at the right of the box; nothing where there is no room.
-// Names of objects stand in `other` where they have no room in the box, if they have it there.
+// Draws the key of the value's colours at the right of the box, if there is room. Names of objects
+// that do not fit in the box stand in `other` if they fit there.
 void draw_key(Canvas& canvas, const Box& box, const Values& values, const Range& range,
               const Box& other = {});
 

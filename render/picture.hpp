@@ -21,7 +21,7 @@ struct Picture {
 // Takes the next bytes of a file. May throw.
 using Sink = std::function<void(std::string_view bytes)>;
 
-// What cannot be drawn or written; what() is a sentence.
+// A failure to draw or write; what() is a sentence.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

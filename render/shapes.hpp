@@ -30,7 +30,7 @@ struct Shape {
 // out.
 void draw_shapes(Canvas& canvas, const Box& box, const Box& world, std::span<const Shape> shapes);
 
-// "blue", "#0072b2"; nothing for other words. color_names() tells all.
+// Reads "blue" or "#0072b2"; false for other words. color_names() lists all names.
 std::vector<std::string> color_names();
 bool read_color(std::string_view text, Color& color);
 

@@ -22,7 +22,7 @@ std::string true_objects(const Moment& moment, const Values& values) {
     return text.empty() ? "none" : text;
 }
 
-// Two values that are no numbers are the same.
+// Two values that are nan count as the same.
 bool differ(double a, double b) {
     return a != b && !(std::isnan(a) && std::isnan(b));
 }

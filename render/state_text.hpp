@@ -14,7 +14,7 @@ struct TextLine {
     bool changed;       // since the step before
 };
 
-// Of bools with parameters one line tells the objects for which they are true.
+// One line lists the objects for which a bool with parameters is true.
 std::vector<TextLine> state_lines(const Moment& moment);
 
 // "reboot(c1), throttle = 0.5": what differs from the default; "default" where nothing does.

@@ -24,7 +24,7 @@ struct Visualizer {
 
 // All that there are: those for any problem first.
 std::span<const Visualizer* const> visualizers();
-// NULL: there is none.
+// NULL: no visualizer has the name.
 const Visualizer* find_visualizer(std::string_view name);
 
 // The first fluent that the visualizer needs and the problem has not; empty: it has all.

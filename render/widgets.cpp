@@ -25,7 +25,7 @@ std::vector<double> ticks(double low, double high, int wanted) {
         numbers.push_back(k * step);
         if (numbers.size() > 50) break;
     }
-    constexpr int enough = 8;  // a single number tells no scale
+    constexpr int enough = 8;  // a single number shows no scale
     if (numbers.size() < 2 && wanted < enough) return ticks(low, high, 2 * std::max(wanted, 1));
     return numbers;
 }
@@ -73,7 +73,7 @@ void field_ticks(Canvas& canvas, const Plane& plane) {
 
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width) {
     if (canvas.text_width(text, size) <= width) return std::string(text);
-    // By halves: texts may be long.
+    // Halves the interval, since texts may be long.
     std::size_t fits = 0, too_long = text.size();
     const auto with_dots = [&](std::size_t length) {
         while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
@@ -141,7 +141,7 @@ void gauge(Canvas& canvas, const Box& box, double part, Color color, std::span<c
 
 namespace {
 
-// Of legends with letters of that size.
+// The spaces of legends with letters of that size.
 struct Spaces {
     explicit Spaces(double size)
         : swatch(size * 10 / 11), before_name(size * 5 / 11), between(size * 14 / 11) {}
@@ -193,7 +193,7 @@ bool whole_legend_at_right(Canvas& canvas, const Box& box, std::span<const Entry
 
 void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries) {
     if (whole_legend_at_right(canvas, box, entries)) return;
-    // Each name has as much room as the others, if that tells anything.
+    // Each name has as much room as the others, if that is enough to read it.
     constexpr double size = 9, least = 28;
     if (box.width < 2 * size) return;  // not even for "+2"
     const Spaces spaces(size);
@@ -256,7 +256,7 @@ std::vector<int> order_of(const Values& follows) {
         return rank[static_cast<std::size_t>(i)];
     };
     bool told = false;
-    for (int round = 0; round < count; ++round)  // a circle ends there, too
+    for (int round = 0; round < count; ++round)  // a circle also ends there
         for (int a = 0; a < count; ++a)
             for (int b = 0; b < count; ++b)
                 if (a != b && follows.is(a, b)) {

@@ -1,4 +1,4 @@
-// What visualizers share: axes, arrows, gauges, labels.
+// Shared elements of visualizers: axes, arrows, gauges, labels.
 #pragma once
 
 #include "render/canvas.hpp"
@@ -44,7 +44,7 @@ void field_ticks(Canvas& canvas, const Plane& plane);
 
 // A label that fits: shortened with "…" where it does not, or nothing.
 std::string shortened(const Canvas& canvas, std::string_view text, double size, double width);
-// The same of an object or a value, whose end tells it from others: "reservoi…217".
+// The same for an object or a value, whose end distinguishes it from others: "reservoi…217".
 std::string shortened_name(const Canvas& canvas, std::string_view name, double size, double width);
 void label(Canvas& canvas, const Box& box, std::string_view text, TextStyle style = {});
 
@@ -58,8 +58,8 @@ struct Mark {
 void gauge(Canvas& canvas, const Box& box, double part, Color color,
            std::span<const Mark> marks = {});
 
-// Swatches with names, in a row from the left, with letters of that size. "+3" tells how many do
-// not fit.
+// Swatches with names, in a row from the left, with letters of that size. "+3" says how many do not
+// fit.
 struct Entry {
     std::string name;
     Color color;
@@ -67,8 +67,8 @@ struct Entry {
 void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size = 11);
 // At the right of the box instead; where room is short, with smaller letters and shorter names.
 void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
-// The same of numbers and the like, which cannot be shortened. False: they have no room, and none
-// is drawn.
+// The same for numbers and the like, which cannot be shortened. Returns false, and draws nothing,
+// if they do not fit.
 bool whole_legend_at_right(Canvas& canvas, const Box& box, std::span<const Entry> entries);
 
 // A grid of cells in a box: square where that is sensible.
@@ -96,14 +96,14 @@ void arc_arrow(Canvas& canvas, Point center, double radius, double from, double 
 // A person, standing with its feet at the place.
 void person(Canvas& canvas, Point feet, double height, Color color);
 
-// The place of each object in an order that a fluent of two of them tells: where it holds of a and
-// b, b comes after a. In declaration order where it tells nothing.
+// The place of each object in the order that a fluent of two of them defines: if it holds of a and
+// b, b comes after a. Without such an order, the declaration order.
 std::vector<int> order_of(const Values& follows);
 
-// Where something was in the last steps, from long ago to now, fading.
+// Draws the path of something in the last steps, from long ago to now, fading.
 void trail(Canvas& canvas, std::span<const Point> points, Color color, double thickness = 2);
 
-// Where `count` things stand on a circle, from the top, clockwise.
+// The place of thing `number` of `count` things on a circle, from the top, clockwise.
 Point on_circle(Point center, double radius, int number, int count);
 
 }  // namespace rddl::render

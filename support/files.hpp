@@ -1,7 +1,8 @@
 // Reading and writing of files, for both programs.
 //
 // All that is written goes through OutputFile: nothing that was read in this run is replaced, nor
-// anything that is no regular file; and nothing half-written ever has the name that was asked for.
+// anything that is not a regular file; and nothing half-written ever has the name that was asked
+// for.
 #pragma once
 
 #include "support/failure.hpp"

@@ -249,7 +249,7 @@ std::string counted(std::size_t count, std::string_view what) {
 }
 
 std::string pointer_to_explanation(Code code, std::string_view program) {
-    return fmt::format("'{} --explain {}' tells more\n", program, to_string(code));
+    return fmt::format("'{} --explain {}' explains it\n", program, to_string(code));
 }
 
 std::string closing_lines(const Diagnostics& diagnostics, std::string_view program) {

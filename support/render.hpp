@@ -25,7 +25,7 @@ std::string render(const Diagnostics& diagnostics, const Sources& sources,
 // What stands below them: how many there are, and how `program` explains the first error. Empty if
 // there is nothing to tell.
 std::string closing_lines(const Diagnostics& diagnostics, std::string_view program);
-// "'rddl --explain E0203' tells more\n"
+// "'rddl --explain E0203' explains it\n"
 std::string pointer_to_explanation(Code code, std::string_view program);
 
 // "1 error", "2 errors"

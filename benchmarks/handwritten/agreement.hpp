@@ -1,4 +1,4 @@
-// Whether two simulators of one problem tell the same.
+// Compares the results of two simulators of one problem.
 #pragma once
 
 #include "measure/random_course.hpp"
@@ -49,7 +49,7 @@ inline void compare_states(const rddl_problem& problem, const std::vector<std::b
     }
 }
 
-// Of all states, rewards and ends of episodes, along the course.
+// The greatest difference of all states, rewards and ends of episodes, along the course.
 inline double greatest_difference(const rddl_simulator& a, const rddl_simulator& b,
                                   const rddlc::workbench::RandomCourse& course) {
     struct Side {

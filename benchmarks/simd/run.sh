@@ -6,7 +6,7 @@ here=$(dirname "$0")
 program=$(mktemp)
 trap 'rm -f "$program"' EXIT
 for level in x86-64-v3 x86-64-v4; do
-    # Highway takes a target only if AES is there, too.
+    # Highway accepts a target only if AES is also there.
     ${CXX:-g++} -std=c++20 -O3 -ffp-contract=off -march=$level -maes -mpclmul \
         -I"$here/../../runtime" -o "$program" "$here/main.cpp"
     echo "$level"

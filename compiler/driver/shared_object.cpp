@@ -258,8 +258,8 @@ std::optional<std::string> complaint_about_environment() {
         return fmt::format("RDDLC_INCLUDE is '{}', which holds no rddl/simulator.hpp", include);
     const std::string set = environment_value("RDDL_INSTRUCTION_SET");
     if (!set.empty() && set != "sse2" && set != "avx2" && set != "avx512")
-        return fmt::format("RDDL_INSTRUCTION_SET is '{}', which is none of sse2, avx2 and avx512",
-                           set);
+        return fmt::format(
+            "RDDL_INSTRUCTION_SET is '{}', which is not one of sse2, avx2 and avx512", set);
     return std::nullopt;
 }
 

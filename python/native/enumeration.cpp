@@ -26,7 +26,7 @@ namespace {
 struct Mass {
     double probability = 0, reward = 0;  // the reward times the probability
 };
-// By the record of the state and the causes of an end.
+// Outcomes by the record of the state and the causes of an end.
 using Distribution = std::map<std::pair<std::string, std::uint8_t>, Mass>;
 
 // Steps with every combination of what is drawn, by the interpreter.
@@ -38,7 +38,7 @@ class Enumeration {
           scratch_(interpreter_.scratch_size()),
           observation_(interpreter_.observation_size()) {}
 
-    // horizon: 0: none. Refuses more than `most` combinations, and those that fault.
+    // horizon: 0: no horizon. Refuses more than `most` combinations, and those that fault.
     Distribution next_states(const std::string& state, std::int64_t steps,
                              const std::string& action, std::int64_t horizon, std::int64_t most) {
         if (state.size() != interpreter_.state_size() ||
@@ -73,7 +73,7 @@ class Enumeration {
             causes |= RDDL_TRUNCATED_INVARIANT;
         if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
         if (context.fault)
-            throw Refused("one of the outcomes has no result: sample() tells the fault");
+            throw Refused("one of the outcomes has no result: sample() reports the fault");
         const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
         Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
         mass.probability += outcomes.probability();

@@ -166,10 +166,10 @@ class Learner {
     Simulator simulator_;  // outlives the trainee
     solvers::Trainee trainee_;
     Stop stop_;
-    LongCalls calls_{true};  // the last one: an update that goes on works with the others
+    LongCalls calls_{true};  // the last one: an update that still runs works with the others
 };
 
-// What command lines have by other means.
+// Adds the options that command lines have by other means.
 template <class Options>
 solvers::OptionTable<Options> with_common(solvers::OptionTable<Options> table) {
     table.push_back(solvers::seed_option<Options>());

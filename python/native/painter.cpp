@@ -46,7 +46,7 @@ class Painter {
         add(batch, 0);
     }
 
-    // What the batch has just done.
+    // Adds the step that the batch has just made.
     void add_step(VectorEnv& batch, const std::string& end) {
         render::Step& last = steps_.back();
         const VectorEnv::Arrays& arrays = batch.arrays();
@@ -72,7 +72,7 @@ class Painter {
         return text;
     }
 
-    // Of all steps that are remembered.
+    // A page of all steps that are remembered.
     std::string page(double frames_per_second) {
         render::ReplayPage page(world_, width_, height_, frames_per_second);
         page.begin_run(simulator_->problem->instance);

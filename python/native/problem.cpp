@@ -58,7 +58,7 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
         if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
         return workbench::load_compilation(std::move(compilation), files, options);
     } catch (...) {
-        // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
+        // Ctrl-C also ends the C++ compiler: whatever error that causes, Ctrl-C was the reason.
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
         throw;
     }
@@ -78,7 +78,7 @@ nb::list files_as_text(const LoadedProblem& problem) {
     return all;
 }
 
-// Whose what() lacks the hint.
+// Adds exceptions whose what() lacks the hint.
 void add_errors(nb::module_& module) {
     const nb::object error = nb::exception<Failure>(module, "Error");
     nb::exception<CompileError>(module, "CompileError", error);

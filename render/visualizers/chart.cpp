@@ -40,7 +40,7 @@ Axis axis_of(const Moment& moment) {
     return {first, whole ? std::max(moment.horizon(), now) : std::max(now, first + 49)};
 }
 
-// What a panel has beside its plot.
+// The elements of a panel beside its plot.
 struct Look {
     double names;  // room at the left
     bool has_axis, has_axis_title;
@@ -65,7 +65,7 @@ struct Panel {
         return objects_of(moment, fluent, grounding);
     }
     const rddl_type* objects_of_range() const { return past.front().range(); }
-    // Where a label at the left stands for a height of the plot: not in the title.
+    // The place of a label at the left for a height of the plot; it stays out of the title.
     Point label_place(double y) const { return {plot.x - 4, std::max(y, plot.y + 4)}; }
 };
 
@@ -190,7 +190,7 @@ void draw_key_of_lines(Canvas& canvas, const Box& box, const std::vector<std::st
     legend_at_right(canvas, box, std::move(entries));
 }
 
-// What the colours mean, at the right of the title.
+// Draws the key of the colours at the right of the title.
 void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     const Values& values = panel.past.back();
     if (panel.look.shares_key) return;
@@ -206,7 +206,7 @@ void draw_panel_key(Canvas& canvas, const Box& box, const Panel& panel) {
     draw_key_of_lines(canvas, box, names_of_lines(panel.moment, panel.fluent));
 }
 
-// What is left of a row for the title, whose right end has the key, or a number.
+// The width of a row that is left for the title, whose right end has the key, or a number.
 double room_for_title(const Canvas& canvas, double row, const Panel& panel) {
     const rddl_fluent& fluent = panel.fluent;
     if (panel.look.shares_key) return row;
@@ -261,7 +261,7 @@ bool is_lowest(const std::vector<Box>& boxes, std::size_t panel) {
     });
 }
 
-// Of many panels: what stands once below them, for all.
+// The key that many panels share, once below them.
 struct SharedKey {
     bool of_bools = false;
     std::vector<std::string> lines;  // their names, in panels that have the same ones

@@ -16,7 +16,7 @@ constexpr double names_size = 9;
 
 struct Shape {
     int rows, columns;
-    bool wrapped = false;  // objects of one parameter go on in the next row
+    bool wrapped = false;  // objects of one parameter continue in the next row
 };
 
 Shape shape_of(const Values& values, const Box& box) {
@@ -63,7 +63,7 @@ void draw_row_names(Canvas& canvas, const Grid& grid, const Moment& moment, cons
                     {.size = names_size, .color = colors::muted, .align = Align::Right});
 }
 
-// As many as have room beside each other.
+// Draws as many names as fit beside each other.
 void draw_column_names(Canvas& canvas, const Grid& grid, const Values& values) {
     const double column = grid.cell(0, 0).width;
     const auto name = [&](int c) {
@@ -129,7 +129,7 @@ void draw_grid(Canvas& canvas, const Box& box, const Moment& moment, const rddl_
                  shape.wrapped ? box.lowest(14) : Box{});
     const Box cells = inside.after(row_names_width(canvas, moment, values, shape));
     const Box used = shape.rows == 1 ? cells.top(std::min(cells.height, 40.0)) : cells;
-    // Squares look like places, unless nobody would see them.
+    // Squares look like places, unless they are too small to see.
     constexpr double smallest = 6;
     const bool square =
         fluent.rank >= 2 && Grid(used, shape.columns, shape.rows).cell(0, 0).width >= smallest;

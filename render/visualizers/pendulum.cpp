@@ -18,7 +18,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
     };
     canvas.ring(axle, length, colors::faint, 2);
     canvas.dashed_line(axle, {axle.x, axle.y - length - 14}, colors::green, 1.5);
-    // Where it was: fainter the longer ago.
+    // Earlier positions are drawn fainter the older they are.
     const auto& steps = moment.steps();
     const std::size_t trail = std::min<std::size_t>(steps.size(), 12);
     for (std::size_t k = trail; k-- > 1;) {

@@ -1,4 +1,4 @@
-// What power plants make, what they may and shall make, and what is wanted of them together.
+// Draws the production of power plants, its limits and targets, and the total demand.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 
@@ -105,7 +105,7 @@ void draw(Canvas& canvas, const Box& area, const Moment& moment) {
 
 const Visualizer visualizer{
     "power_gen",
-    "what each plant makes within its limits, and the demand",
+    "production of each plant within its limits, and the demand",
     {"power_gen"},
     {"prevProd", "curProd", "temperature", "PROD-UNITS-MIN", "PROD-UNITS-MAX"},
     draw};

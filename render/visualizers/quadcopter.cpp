@@ -79,8 +79,8 @@ struct Axes {
     Place x, y, z;
 };
 
-// Of the angles of the domain's dynamics: it is turned by phi, leans by theta, and is turned by psi
-// (Euler angles z-x-z).
+// The axes from the angles of the domain's dynamics: the body is turned by phi, leans by theta, and
+// is turned by psi (Euler angles z-x-z).
 Axes axes_of(double phi, double theta, double psi) {
     const double cph = std::cos(phi), sph = std::sin(phi), cth = std::cos(theta),
                  sth = std::sin(theta), cps = std::cos(psi), sps = std::sin(psi);
@@ -91,7 +91,7 @@ Axes axes_of(double phi, double theta, double psi) {
 
 void draw_drone(Canvas& canvas, const Camera& camera, const Moment& moment, int i, Color color) {
     const Place at{moment["x"](i), moment["y"](i), moment["z"](i)};
-    // Far larger than it is, or nobody would see how it leans.
+    // The quadcopter is drawn far too large; otherwise its tilt would be invisible.
     const double span = 19 / camera.factor;
     const Axes axes = axes_of(moment["phi"](i), moment["theta"](i), moment["psi"](i));
     const auto end = [&](const Place& axis, double distance) {

@@ -14,7 +14,7 @@ namespace {
 std::vector<int> depths(const Values& connected) {
     const int count = connected.count(0);
     std::vector<int> depth(static_cast<std::size_t>(count), 0);
-    for (int round = 0; round < count; ++round)  // a circle ends there, too
+    for (int round = 0; round < count; ++round)  // a circle also ends there
         for (int a = 0; a < count; ++a)
             for (int b = 0; b < count; ++b)
                 if (a != b && connected.is(a, b)) {
@@ -51,7 +51,7 @@ double released_part(const Moment& moment, int i) {
     return std::clamp(release(i) / std::max(moment["rlevel|water"](i), 1e-9), 0.0, 1.0);
 }
 
-// Where nothing says so, those of which no other gets the water.
+// Without that fluent, reservoirs whose water flows to no other one flow to the sea.
 bool flows_to_sea(const Moment& moment, const Values& connected, int i) {
     if (moment.has("CONNECTED_TO_SEA")) return moment["CONNECTED_TO_SEA"].is(i);
     for (int to = 0; to < connected.count(1); ++to)

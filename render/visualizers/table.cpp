@@ -1,5 +1,5 @@
-// Which visualizers there are. Of those for a domain the first one whose fluents the problem has is
-// taken: several problems share a domain's name.
+// The table of visualizers. Among those for a domain the first one whose fluents the problem has is
+// used: several problems share a domain's name.
 #include "render/visualizers/visualizers.hpp"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ constexpr double largest_size = 13, smallest_size = 8;  // of letters
 constexpr double line_height = 1.5;                     // of their size
 constexpr std::size_t most_columns = 8;
 
-// A line on the picture: a long list of objects goes on in lines without a name.
+// A line on the picture: a long list of objects continues in lines without a name.
 struct Row {
     std::string_view name;
     std::string value;
@@ -90,7 +90,7 @@ std::vector<Row> rows_of(const std::vector<Line>& lines, double size, double wid
     return rows;
 }
 
-// What fits with letters of a size, in columns of one width.
+// The text that fits with letters of a size, in columns of one width.
 struct Layout {
     double size;
     std::size_t columns, rows;  // a column has so many rows

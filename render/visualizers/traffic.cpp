@@ -31,7 +31,7 @@ std::vector<Street> streets(const Moment& moment) {
     return all;
 }
 
-// On the picture, beside the middle of the road: people drive on the right.
+// A lane on the picture, beside the middle of the road: people drive on the right.
 struct Lane {
     Point begin, end;
     double ux, uy;  // along it

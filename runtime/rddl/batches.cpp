@@ -1,4 +1,4 @@
-// What does not depend on the simulator, for emitted files that are compiled with
+// Code that does not depend on the simulator, for emitted files that are compiled with
 // -DRDDL_LINKS_BATCHES: simulators without packs, and with packs of 16, of either type of reals;
 // with -DRDDL_BATCHES_OF=double or float of that type alone, in half the time.
 #include <rddl/interface/abi.hpp>

@@ -23,7 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// Who links batches.cpp, compiled once for many simulators, defines RDDL_LINKS_BATCHES.
+// A program that links batches.cpp, compiled once for many simulators, defines RDDL_LINKS_BATCHES.
 #ifndef RDDL_LINKS_BATCHES
 #include <rddl/interface/abi.hpp>
 #endif

@@ -130,7 +130,7 @@ struct CgpSearch::State {
         }
     }
 
-    // What this rank knows, as the others take it.
+    // This rank's report, in the form that other ranks read.
     std::string own_report() const {
         const Island* first = islands.front().get();
         CgpProgress own;

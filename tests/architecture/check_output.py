@@ -1,8 +1,10 @@
-"""Texts reach people, and numbers become texts and are read, by functions that know what a terminal and a locale do.
+"""Texts reach people, and numbers become texts and are read, by functions that respect terminals
+and locales.
 
-Names, paths and messages may be anybody's: print() and tell() of support/program.hpp leave nothing in them that
-drives a terminal. Applications set a locale, where printf and strtod write and read 0,5: std::to_chars, std::from_chars
-and fmt know none.
+Names, paths and messages may come from strangers: print() and tell() of
+support/program.hpp leave nothing in them that drives a terminal. Applications set a
+locale, where printf and strtod write and read 0,5: std::to_chars, std::from_chars and fmt ignore
+locales.
 """
 
 import re

@@ -1,4 +1,4 @@
-// Every folder beside this file is a case; none is registered anywhere. See README.md.
+// Every folder beside this file is a case; cases are not registered. See README.md.
 #include "case.hpp"
 #include "driver/driver.hpp"
 #include "driver/process.hpp"
@@ -49,7 +49,7 @@ bool is_part(const std::string& part, const Diagnostic& diagnostic) {
     return true;
 }
 
-// What has no place in the text may be marked anywhere.
+// A diagnostic without a place in the text may be marked anywhere.
 bool fits(const Mark& mark, const Diagnostic& diagnostic, const Compilation& compilation) {
     const char* kind = compilation.diagnostics.is_error(diagnostic) ? "error" : "warning";
     if (mark.kind != kind || mark.code != to_string(diagnostic.code)) return false;

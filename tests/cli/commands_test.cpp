@@ -1,4 +1,4 @@
-// What users see of list, info, check, run and bench.
+// The output of list, info, check, run and bench.
 #include "program.hpp"
 
 #include <algorithm>
@@ -199,7 +199,7 @@ TEST_F(Program, DescribesAProblem) {
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
 }
 
-// As training would refuse it, but without a step.
+// Training would refuse it with the same sentence, but this takes no step.
 TEST_F(Program, TellsWhichLearnersTakeAProblem) {
     write_file(folder_ / "idle.rddl",
                "domain idle { pvariables { x : { state-fluent, real, default = 1.0 }; };\n"
@@ -270,13 +270,13 @@ TEST_F(Program, NamesItsOwnExplanation) {
          {"check bad/domain.rddl", "check bad", "fmt bad/domain.rddl", "run bad"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 1) << arguments;
-        EXPECT_TRUE(outcome.err.ends_with("\n'rddl --explain E0103' tells more\n"))
+        EXPECT_TRUE(outcome.err.ends_with("\n'rddl --explain E0103' explains it\n"))
             << arguments << '\n'
             << outcome.err;
     }
     const Outcome unbuilt = run("run domain.rddl instance.rddl --no-cache", "CXX=nosuch");
     EXPECT_EQ(unbuilt.status, 1);
-    EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' tells more\n"), std::string::npos)
+    EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' explains it\n"), std::string::npos)
         << unbuilt.err;
 }
 
@@ -327,7 +327,7 @@ TEST_F(Program, SaysWhichFilesAreMissing) {
     EXPECT_EQ(told("run domain.rddl"),
               "error: there is no instance block [E0204]\n"
               "hint: give the instance's file after the domain's\n"
-              "1 error\n'rddl --explain E0204' tells more\n");
+              "1 error\n'rddl --explain E0204' explains it\n");
     EXPECT_TRUE(
         told("run domain.rddl 1").starts_with("rddl: error: there is no instance file '1'\n"));
     write_file(folder_ / "e/other.rddl", "");
@@ -357,7 +357,7 @@ TEST_F(Program, ChecksADomainAlone) {
                               "no instance was given: "})
         EXPECT_NE(bad.err.find(place), std::string::npos) << place << '\n' << bad.err;
 
-    // Nobody else can do without, nor is a second file meant to be another domain.
+    // Other commands need an instance, and a second file is not read as another domain.
     EXPECT_EQ(run("info domain.rddl").status, 1);
     EXPECT_EQ(run("check domain.rddl domain.rddl").status, 1);
 }
@@ -423,8 +423,7 @@ TEST_F(Program, CountsFaults) {
         << message;
 }
 
-// Lamp b heats up so fast that it faults in most episodes; those of the others go on to the
-// horizon.
+// Lamp b heats up so fast that it faults in most episodes; the others continue to the horizon.
 constexpr const char* risky_problem = R"(domain risky {
     types { lamp : object; };
     pvariables {

@@ -137,7 +137,7 @@ struct FileReaders::State {
         solvers::run_episodes(simulator, policy, options, {});
     }
 
-    // As `rddl run --policy` and `rddl export`.
+    // Reads it as `rddl run --policy` and `rddl export` do.
     void read_policy(std::string_view bytes) const {
         const std::string text(bytes);
         const rddl_simulator& of = solvers::is_skdecide_genome(text) ? *plain.simulator : simulator;
@@ -176,7 +176,7 @@ struct FileReaders::State {
         options.quiet = true;
         return options;
     }
-    // As `rddl train --resume`. What was read is not sealed: a fuzzer finds no checksum.
+    // Reads it as `rddl train --resume` does. The bytes are not sealed: a fuzzer finds no checksum.
     void read_checkpoint(bool ppo, std::string_view bytes) const {
         const fs::path run = folder / "run";
         fs::create_directories(run);
@@ -212,7 +212,8 @@ struct FileReaders::State {
         reel.finish();
     }
 
-    // As `rddl replay`, `rddl run --policy TRACE`, `rddl verify --states` and `rddl render`.
+    // Reads it as `rddl replay`, `rddl run --policy TRACE`, `rddl verify --states` and `rddl
+    // render` do.
     void read_trace(std::string_view bytes) {
         constexpr std::size_t longest = 100'000;
         std::optional<Failure> refusal;

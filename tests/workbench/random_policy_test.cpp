@@ -224,7 +224,7 @@ TEST(RandomPolicy, ResetsManyValuesInFewRounds) {
     EXPECT_LT(all.size(), 128u * 50 + 256 * 2);
 }
 
-// Where the default is forbidden, what is wanted may be too unlikely for independent values.
+// The default is forbidden, and independent values may be too unlikely to find a legal action.
 TEST(RandomPolicy, TriesAllAndNoBoolsOfAFluent) {
     const ActionProblem problem(std::vector<ActionProblem::Fluent>(2, {RDDL_BOOL}));
     solvers::RandomPolicy policy(problem.problem, 1);

@@ -1,5 +1,5 @@
-// What `rddl verify` compares, and whom it blames: with programs and engines that are altered on
-// purpose.
+// The comparisons of `rddl verify` and the pass that it blames: with programs and engines that are
+// altered on purpose.
 #include "engines/interpreted_simulator.hpp"
 #include "support/files.hpp"
 #include "verify/difference_place.hpp"
@@ -99,7 +99,7 @@ WalkOptions short_walk(const VerifiedProblem& problem) {
     return options;
 }
 
-// As if one pass changed the program in this way, after one that is innocent.
+// Pretends that one pass changed the program in this way, after one that is innocent.
 void plant_wrong_pass(VerifiedProblem& problem, const ir::Program& wrong) {
     problem.engines[1].simulator = interpreted(problem, wrong);
     problem.pipeline = [wrong](const ir::Program& plain, const TellProgram& tell) {

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Whether another process has the lock, and not that there is none to have.
+// Whether another process has the lock, as opposed to a file system without locks.
 bool is_taken(int descriptor) {
     return ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
 }

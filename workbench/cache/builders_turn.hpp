@@ -5,12 +5,12 @@
 
 namespace rddlc::workbench {
 
-// Held from the construction on: by a lock on the folder, which the system takes from a process
-// that ends in any way. Whoever cannot lock, or has waited for two minutes, goes on without: the
-// same is then made twice, which does no harm.
+// Held from the construction on by a lock on the folder, which the system releases when a process
+// ends in any way. A process that cannot lock, or has waited for two minutes, continues without it:
+// the same is then made twice, which does no harm.
 class BuildersTurn {
   public:
-    // Tells on a terminal that it waits. Fails on an interrupt.
+    // Reports on a terminal that it waits. Fails on an interrupt.
     explicit BuildersTurn(const std::filesystem::path& folder);
     ~BuildersTurn();
     BuildersTurn(const BuildersTurn&) = delete;

@@ -1,5 +1,5 @@
-// Where compiled code is kept between runs. It is loaded into the process, so nobody else may put
-// anything there.
+// The folder in which compiled code is kept between runs. The code is loaded into the process, so
+// other users must not be able to put anything there.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,8 @@ namespace rddlc::workbench {
 // others own it or may write to it. Root counts as ourselves.
 std::filesystem::path cache_folder();
 
-// Whether a file in it is ours alone, too: one that was put there while others could.
+// Whether a file in it also belongs to this user alone: it may have been put there while others
+// could write.
 bool is_ours(const std::filesystem::path& file);
 
 }  // namespace rddlc::workbench

@@ -54,7 +54,7 @@ std::string value_of(const char* variable) {
     return value ? value : "";
 }
 
-// What PATH finds, behind all links.
+// Finds a program on PATH, behind all links.
 std::optional<fs::path> find_program(const std::string& name) {
     std::error_code missing;
     if (name.find('/') != std::string::npos) return fs::canonical(name, missing);
@@ -85,7 +85,7 @@ std::optional<std::string> key_of_files(const std::vector<fs::path>& files,
         for (const fs::path& file : files) text += file.string() + '\0' + read_file(file) + '\0';
         return sha256(text);
     } catch (const Failure&) {
-        return std::nullopt;  // whoever compiles it says what is wrong
+        return std::nullopt;  // the compilation reports the error
     } catch (const fs::filesystem_error&) {
         return std::nullopt;
     }

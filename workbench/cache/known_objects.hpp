@@ -1,5 +1,5 @@
-// Which object of the cache a problem's files have led to, so that loading them again compiles
-// nothing: neither the object nor the text that it is made of.
+// A record of the cached object for a problem's files, so that loading them again compiles nothing:
+// neither the object nor its text.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace rddlc::workbench {
 
-// Stands for all that an object depends on: the texts and names of the files, `options`, this very
+// A key for all that an object depends on: the texts and names of the files, `options`, this very
 // compiler, the runtime's headers, the C++ compiler (these three by place, size and time) and the
-// kind of processor. Nothing where there is no C++ compiler, or a file cannot be read.
+// kind of processor. Nothing if there is no C++ compiler, or a file cannot be read.
 std::optional<std::string> key_of_files(const std::vector<std::filesystem::path>& files,
                                         const std::string& options);
 

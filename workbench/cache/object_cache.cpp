@@ -42,7 +42,7 @@ std::string content_key(const std::string& text, const std::string& toolchain,
     return sha256(fmt::format("{}\n{}\n{}", text, toolchain, extern_text(options.extern_headers)));
 }
 
-// Tells on a terminal what takes so long.
+// Reports on a terminal what takes so long.
 class CompilingMessage {
   public:
     CompilingMessage(const std::string& problem, bool shown) : shown_(shown && tells_to_screen()) {
@@ -77,7 +77,7 @@ void build(const std::string& text, const std::string& toolchain, const fs::path
         built = build_shared_object(source, object, Processors::LikeThis, options.extern_headers,
                                     diagnostics, prepared);
     } catch (const std::logic_error&) {
-        // Ctrl-C reaches the compiler, too.
+        // Ctrl-C also reaches the compiler.
         give_up_if_interrupted();
         throw;
     }

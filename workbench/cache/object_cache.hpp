@@ -18,7 +18,7 @@ struct CacheOptions {
     // The user's headers that the text includes: a change to one is a change to the text.
     std::vector<std::filesystem::path> extern_headers = {};
     // The reals of the batches that the text links, which are the same for all simulators; nothing
-    // if it links none.
+    // if it links no batches.
     std::optional<RealType> linked_batches = std::nullopt;
 };
 
@@ -27,8 +27,8 @@ struct CachedObject {
     std::optional<double> build_seconds;  // nothing if it was there already
 };
 
-// Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if it
-// refuses the user's headers.
+// Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if the
+// compiler refuses the user's headers.
 CachedObject cached_object(const std::string& text, const CacheOptions& options);
 
 }  // namespace rddlc::workbench

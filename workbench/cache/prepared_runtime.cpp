@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* runtime_extension = ".runtime";
 
-// All headers of the runtime, by name; empty if there are none.
+// All headers of the runtime, by name; empty if there are no headers.
 std::string runtime_text() {
     const auto folder = runtime_include_folder();
     if (!folder) return {};
@@ -37,7 +37,7 @@ std::string runtime_text() {
     return text;
 }
 
-// What the compiler of a command says about itself: the words before its options are asked.
+// The version text of a command's compiler: its words before the first option are asked.
 std::string compiler_version(const std::vector<std::string>& command) {
     const auto is_option = [](const std::string& word) {
         return word.starts_with('-');
@@ -77,7 +77,7 @@ std::optional<fs::path> prepared_runtime(const fs::path& cache, const std::strin
         cache / (sha256(fmt::format("{}\n{}", toolchain, name_of(real))) + runtime_extension);
     if (is_sealed_folder(target)) return target;
     const BuildersTurn turn(cache);
-    if (is_sealed_folder(target)) return target;  // by whom we have waited for
+    if (is_sealed_folder(target)) return target;  // by the process that we have waited for
     const WorkFolder work(cache, "building-", "set XDG_CACHE_HOME to a folder that can be written");
     const fs::path made = work.path() / "runtime";
     std::error_code error;

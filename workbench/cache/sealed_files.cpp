@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t seal_size = 64;
 constexpr const char* list_name = "sealed";
 
-// Against bad luck, not bad will: nobody else can write there. A precompiled header has 50 MB, for
-// which SHA-256 would take a quarter of a second.
+// The checksum protects against accidents, not attacks: other users cannot write there. A
+// precompiled header has 50 MB, for which SHA-256 would take a quarter of a second.
 std::uint64_t checksum(std::string_view bytes) {
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;
     std::uint64_t sum = bytes.size();

@@ -1,5 +1,5 @@
-// Files of the cache that can be told from damaged ones: by a full disk, or a machine that stopped.
-// Loading or linking a file that is cut off may kill the process.
+// Files of the cache that can be distinguished from damaged ones: by a full disk, or a machine that
+// stopped. Loading or linking a file that is cut off may kill the process.
 #pragma once
 
 #include <filesystem>

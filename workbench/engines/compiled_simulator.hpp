@@ -19,7 +19,7 @@ struct CompiledSimulator {
 // From a shared object; null if the file is not one of this ABI version.
 std::shared_ptr<const rddl_simulator> load_object(const std::filesystem::path& object);
 
-// Fails if there is no C++ compiler.
+// Fails without a C++ compiler.
 CompiledSimulator compiled_simulator(const std::string& text, const CacheOptions& options);
 
 }  // namespace rddlc::workbench

@@ -1,4 +1,4 @@
-// The values of non-fluents, as an interpreted simulator tells them.
+// The values of non-fluents, as an interpreted simulator reports them.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// An empty name has none, and nor has any where the current folder is gone: who reads the file
-// tells.
+// An empty name has no full name, and neither has any if the current folder is gone: reading the
+// file reports the error.
 fs::path full_name(const fs::path& path) {
     std::error_code error;
     const fs::path full = fs::absolute(path, error);

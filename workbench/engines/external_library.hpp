@@ -12,7 +12,7 @@
 
 namespace rddlc::workbench {
 
-// What --extern names.
+// The files that --extern names.
 struct ExternFiles {
     std::vector<std::filesystem::path> headers;         // absolute
     std::vector<std::filesystem::path> shared_objects;  // those that end in .so
@@ -21,7 +21,8 @@ ExternFiles extern_files(const std::vector<std::filesystem::path>& paths);
 
 struct ExternalLibrary {
     std::vector<std::shared_ptr<void>> loaded;  // keeps the functions where they are
-    ir::ExternalFunctions functions = {};       // by ExternalId; null where the program calls none
+    ir::ExternalFunctions functions =
+        {};  // by ExternalId; null if the program calls no external functions
 };
 
 // All that the program calls, each of which accepts its calls; else fails. Headers are compiled,

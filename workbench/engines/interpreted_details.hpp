@@ -1,4 +1,4 @@
-// What a step computes on its way, by the interpreter.
+// Intermediate values of a step, by the interpreter.
 #pragma once
 
 #include "ir/details.hpp"
@@ -20,7 +20,7 @@ class InterpretedDetails {
     InterpretedDetails(ir::Details details, ir::ExternalFunctions functions);
     InterpretedDetails(const InterpretedDetails&) = delete;
 
-    // Of an interm- or derived-fluent in a record; -1 of others.
+    // The offset of an interm- or derived-fluent in a record; -1 for others.
     std::int64_t offset_of(std::size_t fluent) const;
     std::size_t interm_size() const { return interm_size_; }
 

@@ -101,7 +101,7 @@ class Description {
     }
     std::span<const rddl::Site> sites() const { return sites_of_program_; }
     std::span<const rddl::Constants> constants() const { return constants_.list(); }
-    // Null if there is none.
+    // Null without a policy block.
     const rddl_policy* policy() const { return policy_ ? &*policy_ : nullptr; }
     std::span<const rddl_type> types() const { return types_; }
 

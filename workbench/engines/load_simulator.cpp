@@ -64,7 +64,7 @@ LoadedProblem interpreted(Compilation compilation, const ProblemFiles& files,
             LoadCosts{}};
 }
 
-// Nothing where the files alone do not tell which object it is.
+// Nothing if the files alone do not determine the object.
 std::optional<std::string> key_of(const ProblemFiles& files, const LoadOptions& options) {
     if (!options.remembers || options.engine != Engine::Compiled || options.ignore_cache ||
         !options.externs.empty())

@@ -25,7 +25,7 @@ struct LoadOptions {
     Engine engine = Engine::Compiled;
     bool ignore_cache = false;
     bool quiet = false;  // say nothing about compiling
-    // Of external functions: C++ headers; for the interpreter shared objects, too.
+    // Files of external functions: C++ headers; for the interpreter also shared objects.
     std::vector<std::filesystem::path> externs;
     PassOptions passes;
     RealType real = RealType::Double;  // of the compiled engine
@@ -36,7 +36,7 @@ struct LoadOptions {
 // Owns all that the simulator refers to: the loaded library, or program and sources.
 using Simulator = std::shared_ptr<const rddl_simulator>;
 
-// What it took to get from the files to the simulator.
+// The cost of getting from the files to the simulator.
 struct LoadCosts {
     double compile_seconds = 0;  // by rddlc: to the emitted text, or to what is interpreted
     std::optional<double> build_seconds;  // by the C++ compiler; nothing without it, or if it was
@@ -56,16 +56,16 @@ struct LoadedProblem {
 // To compile the problem up to a stage, as it is loaded.
 CompileOptions front_end_options(const ProblemFiles& files, Stage last, const LoadOptions& options);
 
-// What the engine makes a simulator of; its diagnostics tell whether it can.
+// The compilation from which the engine makes a simulator; its diagnostics say whether it can.
 Compilation compile_problem(const ProblemFiles& files, const LoadOptions& options);
 // From a compilation without errors. Fails without a C++ compiler. Costs are those after compiling;
 // load_seconds is 0.
 LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& files,
                                const LoadOptions& options);
 
-// The compiled simulator of these files, where one that remembers was loaded before and nothing has
-// changed since: in a tenth of the time. Warnings are not told again. Nothing where it must be
-// compiled: problems with external functions always.
+// The compiled simulator of these files, if one that remembers was loaded before and nothing has
+// changed since: in a tenth of the time. Warnings are not reported again. Nothing if the problem
+// must be compiled: problems with external functions always.
 std::optional<LoadedProblem> load_known(const ProblemFiles& files, const LoadOptions& options);
 
 // Both. Prints the diagnostics and throws Diagnosed if there are errors.

@@ -23,7 +23,7 @@ std::string counted(std::int64_t count, std::string_view what) {
     return fmt::format("{} {}{}", grouped(count), what, count == 1 ? "" : "s");
 }
 
-// What a solver chooses among that changes one action value at a time (simulator.h).
+// The choices of a solver that changes one action value at a time (simulator.h).
 std::string choices_text(const rddl_simulator& simulator) {
     const std::int64_t count = simulator.action_choice_count(&simulator);
     if (count == 1) return "1: the default";

@@ -69,7 +69,7 @@ void write_int(std::string& out, std::int64_t value) {
     out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-// What a fluent takes, for messages.
+// The values that a fluent takes, for messages.
 std::string expected_value(const RecordEntry& entry) {
     if (entry.objects) return fmt::format("an object of type '{}'", entry.objects->name);
     switch (entry.fluent->scalar) {

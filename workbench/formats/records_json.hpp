@@ -30,8 +30,8 @@ struct RecordEntry {
 
 class RecordLayout {
   public:
-    // Of the state, action or observation record. A problem without observation-fluents has the
-    // state as its observation. `problem` must outlive the layout.
+    // The layout of the state, action or observation record. A problem without observation-fluents
+    // has the state as its observation. `problem` must outlive the layout.
     RecordLayout(const rddl_problem& problem, rddl_role role);
     RecordLayout(RecordLayout&&) noexcept = default;  // entry_named_ looks into entries_
     RecordLayout& operator=(RecordLayout&&) noexcept = default;
@@ -44,8 +44,8 @@ class RecordLayout {
     // The same with the values that differ from those of `defaults` only.
     void write_changes(std::string& out, const std::byte* record, const std::byte* defaults) const;
 
-    // Sets the named values and keeps the others. On a bad name or value tells what is wrong;
-    // the record is unusable then.
+    // Sets the named values and keeps the others. On a bad name or value returns the error; the
+    // record is unusable then.
     std::optional<std::string> read(const nlohmann::json& values, std::byte* record) const;
 
     // How many values differ from those of `defaults`; nan differs from everything.

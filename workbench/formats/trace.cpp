@@ -19,7 +19,7 @@ namespace {
 
 constexpr int format_version = 1;
 
-// Of the header or of one of its files; empty if it is absent or no text.
+// A text member of the header or of one of its files; empty if it is absent or not text.
 std::string text_of(const nlohmann::json& object, const char* member) {
     const auto found = object.find(member);
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";
@@ -78,7 +78,7 @@ std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
     const std::set<std::string> known = hashes_of(header);
     std::vector<std::filesystem::path> changed;
     for (const auto& file : files) {
-        // What came through a pipe cannot be read again.
+        // Text that came through a pipe cannot be read again.
         std::error_code ignored;
         const bool is_readable = std::filesystem::is_regular_file(file, ignored);
         if (is_readable && !known.empty() && !known.contains(sha256_of_file(file)))
@@ -114,7 +114,7 @@ std::string causes_json(std::uint8_t causes) {
 }
 
 std::size_t longest_line(const TraceFormat& format) {
-    constexpr std::size_t all_else = std::size_t{1} << 20;  // a header's names of files, too
+    constexpr std::size_t all_else = std::size_t{1} << 20;  // also a header's names of files
     constexpr std::size_t margin = 4;
     const std::size_t states = 2 * longest_values(format.state);  // this one and the next
     return all_else +

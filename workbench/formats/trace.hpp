@@ -23,18 +23,18 @@ struct TraceHeader {
     std::string engine;
     std::uint64_t seed = 0;
     std::int64_t episodes = 0;
-    std::int64_t horizon = 0;  // in force; 0: none
+    std::int64_t horizon = 0;  // in force; 0: no horizon
 };
 
-// Why steps of a trace with this header cannot be made in the problem: another version of the
-// format, or another problem. What the header does not say is no complaint.
+// The reason why steps of a trace with this header cannot be made in the problem: another version
+// of the format, or another problem. Missing members of the header are accepted.
 std::optional<std::string> complaint_about_header(const nlohmann::json& header,
                                                   const rddl_problem& problem);
-// Those whose text is none of the header's files.
+// The files whose text differs from all of the header's files.
 std::vector<std::filesystem::path> changed_files(const nlohmann::json& header,
                                                  const std::vector<std::filesystem::path>& files);
 
-// With the line break.
+// The header's line, with the line break.
 std::string trace_header_line(const TraceHeader& header, const rddl_problem& problem);
 
 // "terminated", "horizon", "invariant", "fault": names of the bits of `causes` as a JSON array.

@@ -31,7 +31,7 @@ bool is_set(const nlohmann::json& line, const char* member) {
     return found != line.end() && found->is_boolean() && found->get<bool>();
 }
 
-// Nothing is 0, and what is no number is nan.
+// A missing reward is 0, and one that is not a number is nan.
 double reward_in(const nlohmann::json& line) {
     const auto found = line.find("reward");
     if (found == line.end()) return 0;
@@ -76,8 +76,7 @@ std::int64_t TraceSteps::count_in(const nlohmann::json& line, const char* member
         fail(fmt::format("'{}' is an int from 0 on, not {}", member, found->dump()));
     // Axes and pages hold it as a double.
     constexpr std::int64_t largest = std::int64_t{1} << 53;
-    if (*count > largest)
-        fail(fmt::format("'{}' is no more than {}, not {}", member, largest, *count));
+    if (*count > largest) fail(fmt::format("'{}' is at most {}, not {}", member, largest, *count));
     return *count;
 }
 
@@ -91,7 +90,7 @@ std::optional<TraceStep> TraceSteps::read(std::string_view line) {
         if (!refused.byte) fail(refused.what());
         const bool is_cut = line.front() == '{' && line.back() != '}';
         fail(is_cut ? "the line is cut off in the middle: the trace is not complete"
-                    : "this is no JSON");
+                    : "this is not JSON");
     }
     if (!object.is_object()) fail("the line is not a JSON object");
     if (!object.contains("rddl_trace")) return read_object(object);
@@ -117,7 +116,7 @@ std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
         return std::nullopt;
     }
     if (!line.contains("state") && !line.contains("next_state") && !line.contains("action"))
-        fail("the line is no step: it has no state and no action");
+        fail("the line is not a step:  it has no state and no action");
     TraceStep step;
     step.number = count_in(line, "step", next_number_);
     if (step.number < next_number_)

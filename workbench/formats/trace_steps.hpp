@@ -27,16 +27,16 @@ struct TraceStep {
 
 class TraceSteps {
   public:
-    // Of the episode with that number, or without one of the first that comes. `name` is the file's
-    // in messages. `simulator` must outlive it.
+    // Reads the episode with that number, or the first one that comes. `name` is the file's in
+    // messages. `simulator` must outlive it.
     TraceSteps(const rddl_simulator& simulator, std::optional<std::int64_t> episode,
                std::string name);
 
-    // The next line of the file. A state that is followed by an action, if the line tells one.
-    // Throws a Failure with the line's number where it is no step of this problem; `cut_off` is
-    // asked for a line that lacks its line break.
+    // The next line of the file. Returns a state that is followed by an action, if the line holds
+    // one. Throws a Failure with the line's number if it is not a step of this problem; `cut_off`
+    // is asked for a line that lacks its line break.
     std::optional<TraceStep> read(std::string_view line);
-    // The state that the last step led to, if the trace tells it.
+    // The state that the last step led to, if the trace holds it.
     std::optional<TraceStep> last();
     bool has_last() const { return has_next_state_; }
 
@@ -46,8 +46,10 @@ class TraceSteps {
     void begin_next();
 
     std::optional<std::int64_t> episode() const { return episode_; }
-    std::int64_t horizon() const { return horizon_; }  // of the header or the problem; 0: none
-    // "policy random, seed 0", as the header tells; empty where it does not.
+    std::int64_t horizon() const {
+        return horizon_;
+    }  // of the header or the problem; 0: no horizon
+    // "policy random, seed 0", from the header; empty if it does not say so.
     const std::string& course() const { return course_; }
     bool has_ended() const { return !end_.empty(); }  // the last step says so
 

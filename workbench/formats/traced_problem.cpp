@@ -14,13 +14,13 @@ namespace rddlc::workbench {
 
 ProblemFiles files_of_header(const std::string& line, const std::string& trace) {
     const Failure unknown(
-        fmt::format("the first line of '{}' does not tell which problem it is of", trace),
+        fmt::format("the first line of '{}' does not say which problem it is of", trace),
         "name the problem: rddl render TRACE DOMAIN INSTANCE");
     nlohmann::json header;
     try {
         header = parse_json(line);
     } catch (const RefusedJson&) {
-        throw Failure(fmt::format("'{}' is no trace: its first line is no JSON", trace),
+        throw Failure(fmt::format("'{}' is not a trace: its first line is not JSON", trace),
                       "'rddl run --trace FILE' writes traces");
     }
     const auto files = header.is_object() ? header.find("files") : header.end();

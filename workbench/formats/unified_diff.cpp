@@ -33,7 +33,7 @@ std::string unified_diff(const std::string& name, const std::string& before,
     if (result->status != they_differ) throw Failure("'diff' fails: " + result->output);
     if (result->output.size() >= most_process_output)
         throw Failure("the difference is too long to show",
-                      "--check tells only whether there is one");
+                      "--check says only whether there is one");
     return result->output;
 }
 

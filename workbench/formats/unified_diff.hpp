@@ -5,7 +5,7 @@
 
 namespace rddlc::workbench {
 
-// What turns the file `name` from the text `before` into `after`. Empty if they are equal.
+// The diff that turns the file `name` from the text `before` into `after`. Empty if they are equal.
 std::string unified_diff(const std::string& name, const std::string& before,
                          const std::string& after);
 

@@ -20,7 +20,7 @@ std::string exported_program(const rddl_simulator& simulator, const std::string&
         throw Failure(fmt::format("it remembers the step before, as programs of scikit-decide do, "
                                   "and such programs are not written as {}",
                                   form),
-                      "--as formula tells what it does", usage_error);
+                      "--as formula explains it", usage_error);
     const solvers::Formula formula = solvers::simplified(found->genome);
     if (form == "cpp") return solvers::formula_cpp(formula, found->scope);
     if (form == "dot") return solvers::formula_dot(formula, found->scope);

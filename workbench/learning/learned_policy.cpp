@@ -91,7 +91,7 @@ class RecordedPlans {
         has_actions_ = true;
     }
     std::vector<std::vector<std::byte>> take() {
-        if (!has_actions_) fail("there is no action in it");
+        if (!has_actions_) fail("it holds no actions");
         // One episode is a plan by itself, whatever its number was.
         if (numbers_.size() == 1) return {std::move(plans_.back())};
         return std::move(plans_);

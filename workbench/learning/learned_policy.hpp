@@ -18,8 +18,8 @@ std::string policy_text(const std::filesystem::path& path);
 // A policy file of a solver, the folder of a run, whose best policy it is, or the
 // episodes of a trace (.jsonl).
 bool is_learned_policy(const std::filesystem::path& path);
-// What a solver has written; `name` is the policy's. Throws a Failure. The simulator must outlive
-// it.
+// The policy of a solver's file; `name` is the policy's. Throws a Failure. The simulator must
+// outlive it.
 solvers::Policy policy_of_text(const rddl_simulator& simulator, const std::string& text,
                                bool random, std::uint64_t seed, const std::string& name,
                                std::int64_t memory_limit = default_memory_limit);

@@ -36,7 +36,8 @@ double number_in(std::string_view word, const fs::path& file, std::size_t line) 
     double number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size())
-        throw Failure(fmt::format("'{}', line {}: '{}' is no number", file.string(), line, word));
+        throw Failure(
+            fmt::format("'{}', line {}: '{}' is not a number", file.string(), line, word));
     return number;
 }
 
@@ -64,7 +65,7 @@ Points points_of(const RunProgress& run, const std::string& x, const std::string
     return points;
 }
 
-// On the line between the points; beyond them the value of the nearest.
+// The value on the line between the points; beyond them the value of the nearest.
 double value_at(const Points& points, double x) {
     const auto after = std::lower_bound(points.x.begin(), points.x.end(), x);
     if (after == points.x.end()) return points.y.back();
@@ -182,10 +183,11 @@ std::optional<RunDescription> description_of(const fs::path& folder) {
     try {
         run = parse_json(read_file(file, largest_text));
     } catch (const RefusedJson& refused) {
-        throw Failure(fmt::format("'{}' is no JSON of a run: {}", file.string(), refused.what()));
+        throw Failure(
+            fmt::format("'{}' is not the JSON of a run: {}", file.string(), refused.what()));
     }
     if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
-        throw Failure(fmt::format("'{}' does not tell the seed of a run", file.string()));
+        throw Failure(fmt::format("'{}' does not state the seed of a run", file.string()));
     std::string what;
     for (const char* const name : {"solver", "domain", "instance"})
         if (run.contains(name) && run[name].is_string())

@@ -1,4 +1,4 @@
-// What runs have logged, as curves.
+// The logs of runs, as curves.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ RunProgress read_progress(const std::filesystem::path& folder);
 const std::vector<double>& column_of(const RunProgress& run, const std::string& name);
 
 // The folders of runs that a path means: itself, or those in it, by their names. Throws a Failure
-// where there are none.
+// if there are no runs.
 std::vector<std::filesystem::path> run_folders(const std::filesystem::path& path);
 
 // A curve of one run, or of several that differ in their seeds: mean and standard deviation.
@@ -33,7 +33,7 @@ struct Curve {
     std::vector<double> x, mean, deviation;
 };
 
-// Of the runs, one curve by `x` and `y`, which are names of columns. Several runs are read at the
+// One curve of the runs by `x` and `y`, which are names of columns. Several runs are read at the
 // same places; one that ended before others keeps its last value. Throws a Failure if a run has no
 // such column, or no number in it.
 Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, const std::string& x,
@@ -50,8 +50,8 @@ struct RunDescription {
     std::string what;  // "ppo mountain_car inst_1": solver, domain and instance
     std::uint64_t seed = 0;
 };
-// Of the run in the folder, as its run.json tells it, if there is one. Throws a Failure that names
-// the file where that makes no sense.
+// The description of the run in the folder, from its run.json, if there is one. Throws a Failure
+// that names the file if that makes no sense.
 std::optional<RunDescription> description_of(const std::filesystem::path& folder);
 
 }  // namespace rddlc::workbench

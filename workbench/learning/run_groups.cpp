@@ -25,7 +25,7 @@ std::vector<RunGroup> run_groups(const std::vector<std::string>& paths, bool eac
             group.runs.push_back(read_progress(folder));
         }
     }
-    // A run that has no others keeps the name that it has; groups of one folder tell what they are.
+    // A single run keeps its name; a name that several groups share gets its details.
     std::map<std::string, int> uses;
     for (const RunGroup& group : groups) uses[group.name] += 1;
     for (RunGroup& group : groups)

@@ -19,8 +19,8 @@ struct RunGroup {
 // each run is one.
 std::vector<RunGroup> run_groups(const std::vector<std::string>& paths, bool each_alone);
 
-// What is a step to one solver is a generation to another: beside each other, they have but time
-// in common; nothing then.
+// "steps" or "generations"; empty where solvers differ: a step of one is a generation of another, so
+// side by side, they have only time in common.
 std::string steps_title(const std::vector<RunGroup>& groups);
 
 }  // namespace rddlc::workbench

@@ -12,7 +12,7 @@ namespace rddlc::workbench {
 
 struct BenchSettings {
     double seconds = 1;                 // for each measurement
-    std::vector<std::int64_t> batches;  // none: one of a size that suits the problem
+    std::vector<std::int64_t> batches;  // empty: one of a size that suits the problem
     int threads = 0;                    // the most to try; 0: one per core
     std::vector<std::string> against;   // other simulators (peer_names)
     std::string python;                 // that runs them

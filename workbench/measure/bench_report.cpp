@@ -67,7 +67,7 @@ bool is_slower(const Measurement& a, const Measurement& b) {
 }
 
 // Our best speed under the same conditions: one environment against one, batches against batches,
-// with as many threads. Nothing if there is no such measurement.
+// with as many threads. Nothing without such a measurement.
 std::optional<double> best_rival(const std::vector<Measurement>& ours, const Measurement& peer) {
     std::optional<double> best;
     for (const Measurement& m : ours)

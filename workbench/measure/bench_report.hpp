@@ -1,4 +1,4 @@
-// What `rddl bench` found out, for people and for programs.
+// The report of `rddl bench`, for people and for programs.
 #pragma once
 
 #include "engines/load_simulator.hpp"

@@ -21,8 +21,8 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// That the threads of this process have used so far. Other programs do not count, so that it tells
-// on a busy machine how fast one thread is on an idle one.
+// The processor time that the threads of this process have used so far. Other programs do not
+// count, so that it shows on a busy machine how fast one thread is on an idle one.
 double processor_seconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -33,8 +33,8 @@ struct Stepping {
 Measurement measure(const rddl_simulator& simulator, const RandomCourse& course,
                     const Stepping& stepping, double seconds);
 
-// Bytes that a batch of this size takes for each environment; nothing where the C library cannot
-// tell.
+// The bytes that a batch of this size takes for each environment; nothing if the C library cannot
+// report it.
 std::optional<double> memory_per_environment(const rddl_simulator& simulator,
                                              std::int64_t environments);
 

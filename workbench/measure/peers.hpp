@@ -18,7 +18,7 @@ struct PeerFigures {
     std::vector<Measurement> measurements;
 };
 
-// What `--against` takes.
+// The values of `--against`.
 const std::vector<std::string>& peer_names();
 // Whether the peer makes use of more than one core.
 bool knows_threads(std::string_view name);

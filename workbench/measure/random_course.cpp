@@ -16,8 +16,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t least_steps = 2;
 constexpr std::int64_t most_bytes = 64 << 20;
 
-// A processor learns the branches of a short course by heart when it is stepped again and again. Of
-// this many steps of an environment it does not: twice as many take as long (docs/benchmarks.md).
+// A processor's branch predictor memorises a short course that is stepped again and again. This
+// many steps of all environments are too long for it: twice as many take as long
+// (docs/benchmarks.md).
 constexpr std::int64_t steps_of_all_environments = 1 << 18;
 constexpr std::int64_t least_steps_of_batches = 2048;
 

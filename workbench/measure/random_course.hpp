@@ -9,12 +9,12 @@
 
 namespace rddlc::workbench {
 
-// What batches are made with to which a course belongs. Results do not depend on the number of
-// threads or lanes, so neither do courses.
+// The options of batches to which a course belongs. Results do not depend on the number of threads
+// or lanes, so neither do courses.
 rddl_batch_options course_options(std::int64_t environments);
 
-// Random legal actions of the first steps of a new batch. Whoever steps such a batch with them
-// meets the states for which they were drawn; they are legal only then.
+// Random legal actions of the first steps of a new batch. A caller that steps such a batch with
+// them meets the states for which they were drawn; they are legal only then.
 struct RandomCourse {
     std::int64_t environments = 0;
     std::int64_t steps = 0;
@@ -28,7 +28,7 @@ struct RandomCourse {
     }
 };
 
-// Enough steps that no processor learns them by heart, if they fit in 64 MB and may be drawn in
+// Enough steps that no branch predictor memorises them, if they fit in 64 MB and may be drawn in
 // `seconds`; at least two.
 RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environments,
                          double seconds);

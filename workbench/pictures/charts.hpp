@@ -32,8 +32,8 @@ struct IntervalChart {
     std::vector<Row> rows;
 };
 
-// Throw a Failure where a file cannot be written, or rddl was built without pictures. The first
-// tells before anything is computed.
+// Throw a Failure if a file cannot be written, or rddl was built without pictures. The first
+// reports it before anything is computed.
 void require_writable_chart(const ChartFiles& files);
 void write_chart(const CurveChart& chart, const ChartFiles& files);
 void write_chart(const IntervalChart& chart, const ChartFiles& files);

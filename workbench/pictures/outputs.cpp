@@ -99,7 +99,7 @@ Output folder_output(const fs::path& folder, const char* ending, BytesOf bytes_o
     return output;
 }
 
-// What others read as a file of another kind.
+// Whether other programs read the path as a file of another kind.
 bool names_another_kind(const std::string& path, std::string_view ending) {
     constexpr std::array<std::string_view, 11> endings{
         ".png", ".svg", ".gif", ".jpg", ".jpeg", ".webp", ".bmp", ".pdf", ".mp4", ".webm", ".html"};
@@ -109,7 +109,7 @@ bool names_another_kind(const std::string& path, std::string_view ending) {
 
 Output still_output(const std::string& path, const char* ending, const PictureOptions& options,
                     BytesOf bytes_of, UsedFiles& used) {
-    if (names_another_kind(path, ending))  // nobody means a folder
+    if (names_another_kind(path, ending))  // such a path is not meant as a folder
         throw Failure(
             fmt::format("a picture is a file {}, or a folder of them, not '{}'", ending, path), {},
             usage_error);

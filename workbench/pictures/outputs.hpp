@@ -15,7 +15,7 @@
 
 namespace rddlc::workbench {
 
-// What is known when the first state is there.
+// The facts that are known when the first state is there.
 struct Show {
     const rddl::render::World& world;
     Pace pace;
@@ -39,7 +39,7 @@ Output gif_output(const PictureOptions& options, UsedFiles& used);
 Output video_output(const PictureOptions& options, UsedFiles& used);
 Output png_output(const PictureOptions& options, UsedFiles& used);
 Output svg_output(const PictureOptions& options, UsedFiles& used);
-// Of one or two episodes.
+// A page of one or two episodes.
 Output page_output(const PictureOptions& options, UsedFiles& used);
 
 }  // namespace rddlc::workbench

@@ -21,7 +21,7 @@ double seconds_per_step(const rddl::render::World& world) {
         const double seconds = world.constant(*fluent).numbers.at(0);
         if (seconds > 0 && std::isfinite(seconds)) return seconds;
     }
-    throw Failure("this problem does not tell how long a step is, which --real-time-factor needs",
+    throw Failure("this problem does not say how long a step is, which --real-time-factor needs",
                   "say --fps N", usage_error);
 }
 

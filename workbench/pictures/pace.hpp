@@ -18,8 +18,9 @@ struct Pace {
     bool shows(std::int64_t state) const { return stride != last_alone && state % stride == 0; }
 };
 
-// As the options say, of an episode with that horizon; 0: none. Throws a Failure where the problem
-// does not tell how long a step is, and --real-time-factor asks for it, and where they contradict.
+// The pace that the options ask for, in an episode with that horizon; 0: no horizon. Throws a
+// Failure if --real-time-factor asks for the length of a step and the problem does not give it, or
+// if options contradict.
 Pace choose_pace(const PictureOptions& options, const rddl::render::World& world,
                  std::int64_t horizon);
 

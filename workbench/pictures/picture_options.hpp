@@ -1,4 +1,5 @@
-// What pictures are wanted, of which episode, and how they look: of `rddl run` and `rddl render`.
+// The options of pictures, of `rddl run` and `rddl render`: their files, their episode, and their
+// look.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +11,13 @@
 namespace rddlc::workbench {
 
 struct PictureOptions {
-    // Files; empty: not wanted; "-": standard output, but for videos.
+    // Files; empty: not wanted; "-": standard output, except for videos.
     std::string gif, video;         // of the whole episode
     std::string png, svg;           // a file of one state, or a folder of all
     std::string html;               // replay page
     bool watch = false;             // in the terminal
     bool quiet = false;             // no progress is shown
-    std::string scene;              // a file that says what to draw; empty: none
+    std::string scene;              // a file that says what to draw; empty: no scene
     std::string visualizer;         // empty: the one for the domain
     int width = 600, height = 400;  // pixels
     std::optional<double> frames_per_second;
@@ -33,8 +34,8 @@ struct PictureOptions {
     bool any_on_standard_output() const;
 };
 
-// Throws a Failure unless nothing, or one thing, is written to standard output, and pictures not to
-// a terminal. `other`: an option that writes there, too; empty: none.
+// Throws a Failure if more than one thing is written to standard output, or pictures to a terminal.
+// `other`: an option that also writes there; empty: no such option.
 void require_one_on_standard_output(const PictureOptions& options, std::string_view other = {});
 // Throws a Failure where two outputs have the same file, the trace of `rddl run` included.
 void require_different_files(const PictureOptions& options, const std::string& trace = {});

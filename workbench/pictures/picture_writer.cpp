@@ -59,7 +59,8 @@ std::vector<Output> outputs_of(const PictureOptions& options, UsedFiles& used) {
     return outputs;
 }
 
-// Nobody wants a file of a million pictures; who watches ends when he has seen enough.
+// Limits the number of pictures in a file by default, not in terminals, where viewers stop when
+// they like.
 PictureOptions with_usual_limit(PictureOptions options) {
     constexpr std::int64_t usual_most_frames = 1000;
     if (!options.most_frames) options.most_frames = usual_most_frames;

@@ -29,7 +29,7 @@ class PictureWriter {
     PictureWriter(const PictureWriter&) = delete;
     PictureWriter& operator=(const PictureWriter&) = delete;
 
-    // Of the trace, without its line break.
+    // Adds a line of the trace, without its line break.
     void add_line(std::string_view line);
     // The lines that follow are of another trace of the same problem. For pages only, which show
     // both episodes side by side.

@@ -41,8 +41,7 @@ void Reel::add_line(std::string_view line) {
         pending_ = std::move(step);
 }
 
-// A header's horizon may be wrong, and there may be none: files wait for the episode's end. Who
-// watches does not.
+// A header's horizon may be wrong or absent: files wait for the episode's end. Terminals do not.
 void Reel::take(TraceStep&& step, bool is_last) {
     if (!wanted_ || !options_.most_frames) return draw(std::move(step), is_last);
     held_.push_back(std::move(step));

@@ -51,7 +51,7 @@ class Reel {
     std::optional<TraceStep> pending_;        // the last one may turn out to be the end
     std::optional<rddl::render::Film> film_;  // of the episode that has begun
     Pace pace_;
-    // Of an episode of which only some states are drawn, all: how many there are tells which.
+    // All states of an episode of which only some are drawn: their number determines which.
     std::vector<TraceStep> held_;
     std::int64_t added_ = 0, in_movie_ = 0;  // states of the episode
     StatesDrawn states_;

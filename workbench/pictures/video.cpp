@@ -23,7 +23,7 @@ namespace rddlc::workbench {
 
 namespace {
 
-// Of ffmpeg, by the file's ending.
+// The options of ffmpeg for the file's ending.
 std::vector<std::string> format_options(const std::filesystem::path& file) {
     const std::string ending = extension_of(file);
     // Half the colours of most players' videos need an even size.
@@ -129,7 +129,7 @@ void VideoWriter::add(const rddl::render::Picture& picture) {
     while (left > 0) {
         const ssize_t sent = send(pictures_, bytes, left, MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR) continue;
-        if (sent < 0) return;  // ffmpeg has ended; finish() tells why
+        if (sent < 0) return;  // ffmpeg has ended; finish() reports why
         bytes += sent;
         left -= static_cast<std::size_t>(sent);
     }

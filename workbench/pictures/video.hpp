@@ -11,13 +11,13 @@
 
 namespace rddlc::workbench {
 
-// A Failure if the file cannot be written, or has none of the endings that tell the format: .mp4,
-// .webm and .webp.
+// Throws a Failure if the file cannot be written, or its ending is not one of the known formats:
+// .mp4, .webm and .webp.
 void require_video(const std::filesystem::path& file, const UsedFiles& used);
 
 class VideoWriter {
   public:
-    // A Failure as that of require_video, or if there is no ffmpeg.
+    // Throws a Failure as require_video does, or if ffmpeg is missing.
     VideoWriter(std::filesystem::path file, int width, int height, double frames_per_second,
                 const UsedFiles& used);
     ~VideoWriter();

@@ -72,7 +72,7 @@ std::string iterm_image(const std::string& png) {
     return fmt::format("\x1b]1337;File=inline=1;size={}:{}\a\n", png.size(), render::base64(png));
 }
 
-// As many characters as stand in the columns. Nothing in them drives the terminal.
+// The characters that fit in the columns, without control sequences.
 std::string cut_off(std::string_view line, std::size_t columns) {
     const std::string text = printable_line(line);
     std::size_t width = 0, bytes = 0;

@@ -34,7 +34,7 @@ void for_each_operand(const Expr& expression, Visit visit) {
         [](const RandomVector&) {});
 }
 
-// What occurs in an expression.
+// The kinds of terms that occur in an expression.
 struct Occurrences {
     bool random = false;
     std::set<std::string> distributions;
@@ -90,7 +90,7 @@ void collect(const Expr& expression, Occurrences& found) {
         [&](const MatrixFunction&) { feature("matrix functions"); },
         [&](const External&) {
             feature("external functions");
-            found.random = true;  // nobody knows
+            found.random = true;  // the function is unknown and may draw
         },
         [&](const RandomVector& n) { found.draws(name_of_vector(n.distribution)); });
     // An object as an argument is what RDDL is made of; only other places count.

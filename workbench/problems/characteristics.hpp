@@ -1,4 +1,4 @@
-// What someone who picks a solver asks about a problem.
+// Characteristics of a problem that matter for the choice of a solver.
 #pragma once
 
 #include "model/model.hpp"

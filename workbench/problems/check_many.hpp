@@ -24,7 +24,8 @@ struct CheckOutcome {
 // interrupt.
 std::vector<CheckOutcome> check_many(const std::vector<ProblemFiles>& files);
 
-// What several instances share, such as an error in the domain, is told and counted once.
+// The diagnostics of all instances of a problem. Those that several instances share, such as an error
+// in the domain, are reported and counted once.
 struct CheckedInstances {
     std::size_t instances = 0, without_errors = 0, errors = 0, warnings = 0;
     std::vector<const RenderedDiagnostic*> different;

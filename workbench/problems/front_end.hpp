@@ -9,7 +9,7 @@ namespace rddlc::workbench {
 // To compile the problem up to a stage.
 CompileOptions compile_options(const ProblemFiles& files, Stage last);
 
-// The same for the sake of the diagnostics alone: a domain needs no instance.
+// The same for diagnostics only: a domain needs no instance.
 CompileOptions check_options(const ProblemFiles& files, Stage last);
 
 // Prints all diagnostics on stderr.

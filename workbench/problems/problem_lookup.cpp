@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* standalone = "standalone";  // the context of problems that have none
+constexpr const char* standalone = "standalone";  // the context of problems without one
 
 // "instance12.rddl" -> "12", "instance.rddl" -> "1"; nothing for other files.
 std::optional<std::string> instance_of(const fs::path& file) {
@@ -89,7 +89,8 @@ RepositoryProblem read_problem(const fs::path& archive, const fs::path& folder) 
     return problem;
 }
 
-// The folder of the package as this Python sees it; empty if it has none. Nothing is imported.
+// The folder of the package as this Python sees it; empty if it is not installed. Nothing is
+// imported.
 fs::path ask_python(const std::string& python) {
     const std::string command =
         "'" + python +
@@ -246,7 +247,7 @@ ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view in
 
 bool is_path(const std::string& text) {
     if (text.ends_with(".rddl") || text.find('/') != std::string::npos) return true;
-    // A link that goes round in a circle is there, too.
+    // A symlink loop also exists as a file.
     std::error_code error;
     return fs::status(text, error).type() != fs::file_type::not_found;
 }

@@ -1,4 +1,4 @@
-// Which files a problem is: two paths, or a name and an instance of rddlrepository.
+// Finds the files of a problem: two paths, or a name and an instance of rddlrepository.
 #pragma once
 
 #include "support/memory.hpp"
@@ -28,7 +28,7 @@ struct ProblemFiles {
 // A folder of the repository that holds a domain and its instances.
 struct RepositoryProblem {
     std::string name;         // as in pyRDDLGym: "MountainCar_ippc2023"
-    std::string context;      // "ippc2023"; "standalone" if it has none
+    std::string context;      // "ippc2023"; "standalone" if it belongs to no competition
     std::string description;  // one sentence
     std::filesystem::path folder;
     std::vector<std::string> instances;  // "1", "2", ... in numerical order
@@ -53,10 +53,10 @@ Repository require_repository();
 // or else from the folder.
 Repository scan_repository(const std::filesystem::path& folder);
 
-// A domain.rddl and its instances in a folder of the user. Fails if there is none.
+// A domain.rddl and its instances in a folder of the user. Fails if the folder holds no such files.
 RepositoryProblem problem_in(const std::filesystem::path& folder);
 
-// Fails, with the names that are near, if there is no such problem.
+// Fails, and suggests similar names, if there is no such problem.
 const RepositoryProblem& find_problem(const Repository& repository, std::string_view name);
 ProblemFiles find_instance(const RepositoryProblem& problem, std::string_view instance);
 

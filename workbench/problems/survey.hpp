@@ -9,7 +9,7 @@
 
 namespace rddlc::workbench {
 
-// What one instance shows of a problem; instances hardly differ in it.
+// A problem with its characteristics, taken from one instance; instances hardly differ in them.
 struct SurveyedProblem {
     RepositoryProblem problem;
     std::optional<Characteristics> characteristics;  // absent if there are errors

@@ -1,4 +1,4 @@
-// Which Python runs programs of ours, and what they are given.
+// Chooses the Python that runs our scripts, and passes their arguments.
 #pragma once
 
 #include "problems/problem_lookup.hpp"

@@ -12,8 +12,9 @@ namespace rddlc::workbench {
 
 struct Explanation {
     std::vector<std::string> bindings;  // "?r = t2": the first objects for which it fails
-    std::vector<std::string> values;    // "release(t2) = 30.5": what it looks at there, each once
-    std::string fault;                  // what could not be evaluated; empty if all could
+    std::vector<std::string>
+        values;         // "release(t2) = 30.5": the values that it reads there, each once
+    std::string fault;  // what could not be evaluated; empty if all could
 
     // "at ?r = t2: release(t2) = 30.5, rlevel(t2) = 12.25"; may be empty
     std::string text() const;

@@ -30,11 +30,11 @@ constexpr std::int64_t most_repeats = 10'000'000;
 
 constexpr std::array<std::string_view, 5> understood{"state", "action", "reset", "repeat",
                                                      "episode"};
-// What the lines of a trace say besides; it is what comes out again.
+// Further members in the lines of a trace: outputs, which the input repeats.
 constexpr std::array<std::string_view, 8> ignored_members{
     "step", "reward", "next_state", "observation", "terminated", "truncated", "causes", "fault"};
 
-// What is wrong with a line.
+// The error in a line.
 struct Refusal {
     std::string message;
 };

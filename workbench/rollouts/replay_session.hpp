@@ -23,16 +23,16 @@ namespace rddlc::workbench {
 struct ReplayOptions {
     std::optional<std::uint64_t> seed = {};  // else that of the trace, else 0
     std::optional<std::int64_t> horizon =
-        {};  // else that of the trace, else the instance's; 0: none
+        {};  // otherwise that of the trace, otherwise the instance's; 0: no horizon
     Preconditions preconditions = Preconditions::Ignore;
-    // Tells what is wrong, in one line; called for each violated precondition.
+    // Explains the violation in one line; called for each violated precondition.
     std::function<std::string(const Violation&)> explain = {};
     // Sees the header of a trace.
     std::function<void(const nlohmann::json&)> see_header = {};
 };
 
-// The input is a trace of another problem, or in another version of the format: none of its lines
-// means what it says.
+// The input is a trace of another problem, or in another version of the format: its lines cannot be
+// understood.
 struct ForeignTrace : Failure {
     using Failure::Failure;
 };
@@ -51,7 +51,7 @@ class ReplaySession {
   private:
     using Record = std::vector<std::byte>;
 
-    // What a line asks for, checked.
+    // The request of a line, checked.
     struct Request {
         std::optional<std::int64_t> environment;  // to start an episode of
         bool reset = false;                       // start another episode of the same one
@@ -89,7 +89,7 @@ class ReplaySession {
     const rddl_problem& problem_;
     ReplayOptions options_;
     std::uint64_t seed_;
-    std::int64_t horizon_;  // in force; 0: none
+    std::int64_t horizon_;  // in force; 0: no horizon
     RecordLayout state_layout_, action_layout_, observation_layout_;
     std::int64_t line_ = 0;         // the number of the last one, from 1 on
     bool has_begun_ = false;        // some line was not blank

@@ -46,7 +46,7 @@ std::string fault_words(const std::string& fault) {
 }
 
 std::string ending_words(std::uint8_t causes) {
-    return causes == RDDL_RUNNING ? "the episode goes on"
+    return causes == RDDL_RUNNING ? "the episode continues"
                                   : "the episode ends: " + causes_json(causes);
 }
 
@@ -61,7 +61,7 @@ bool accept(double expected, double found, Tolerance tolerance, ValueCounts& cou
     return true;
 }
 
-// By other last digits.
+// Whether different last digits explain the difference.
 bool is_explained(double expected, double found, const std::vector<double>& otherwise) {
     double least = found, most = found;
     for (const double other : otherwise) {
@@ -184,7 +184,7 @@ std::optional<Difference> OutcomeComparison::compare_records(
     return std::nullopt;
 }
 
-// As in RDDL: "water'(t1)".
+// The name as in RDDL: "water'(t1)".
 std::string OutcomeComparison::name_of(Shown what, const RecordEntry& entry) const {
     const rddl_fluent& fluent = *entry.fluent;
     std::string arguments;

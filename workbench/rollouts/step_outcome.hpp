@@ -1,4 +1,4 @@
-// What one step of one environment shows, and where two engines show different things.
+// The observable outcome of one step of one environment, and the differences between two engines.
 #pragma once
 
 #include "formats/records_json.hpp"
@@ -24,14 +24,15 @@ struct StepOutcome {
     Record observation;                         // of partially observed problems
     double reward = 0;
     std::uint8_t causes = RDDL_RUNNING;
-    std::string fault;  // place and message; state, observation and reward are no results then
+    std::string fault;  // place and message; state, observation and reward are not results then
 };
 
 // How far two engines may be apart.
 struct Tolerance {
-    // Of reals, relative to the greater one; 0: bit for bit (but one nan is like another).
+    // The tolerance of reals, relative to the greater one; 0: bit for bit (but one nan is like
+    // another).
     double of_reals = 0;
-    // Where the expected real is inf or nan, any will do (docs/fast-math.md).
+    // If the expected real is inf or nan, any value is accepted (docs/fast-math.md).
     bool only_finite = false;
 
     bool accepts(double expected, double found) const;
@@ -74,9 +75,9 @@ class OutcomeComparison {
     // `problem` must outlive this.
     explicit OutcomeComparison(const rddl_problem& problem);
 
-    // The first difference; none, but counted in `counts`, where all is within the tolerance.
-    // `otherwise` is what may be found, too, with other last digits: what lies among it, or no
-    // farther from `found` than it does, is no difference.
+    // The first difference; if all is within the tolerance, nothing is returned, but counted in
+    // `counts`. `otherwise` are outcomes that are also correct, with other last digits: an expected
+    // value within their range, or no farther from `found` than they are, is not a difference.
     std::optional<Difference> compare(const StepOutcome& expected, const StepOutcome& found,
                                       Tolerance tolerance, ValueCounts& counts,
                                       std::span<const StepOutcome> otherwise = {}) const;

@@ -36,7 +36,7 @@ std::string ViolationText::diagnostic(const std::string& severity, const std::st
            (explanation.empty() ? "" : fmt::format("note: {}\n", explanation));
 }
 
-// As the stage `ground` leaves it.
+// The problem after the stage `ground`.
 struct ViolationExplainer::Problem {
     Problem(Compilation compilation, const ProblemFiles& files, const LoadOptions& options)
         : sources(std::move(compilation.sources)),

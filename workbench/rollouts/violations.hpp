@@ -1,4 +1,4 @@
-// Violated preconditions and invariants: what to do about them, and how to tell of them.
+// Violated preconditions and invariants: how to treat them, and how to report them.
 #pragma once
 
 #include "engines/load_simulator.hpp"
@@ -29,7 +29,7 @@ struct ViolationText {
     std::string diagnostic(const std::string& severity, const std::string& when) const;
 };
 
-// Evaluates violated conditions once more, slowly, and tells what is wrong.
+// Evaluates violated conditions again, slowly, and explains them.
 class ViolationExplainer {
   public:
     // The problem, which is known to load without errors by these options, is compiled when the
@@ -37,8 +37,8 @@ class ViolationExplainer {
     ViolationExplainer(ProblemFiles files, LoadOptions options);
     ~ViolationExplainer();
 
-    // Of the first condition that is violated. Throws Failure if none is, since the files are not
-    // what they were.
+    // Explains the first condition that is violated. Throws Failure if all hold, since the files
+    // have changed.
     ViolationText precondition(const Violation& violation);
     ViolationText invariant(const Violation& violation);
 

@@ -55,13 +55,13 @@ class SceneReader {
         } catch (const RefusedJson& refused) {
             if (!refused.byte) fail(whole(), refused.what());
             const auto at = static_cast<std::uint32_t>(*refused.byte);
-            fail({file_, at, at}, "this is no JSON",
+            fail({file_, at, at}, "this is not JSON",
                  "JSON has names and texts in double quotes, no comments, and no comma before a "
                  "bracket that closes");
         }
     }
 
-    // Where each value stands that is a text, and each object by its first member.
+    // Locates each value that is a text, and each object by its first member.
     void locate(const Json& value) {
         if (value.is_string()) place_[&value] = texts_[next_++];
         if (value.is_array())
@@ -188,7 +188,7 @@ class SceneReader {
             const auto& text = value.get_ref<const std::string&>();
             if (render::read_color(text, color)) return {color};
             const auto near = did_you_mean(text, render::color_names());
-            fail(place_of(value), fmt::format("'{}' is no color", text),
+            fail(place_of(value), fmt::format("'{}' is not a color", text),
                  near ? fmt::format("did you mean '{}'?", *near)
                       : fmt::format("colors are {}, or #rrggbb",
                                     fmt::join(render::color_names(), ", ")));
@@ -208,7 +208,7 @@ class SceneReader {
         return {SceneColorScale{scale, number_or(value, "low", 0), number_or(value, "high", 1)}};
     }
 
-    // What JSON writes as "\u6c34".
+    // The text that JSON writes as "\u6c34".
     std::string without_escapes(const std::string& raw, Span span) const {
         const Json decoded = Json::parse('"' + raw + '"', nullptr, false);
         const auto text = decoded.is_string() ? decoded.get<std::string>() : std::string();
@@ -220,7 +220,7 @@ class SceneReader {
         return text;
     }
 
-    // Expressions have braces, too: {sum_{?b: basin} [water(?b)]}.
+    // Expressions also have braces: {sum_{?b: basin} [water(?b)]}.
     static std::size_t closing_brace(const std::string& text, std::size_t open) {
         int depth = 0;
         for (std::size_t at = open; at < text.size(); ++at) {

@@ -22,7 +22,7 @@ struct SceneVariable {
     Span span;
 };
 
-// What an expression must give. Texts show bools, numbers and objects.
+// The type that an expression must have. Texts show bools, numbers and objects.
 enum class SceneRange { Bool, Real, Shown };
 
 // RDDL in the file, over the variables of its shape.
@@ -32,7 +32,7 @@ struct SceneExpression {
     std::vector<SceneVariable> variables;
 };
 
-// Of Scene::expressions.
+// The index in Scene::expressions.
 using ExpressionIndex = std::size_t;
 
 using SceneNumber = std::variant<double, ExpressionIndex>;
@@ -77,8 +77,8 @@ struct Scene {
     std::vector<SceneShape> shapes;
 };
 
-// Throws a Failure that names the line where the text is no JSON or no scene. `file` is that of the
-// spans.
+// Throws a Failure that names the line if the text is not JSON or not a scene. `file` is that of
+// the spans.
 Scene read_scene(const Source& source, FileId file);
 
 }  // namespace rddlc::workbench

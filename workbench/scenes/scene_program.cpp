@@ -20,7 +20,7 @@ namespace rddlc::workbench {
 
 namespace {
 
-// Messages tell it. No RDDL can name it, for it has blanks.
+// Messages use this name. No RDDL can, since it has blanks.
 std::string name_of_expression(ExpressionIndex index) {
     return fmt::format("expression {} of the scene", index + 1);
 }
@@ -48,7 +48,7 @@ class SceneCompiler {
 
     void add(const Scene& scene) {
         ast::Domain* const domain = domain_of(program_);
-        if (!domain) return;  // which the checker tells
+        if (!domain) return;  // the checker reports that
         auto* const fluents = section_of<ast::PVariables>(*domain);
         auto* const cpfs = section_of<ast::Cpfs>(*domain);
         if (!fluents || !cpfs) return;
@@ -195,7 +195,7 @@ class SceneCompiler {
                 add_objects(values->sections, type, objects);
         }
         if (!objects.empty()) return objects;
-        // Those of the instance count where there are no others.
+        // The sections of the instance count if there are no others.
         for (const ast::Block& block : program_.blocks)
             if (const auto* const instance = std::get_if<ast::Instance>(&block))
                 add_objects(instance->sections, type, objects);
@@ -220,7 +220,7 @@ class SceneCompiler {
                             objects.push_back({object.text, false});
     }
 
-    // The sections of the last non-fluents block, or of the instance where there is none.
+    // The sections of the last non-fluents block, or of the instance without such a block.
     std::vector<ast::InstanceSection>* sections_of_non_fluents() {
         std::vector<ast::InstanceSection>* sections = nullptr;
         for (ast::Block& block : program_.blocks)
@@ -300,7 +300,7 @@ const std::vector<std::string>& SceneProgram::objects_of(const std::string& type
 }
 
 void SceneProgram::evaluate(const std::byte* state, const std::byte* action) {
-    // What the problem draws at random within a step is not what was drawn: nobody knows that.
+    // The draws of the real step are unknown, so values that depend on them are others.
     rddl::Context<rddl::Scalar> context{};
     const rddl::Details& details = *details_->get();
     details.compute(details.self, state, action, scratch_.data(), record_.data(), context);

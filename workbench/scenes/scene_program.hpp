@@ -23,7 +23,7 @@ class SceneProgram {
     SceneProgram(const ProblemFiles& files, const std::filesystem::path& scene_file);
 
     const Scene& scene() const { return scene_; }
-    // Of a variable's type, in the order of the problem.
+    // The objects of a variable's type, in the order of the problem.
     const std::vector<std::string>& objects_of(const std::string& type) const;
 
     // Records of the problem; then values can be asked for.
@@ -31,11 +31,11 @@ class SceneProgram {
     // `grounding` counts the tuples of the objects of the shape's variables, the last one fastest.
     double value(ExpressionIndex expression, std::size_t grounding) const;
     double value(const SceneNumber& number, std::size_t grounding) const;
-    // As a text shows it: "true", "3.5", the name of an object.
+    // The value as a text shows it: "true", "3.5", the name of an object.
     std::string shown(ExpressionIndex expression, std::size_t grounding) const;
 
   private:
-    // Where an expression's values lie in the record, and what they are.
+    // The place of an expression's values in the record, and their type.
     struct Result {
         std::size_t offset;
         model::ValueType range;

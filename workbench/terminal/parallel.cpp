@@ -27,7 +27,7 @@ void for_each_in_parallel(const std::string& what, std::size_t count,
         } catch (...) {
             const std::scoped_lock lock(mutex);
             if (!failure) failure = std::current_exception();
-            next = count;  // the other threads stop, too
+            next = count;  // the other threads also stop
         }
     };
     const int cores = static_cast<int>(std::thread::hardware_concurrency());

@@ -35,7 +35,7 @@ class Progress {
 };
 
 // "12 s left", when `part` of the work took so many seconds. Empty at the beginning, before the
-// first hundredth and the first second: that tells nothing of the rest.
+// first hundredth and the first second, which do not predict the rest.
 std::string remaining_text(double part, double elapsed);
 
 // "0.4 s", "12 s", "3 min 20 s", "2 h 5 min".

@@ -85,7 +85,7 @@ class Repetition {
         return context;
     }
 
-    // What the policy block does after all that it has seen.
+    // The decision of the policy block after all its observations.
     std::optional<Record> decide() {
         if (start_.seen.empty()) return std::nullopt;
         Record memory(interpreter_.memory_size()), next(interpreter_.memory_size());

@@ -1,4 +1,4 @@
-// Which pass, or whether the emitted code, makes a step wrong.
+// Finds the pass, or the emitted code, that makes a step wrong.
 #pragma once
 
 #include "ir/external_functions.hpp"
@@ -18,16 +18,16 @@ namespace rddlc::workbench {
 
 // A step that can be made again: where it starts, and its random numbers.
 struct StepStart {
-    bool initial = false;  // only the initial state of the episode is looked at
+    bool initial = false;  // only the initial state of the episode is checked
     Record state, action;
     std::int64_t environment = 0;
     std::int64_t episode = 0;  // of that environment
     std::int64_t step = 0;     // of that episode
-    // What the policy block, if it is asked, has seen from the first step on to this one.
+    // The observations of the policy block, if it is asked, from the first step on to this one.
     std::vector<Record> seen = {};
 };
 
-// The passes at work: tells what each has made of the program.
+// The running passes: reports the program after each.
 using TellProgram = std::function<void(std::string_view pass, const ir::Program&)>;
 using Pipeline = std::function<void(ir::Program, const TellProgram&)>;
 Pipeline pipeline_of(const PassOptions& options);
@@ -57,7 +57,7 @@ StepOutcome interpret_step(const ir::Program& program, const ir::ExternalFunctio
 std::vector<StepOutcome> interpret_step_otherwise(const ir::Program& program,
                                                   const ir::ExternalFunctions& functions,
                                                   const StepStart& start, std::uint64_t seed);
-// The step by an engine, in `count` environments that do the same. None: it cannot be reached,
+// The step by an engine, in `count` environments that do the same. Nothing if it cannot be reached,
 // since steps before it fault.
 std::optional<StepOutcome> repeat_step(const VerifiedEngine& engine, std::int64_t count,
                                        const StepStart& start, std::uint64_t seed);

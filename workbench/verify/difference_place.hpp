@@ -1,4 +1,4 @@
-// Where in the RDDL text it is said what a value ought to be.
+// Finds the place in the RDDL text that defines a value.
 #pragma once
 
 #include "support/source.hpp"
@@ -9,8 +9,8 @@
 
 namespace rddlc::workbench {
 
-// The CPF of a value, the reward, the condition; of a fault the CPF in which it happens, or the
-// place itself. None where nothing says so, as of an initial value.
+// The CPF of a value, the reward, the condition; for a fault the CPF in which it happens, or the
+// place itself. Nothing if no text defines it, as for an initial value.
 std::optional<Span> place_of(const Difference& difference, const StepStart& start,
                              const VerifiedProblem& problem, std::uint64_t seed);
 

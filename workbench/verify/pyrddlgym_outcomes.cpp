@@ -72,7 +72,7 @@ class Answers {
         return names;
     }
 
-    // Where draws take part, it is `ours`.
+    // A value that depends on draws is taken from `ours`.
     StepOutcome outcome(const json& answer, const StepOutcome& ours) const {
         StepOutcome theirs;
         theirs.action = ours.action;
@@ -103,7 +103,7 @@ class Answers {
                                      [&](const RecordEntry& entry) { return !is_random(entry); });
     }
 
-    // pyRDDLGym tells whether an action is legal, not what it violates.
+    // pyRDDLGym reports whether an action is legal, not what it violates.
     static std::int32_t precondition(const json& answer, const StepOutcome& ours) {
         const bool legal = answer["legal"].get<bool>();
         if (legal == (ours.violated_precondition < 0)) return ours.violated_precondition;

@@ -1,4 +1,4 @@
-"""What the real pyRDDLGym does from given states under given actions: a part of `rddl verify`.
+"""Steps of the real pyRDDLGym from given states under given actions: a part of `rddl verify`.
 
     python pyrddlgym_outcomes.py DOMAIN INSTANCE QUESTIONS ANSWERS SECONDS
 

@@ -1,4 +1,4 @@
-// Who is to blame where engines differ.
+// Finds the engine that is wrong if engines differ.
 #pragma once
 
 #include "verify/verified_problem.hpp"

@@ -35,23 +35,23 @@ class VerifiedEnvironments {
     // The next episode where the mask is not 0.
     void restart(const std::vector<std::uint8_t>& mask);
     void set_state(std::int64_t environment, const Record& state);
-    // Asks the policy block; `step` then tells what it did. The action records.
+    // Asks the policy block; `step` then reports its decisions. Returns the action records.
     const std::vector<std::byte>& act();
-    // What each environment shows under its action, environment by environment.
+    // The outcomes of all environments under their actions, environment by environment.
     std::vector<StepOutcome> step(const std::vector<std::byte>& actions);
     // Without a step: states, and whether the episodes are over.
     std::vector<StepOutcome> look() const;
 
     Record state(std::int64_t environment) const;
-    // What a policy sees.
+    // The observation that a policy gets.
     Record observation(std::int64_t environment) const;
     std::int64_t steps(std::int64_t environment) const;     // in its episode
     std::int64_t episodes(std::int64_t environment) const;  // ended before it
-    // Of all environments; null where each has one of its own.
+    // The batch of all environments; null if each has one of its own.
     rddl_batch* batch() const { return batches_.size() == 1 ? batches_.front().get() : nullptr; }
 
   private:
-    // Where an environment is.
+    // The place of an environment.
     struct Seat {
         rddl_batch* batch;
         std::int64_t place;

@@ -65,7 +65,7 @@ Simulator compiled_with(const ProblemFiles& files, const LoadOptions& load, int 
     CompileOptions options = front_end_options(files, Stage::Emit, load);
     options.lane_count = lanes;
     const Compilation compilation = compile_or_give_up(options);
-    // What is compiled once for all simulators has batches of the usual packs.
+    // The code that is compiled once for all simulators has batches of the usual packs.
     const bool usual = lanes == 1 || lanes == CompileOptions{}.lane_count;
     CacheOptions cache{files.name, load.ignore_cache, load.quiet, options.extern_headers};
     if (usual) cache.linked_batches = options.real;

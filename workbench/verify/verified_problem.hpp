@@ -27,7 +27,7 @@ struct VerifiedProblem {
     Pipeline pipeline;                      // from the plain program to the optimised one
     std::vector<std::string> busy_passes;   // that changed something, each once, the last first
     std::vector<std::string> rounding;      // those of them that may round reals differently
-    std::optional<InvalidProgram> invalid;  // then there are no engines
+    std::optional<InvalidProgram> invalid;  // then the problem has no engines
     std::vector<VerifiedEngine> engines;  // the plain interpreter, the optimised one, compiled ones
     CompileAgain compile;
 

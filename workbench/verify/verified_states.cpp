@@ -48,7 +48,7 @@ json read_line(const std::string& text, const auto& refuse) {
     try {
         line = parse_json(text);
     } catch (const RefusedJson& error) {
-        refuse(error.byte ? "it is no JSON" : error.what());
+        refuse(error.byte ? "it is not JSON" : error.what());
     }
     if (!line.is_object()) refuse("it is not a JSON object");
     return line;

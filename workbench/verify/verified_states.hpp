@@ -15,7 +15,7 @@
 namespace rddlc::workbench {
 
 // Random states: some values of a state are replaced by others of their type, within the bounds of
-// the problem or, where there are none, the range that was seen, bounds themselves often.
+// the problem or, without bounds, within the range seen so far, bounds themselves often.
 class RandomStates {
   public:
     // `layout` must outlive this.

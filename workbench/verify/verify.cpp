@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What is left for stepping where compiling takes long, and for pyRDDLGym.
+// The time for stepping if compiling takes long, and pyRDDLGym's share.
 constexpr double least_seconds = 2;
 constexpr double pyrddlgym_share = 0.25;
 

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The difference that is told, and between whom.
+// The reported difference and its two engines.
 struct Told {
     const Difference& difference;
     const StepStart& start;
@@ -80,7 +80,7 @@ std::string pyrddlgym_text(const PyRddlGymComparison& compared) {
         text += fmt::format(", all but what is drawn at random ({})", joined(compared.random));
     if (compared.both_refuse > 0)
         text +=
-            fmt::format(", {} that fault here stop it, too", counted(compared.both_refuse, "step"));
+            fmt::format(", {} that fault here also stop it", counted(compared.both_refuse, "step"));
     if (compared.left_out > 0)
         text +=
             fmt::format(", {} that pyRDDLGym refuses left out", counted(compared.left_out, "step"));
@@ -117,7 +117,7 @@ std::string when(const VerifyReport& report, const StepStart& start) {
 std::string verdict_text(const VerifyReport& report) {
     if (!report.walk.disagreement)
         return "note: all engines of rddlc agree on this step\n"
-               "hint: docs/dialects.md and docs/decisions.md tell where rddlc differs from "
+               "hint: docs/dialects.md and docs/decisions.md say where rddlc differs from "
                "pyRDDLGym "
                "on purpose\n";
     const Verdict verdict = report.verdict.value_or(Verdict{});

@@ -1,4 +1,4 @@
-// What `rddl verify` tells: one line, or the first difference.
+// The output of `rddl verify`: one line, or the first difference.
 #pragma once
 
 #include "verify/pyrddlgym_outcomes.hpp"
@@ -19,13 +19,13 @@ struct VerifyReport {
     std::string words;  // the problem as the user named it, for commands
     std::uint64_t seed = 0;
     Walk walk;
-    std::optional<PyRddlGymComparison> pyrddlgym;  // absent: nobody wanted it
+    std::optional<PyRddlGymComparison> pyrddlgym;  // absent: not wanted
     std::optional<Verdict> verdict;
 
     bool agrees() const { return !walk.disagreement && !(pyrddlgym && pyrddlgym->disagreement); }
 };
 
-// With line breaks.
+// The texts end with line breaks.
 std::string agreement_line(const VerifyReport& report);
 std::string difference_text(const VerifyReport& report);
 std::string invalid_program_text(const VerifiedProblem& problem, const std::string& words);

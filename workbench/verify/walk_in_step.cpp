@@ -270,7 +270,7 @@ class Walker {
     std::int64_t rounds_ = 0;
     std::size_t next_recorded_ = 0;
 
-    // Of this round, by environment.
+    // The steps of this round, by environment.
     std::vector<StepStart> starts_;
     std::vector<std::uint8_t> placed_;
     std::vector<const Record*> recorded_action_;

@@ -50,8 +50,8 @@ struct Walk {
 };
 
 // Half of the environments run whole episodes from the initial state, half are put into a random
-// state before each step. Every fourth step asks nobody whether its actions are legal. The engines
-// must be of the same problem; each is compared with an earlier one, the first with none.
+// state before each step. Every fourth step skips the precondition check. The engines must be of
+// the same problem; each is compared with an earlier one, the first with no engine.
 Walk walk_in_step(const std::vector<VerifiedEngine>& engines, const OutcomeComparison& comparison,
                   const WalkOptions& options);
 

@@ -20,13 +20,13 @@ struct BenchOptions {
     bool json = false;
 };
 
-// The speed of episodes that end at once is none that anybody wants to know.
+// Warns if episodes fault: the speed of episodes that end at once is of no use.
 bool tells_of_faults(const BenchReport& report) {
     if (report.faulted == 0) return false;
     const bool all = report.faulted == report.episodes;
     tell(
-        "rddl: {}: {} of {} episodes ended with a fault, which is what these speeds are of; 'rddl "
-        "run' tells the first\n",
+        "rddl: {}: {} of {} episodes ended with a fault, and the speeds include them; 'rddl "
+        "run' reports the first fault\n",
         all ? "error" : "warning", grouped(report.faulted), grouped(report.episodes));
     return all;
 }
@@ -44,7 +44,7 @@ ExitStatus bench(const BenchOptions& options) {
 void add_peer_options(Command& command, BenchOptions& options) {
     add_list_option(
         command, "--against", "PEER,...",
-        "Measure others in the same run: pyrddlgym, jax (pyRDDLGym-jax)",
+        "Measure other simulators in the same run: pyrddlgym, jax (pyRDDLGym-jax)",
         [&options](const std::string& name) { options.settings.against.push_back(name); })
         .choices = peer_names();
     add_text_option(command, "--python", "PYTHON",

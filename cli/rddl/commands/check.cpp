@@ -151,7 +151,7 @@ Command check_command() {
     add_extern_option(command, options->load,
                       "Also check the external functions of FILE, a C++ header or .so");
     add_flag(command, "--all", "Check every instance of rddlrepository", options->all);
-    add_flag(command, "-v,--verbose", "Show warnings, too, where many instances are checked",
+    add_flag(command, "-v,--verbose", "Also show warnings when many instances are checked",
              options->verbose);
     command.run = [options] {
         return check(*options);

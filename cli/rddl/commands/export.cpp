@@ -60,10 +60,11 @@ Command export_command() {
         .is_required = true;
     add_option(
         command, "--as", "FORM",
-        "Of CGP: formula (default), cpp, dot, svg, py, latex; of PPO: json (default), cpp, onnx",
+        "For CGP: formula (default), cpp, dot, svg, py, latex; for PPO: json (default), cpp, onnx",
         [options](const std::string& form) { options->form = form; })
         .choices = {"formula", "json", "cpp", "dot", "svg", "py", "latex", "onnx"};
-    add_text_option(command, "-o,--output", "FILE", "Where to (standard output)", options->output);
+    add_text_option(command, "-o,--output", "FILE", "Output file (standard output)",
+                    options->output);
     add_engine_options(command, options->load);
     command.run = [options] {
         return export_policy(*options);

@@ -22,13 +22,13 @@ ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
     add_argument(
         command, "DOMAIN",
-        "Domain file, or one that holds the instance, too; folder of a domain.rddl and its "
+        "Domain file, or one that also holds the instance; folder of a domain.rddl and its "
         "instances; or NAME of a problem of rddlrepository",
         arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
     add_text_option(command, "--instance", "NAME",
-                    "Take the instance of this name, where the files hold several",
+                    "Use the instance of this name, if the files hold several",
                     arguments.instance_name);
     add_standard_option(command, arguments.standard);
     add_option(
@@ -69,7 +69,7 @@ void add_pass_options(Command& command, LoadOptions& options) {
 }
 
 void add_cache_option(Command& command, LoadOptions& options) {
-    add_flag(command, "--no-cache", "Compile anew instead of using a simulator compiled before",
+    add_flag(command, "--no-cache", "Compile again instead of using a cached simulator",
              options.ignore_cache);
 }
 
@@ -81,9 +81,10 @@ void add_engine_options(Command& command, LoadOptions& options) {
                })
         .choices = {"compiled", "interpreter"};
     add_extern_option(command, options,
-                      "C++ header of the external functions; the interpreter takes a .so, too");
+                      "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options);
-    add_option(command, "--real", "TYPE", "What reals are computed in: double (default) or float",
+    add_option(command, "--real", "TYPE",
+               "Type of reals in computations: double (default) or float",
                [&options](const std::string& name) {
                    options.real = name == "float" ? RealType::Float : RealType::Double;
                })

@@ -53,10 +53,10 @@ Command plot_command() {
     command.name = "plot";
     command.summary = "Draw the learning curves of runs";
     command.details =
-        "Runs of 'rddl train' whose names end in '_' and their seeds, and else are the same, are "
+        "Runs of 'rddl train' whose names differ only in the seed at their end (NAME_SEED) are "
         "one\n"
         "curve, as are all runs of a solver on a problem in a folder: their mean, and a band of "
-        "the\nstandard deviation about it.\n\n"
+        "the\nstandard deviation around it.\n\n"
         "Examples:\n"
         "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
         "  rddl plot runs/a --y train/approx_kl --svg kl.svg";

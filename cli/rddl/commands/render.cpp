@@ -87,7 +87,7 @@ Command render_command() {
     command.details =
         "A trace is what 'rddl run --trace' writes, or any file in that form (docs/traces.md). "
         "Its\n"
-        "header tells which problem it is of; without one, or where the files have moved, name "
+        "header names its problem; without one, or where the files have moved, name "
         "the\n"
         "problem. docs/pictures.md shows what the pictures look like.\n\n"
         "Examples:\n"

@@ -54,7 +54,7 @@ void add_amount_options(Command& command, VerifyOptions& options) {
     add_number_option<std::int64_t>(command, "--steps", "N", "Steps, at most (20000)",
                                     options.settings.steps, 1, std::int64_t{1} << 40);
     add_number_option<double>(command, "--seconds", "SECONDS",
-                              "Time for all of it, if compiling leaves some (10)",
+                              "Time in total, as far as compiling leaves some (10)",
                               options.settings.seconds, 0.1, 1e6);
     add_seed_option(command, options.settings.seed, "Seed of all random numbers (0)");
     add_text_option(command, "--states", "FILE",
@@ -76,10 +76,10 @@ void add_compared_options(Command& command, VerifyOptions& options) {
         options.engines.lanes.push_back(std::stoi(count));
     };
     add_list_option(command, "--lanes", "N,...",
-                    "Environments in a pack; several are several compilations (16)", add_lanes)
+                    "Environments in a pack; each number is compiled by itself (16)", add_lanes)
         .choices = {"1", "8", "16", "32", "64"};
     add_flag(command, "--no-pyrddlgym",
-             "Leave out pyRDDLGym; else it is compared where it is installed",
+             "Leave out pyRDDLGym, which is compared if it is installed",
              [&options](const std::string&) { options.settings.pyrddlgym = false; });
     add_number_option<std::int64_t>(command, "--pyrddlgym-steps", "N",
                                     "Steps of pyRDDLGym, at most (200)",
@@ -100,8 +100,7 @@ Command verify_command() {
         "All engines make the same steps, from states of episodes and from random states: the\n"
         "interpreter without and with all optimisations, and the compiled code, one environment\n"
         "by itself and packs of them. Status 0: all agree, 1: they differ; the first difference\n"
-        "is shown with its CPF and the optimisation that is to blame. docs/verify.md tells "
-        "more.\n\n"
+        "is shown with its CPF and the optimisation that causes it. See docs/verify.md.\n\n"
         "Examples:\n"
         "  rddl verify domain.rddl instance.rddl\n"
         "  rddl verify SysAdmin_MDP_ippc2011 1 --steps 1000000 --seconds 600 --lanes 1,8,16\n"
@@ -110,11 +109,11 @@ Command verify_command() {
     add_amount_options(command, *options);
     add_compared_options(command, *options);
     add_extern_option(command, options->load,
-                      "C++ header of the external functions; the interpreter takes a .so, too");
+                      "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options->load);
     add_cache_option(command, options->load);
     add_flag(command, "--json", "Print what was found as JSON", options->json);
-    add_flag(command, "--quiet", "Print nothing where all agree", options->quiet);
+    add_flag(command, "--quiet", "Print nothing if all agree", options->quiet);
     command.run = [options] {
         options->load.quiet = options->quiet || options->json;
         options->settings.quiet = options->quiet;

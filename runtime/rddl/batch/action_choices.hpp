@@ -73,7 +73,7 @@ void for_each_choosable(const rddl_problem& problem, Visit&& visit) {
 
 }  // namespace detail
 
-// What a choice but choice 0 changes: the fluent's value at the grounding.
+// The change of a choice other than choice 0: the fluent's value at the grounding.
 struct Change {
     const rddl_fluent* fluent;
     std::int64_t grounding;
@@ -112,7 +112,7 @@ inline std::int64_t choice_count(const rddl_problem& problem) {
     return count;
 }
 
-// Of a choice above 0 and below choice_count.
+// The change of a choice above 0 and below choice_count.
 inline Change change_of(const rddl_problem& problem, std::int64_t choice) {
     Change change{};
     std::int64_t before = 1;  // choices before this value's

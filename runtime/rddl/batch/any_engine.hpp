@@ -75,7 +75,7 @@ class AnyEngine {
 
     void initial_state(std::byte* state) const { initial_state_(engine_, state); }
 
-    // As rddl::reset_some.
+    // See rddl::reset_some.
     typename L::Bool reset_some(const Columns& columns, typename L::Bool lanes,
                                 const StateRecords& records, Context<L>& context) const {
         return reset_some_(engine_, columns, lanes, records, context);
@@ -88,13 +88,13 @@ class AnyEngine {
         return violated_precondition_(engine_, state, action, context);
     }
 
-    // As rddl::advance, for packs.
+    // See rddl::advance, for packs.
     Stop<L> advance(const Blocks<L>& blocks, Range range, Actions actions,
                     const StepBuffers& memory, const rddl_transition& out) const {
         return advance_(engine_, blocks, range, actions, memory, out);
     }
 
-    // As rddl::advance_one, for blocks of one environment.
+    // See rddl::advance_one, for blocks of one environment.
     rddl_error advance_one(const BatchView<L>& view, std::int64_t b, Actions actions,
                            const rddl_transition& out) const {
         return advance_one_(engine_, view, b, actions, out);

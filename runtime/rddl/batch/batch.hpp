@@ -69,7 +69,7 @@ struct Environment {
 
     Records state, observation, memory;
     Records last_state, last_action;
-    std::optional<Context<Scalar>> last_step;  // nothing: it has made none, or does not keep it
+    std::optional<Context<Scalar>> last_step;  // empty: it has made no step, or does not keep it
     Episodes<Scalar> episode;
     Stream stream{};
 };
@@ -89,7 +89,7 @@ struct BatchOptions {
     std::uint64_t seed = 0;
     int thread_count = 1;
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
-    std::int64_t horizon = 0;  // 0: none
+    std::int64_t horizon = 0;  // 0: no horizon
     bool partially_observed = false;
     bool keeps_steps = false;
 };
@@ -185,8 +185,8 @@ class Batch {
     void get_observation(std::int64_t i, std::byte* record) const {
         write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
     }
-    // The episode goes on from this state after so many steps (null: as many as before), unless the
-    // state is terminal or these reach the horizon.
+    // The episode continues from this state after so many steps (null: as many as before), unless
+    // the state is terminal or these reach the horizon.
     void set_state(std::int64_t i, const std::byte* record, const std::int64_t* steps) {
         read_record(L{}, state_columns_, record, state(i / width), lane_of(i));
         if (steps != nullptr) set_lane(at(i).steps, lane_of(i), *steps);
@@ -196,14 +196,15 @@ class Batch {
             set_lane(at(i).ends.beyond_horizon, lane_of(i), true);
     }
 
-    // What is drawn from now on, and in the episodes that follow, which are counted anew.
+    // Sets the random numbers from now on, and of the episodes that follow, which are counted from
+    // 0.
     void set_stream(std::int64_t i, const Stream& stream) {
         set_lane(at(i).number, lane_of(i), std::int64_t{-1});
         if (streams_.empty()) return;
         streams_[index(i)] = stream;
         set_keys(blocks_, i / width, only(i));
     }
-    // As in a new batch with this seed.
+    // Sets the seed as in a new batch.
     void set_seed(std::uint64_t seed) {
         options_.seed = seed;
         for (std::int64_t i = 0; i < options_.environment_count; ++i) set_stream(i, stream_of(i));
@@ -296,7 +297,7 @@ class Batch {
         });
     }
 
-    // Of one environment and action.
+    // The violated precondition of one environment and action.
     std::int64_t violated_precondition(std::int64_t i, const std::byte* action) {
         Workspace& workspace = workspaces_.front();
         read_record(L{}, action_columns_, action, workspace.action[0], lane_of(i));
@@ -364,7 +365,7 @@ class Batch {
     }
 
   private:
-    // What one thread works in.
+    // The buffers of one thread.
     struct Workspace {
         Workspace(const E& engine, const rddl_problem& problem)
             : action(1, engine.action_size()),
@@ -394,7 +395,7 @@ class Batch {
         return workspaces;
     }
 
-    // None if nothing is drawn.
+    // Empty if nothing is drawn.
     std::vector<Stream> make_streams() const {
         if (problem_->stochastic == 0 && !has_policy(*engine_)) return {};
         std::vector<Stream> streams;
@@ -426,7 +427,7 @@ class Batch {
     static constexpr int lane_of(std::int64_t i) { return static_cast<int>(i % width); }
     static constexpr std::size_t index(std::int64_t b) { return static_cast<std::size_t>(b); }
 
-    // Of records of the C interface.
+    // Sizes of records of the C interface.
     std::size_t state_size() const { return static_cast<std::size_t>(problem_->state_size); }
     std::size_t action_size() const { return static_cast<std::size_t>(problem_->action_size); }
     std::size_t count() const { return static_cast<std::size_t>(options_.environment_count); }
@@ -475,7 +476,7 @@ class Batch {
                                       std::int64_t b) const {
         return as_block(workspace, rows + b * width * action_columns_.row_size, b);
     }
-    // By the block's own rows.
+    // The block's action records, from its own rows.
     const std::byte* as_block(Workspace& workspace, const std::byte* rows, std::int64_t b) const {
         read_records(L{}, action_columns_, rows, lanes_of(b), workspace.action[0]);
         return workspace.action[0];
@@ -521,7 +522,7 @@ class Batch {
         return engine_->violated_precondition(state(b), actions, context);
     }
 
-    // What the environments that run are about to do.
+    // Keeps the next step of the running environments.
     void keep_step(std::int64_t b, const std::byte* actions) {
         for (int lane = 0; lane < lanes_of(b); ++lane) {
             const std::int64_t i = b * width + lane;
@@ -542,7 +543,7 @@ class Batch {
         copy_record(workspace.choices[lane], action, static_cast<std::size_t>(size));
         return workspace.choices[lane];
     }
-    // Of the actions in workspace.choices.
+    // Whether the actions in workspace.choices satisfy the preconditions.
     Bool satisfies_preconditions(Workspace& workspace, std::int64_t b) const {
         const auto first =
             violated_precondition_of_block(b, as_block(workspace, workspace.choices[0], b));
@@ -581,7 +582,7 @@ class Batch {
         }
     }
 
-    // What is left of a step of blocks that stopped; the first block that has made none.
+    // Finishes a step of blocks that stopped; returns the first block that has made no step.
     std::int64_t go_on(Workspace& workspace, Range range, Stop<L> stop, Actions actions,
                        const rddl_transition& out) {
         if (any(stop.over))
@@ -662,10 +663,10 @@ class Batch {
     BatchOptions options_;
     Columns state_columns_, action_columns_, observation_columns_;
     Records states_;               // two for each block
-    Records observations_;         // blocks; none when fully observed
-    Records memories_;             // of the policy; none without one
-    std::vector<Stream> streams_;  // of each environment; none if nothing is drawn
-    // Of each environment, if they are kept.
+    Records observations_;         // blocks; empty when fully observed
+    Records memories_;             // of the policy; empty without a policy
+    std::vector<Stream> streams_;  // of each environment; empty if nothing is drawn
+    // The last step of each environment, if they are kept.
     std::vector<std::optional<Context<Scalar>>> last_steps_;
     Records last_states_, last_actions_;
     std::vector<Episodes<L>> episodes_;

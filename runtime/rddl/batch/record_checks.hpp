@@ -24,7 +24,7 @@ inline bool are_objects(const std::byte* values, std::int64_t count, std::int64_
     return all;
 }
 
-// Whether none is nan.
+// Whether no value is nan.
 template <class Number>
 bool are_numbers(const Number* values, std::int64_t count) {
     using Vector = simd::Vector<Number>;
@@ -41,7 +41,7 @@ bool are_numbers(const Number* values, std::int64_t count) {
     return all;
 }
 
-// Of bools and reals alone.
+// Whether all columns are bools and reals.
 inline bool are_plain(const Columns& columns) {
     return std::ranges::all_of(columns.list, [](const Column& column) {
         return column.limit == 0 && column.scalar != RDDL_INT;
@@ -62,7 +62,7 @@ inline bool records_are_valid(const Columns& columns, const std::byte* records,
     return true;
 }
 
-// Of a fluent with this scalar and, if it is of objects, so many of them.
+// Whether it is valid for a fluent with this scalar and, if it is of objects, so many of them.
 template <class Number>
 bool is_valid_number(rddl_scalar scalar, std::int64_t objects, Number value) {
     if (objects > 0) return value > Number(-0.5) && value < Number(objects) - Number(0.5);

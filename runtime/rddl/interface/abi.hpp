@@ -26,7 +26,7 @@
 
 namespace rddl {
 
-// A caller in C may give any number as an enumerator, which C++ may not even look at.
+// A caller in C may pass any number as an enumerator; even reading it as one is undefined in C++.
 template <class Enumeration>
 int number_of(const Enumeration& given) {
     int number = 0;
@@ -55,7 +55,7 @@ void write_struct(Struct* to, Struct value) {
     std::memcpy(static_cast<void*>(to), &value, std::min(size, sizeof value));
 }
 
-// What is wrong with the options; RDDL_OK if nothing is.
+// The error in the options; RDDL_OK if they are valid.
 inline rddl_error check_options(const rddl_batch_options& given, std::int64_t lane_count) {
     if (given.environment_count < 0)
         return bad_argument("environment_count is negative: ", given.environment_count);
@@ -63,7 +63,7 @@ inline rddl_error check_options(const rddl_batch_options& given, std::int64_t la
         return bad_argument("thread_count is negative: ", std::int64_t{given.thread_count});
     if (number_of(given.autoreset) < RDDL_AUTORESET_DISABLED ||
         number_of(given.autoreset) > RDDL_AUTORESET_SAME_STEP)
-        return bad_argument("autoreset is none of the three: ",
+        return bad_argument("autoreset is not one of the three: ",
                             std::int64_t{number_of(given.autoreset)});
     if (given.horizon < RDDL_NO_HORIZON)
         return bad_argument("horizon is negative, and not RDDL_NO_HORIZON: ", given.horizon);
@@ -104,7 +104,7 @@ class Functions {
     using AnyBatch = std::conditional_t<has_packs, std::variant<OneByOne, Batch<AnyEngine<L>>>,
                                         std::variant<OneByOne>>;
 
-    // What an rddl_batch is.
+    // The content of an rddl_batch.
     struct Handle {
         template <class Kind, class OneEngine>
         Handle(const Parts& of_maker, std::in_place_type_t<Kind> kind, const OneEngine& engine,
@@ -197,7 +197,7 @@ class Functions {
         return made([&] { return new Handle(handle(batch)); });
     }
 
-    // Of functions whose result is a batch.
+    // Calls a function whose result is a batch.
     template <class Make>
     static rddl_batch* made(Make&& make) {
         try {

@@ -1,4 +1,4 @@
-// What the instance fixes: the values of non-fluents.
+// The instance's constants: the values of non-fluents.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a simulator tells about its problem beyond the tables of rddl_problem: names of groundings,
-// columns of matrices, values that the instance fixes.
+// The description of a problem beyond the tables of rddl_problem: names of groundings, columns of
+// matrices, values that the instance fixes.
 #pragma once
 
 #include <rddl/interface/constants.hpp>

@@ -1,6 +1,6 @@
-// What a step computes on its way, for those who ask about the last one (simulator.h: get_interm,
-// explain_violation). It is computed again, from the state, the action and the random numbers, so
-// that nobody else pays for it.
+// Intermediate values of the last step, for callers that ask for them (simulator.h: get_interm,
+// explain_violation). They are computed again, from the state, the action and the random numbers,
+// so that other callers do not pay for them.
 #pragma once
 
 #include <rddl/interface/sites.hpp>
@@ -13,7 +13,7 @@
 
 namespace rddl {
 
-// Where a record of details tells for which objects a precondition holds: a bool for each
+// The part of a record of details that says for which objects a precondition holds: a bool for each
 // combination of the objects of the scope, row-major.
 struct ConditionPlaces {
     std::int64_t offset;
@@ -33,7 +33,7 @@ struct Details {
     const void* self = nullptr;
 };
 
-// Of emitted code: Step computes the record from states and actions of the Simulator.
+// The details of emitted code: Step computes the record from states and actions of the Simulator.
 template <class Simulator, class Step>
 constexpr Details details_of(std::size_t interm_size,
                              std::span<const ConditionPlaces> preconditions) {

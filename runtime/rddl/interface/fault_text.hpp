@@ -14,7 +14,7 @@
 
 namespace rddl {
 
-// What the parameter at fault should have been.
+// The requirement that the parameter at fault violates.
 constexpr std::string_view requirement_of(FaultKind kind) {
     switch (kind) {
         case FaultKind::None:

@@ -1,4 +1,4 @@
-// Which of the caller's values is refused, and why: looked for only after a check has failed
+// Finds which of the caller's values is refused, and why: called only after a check has failed
 // (record_checks.hpp).
 #pragma once
 

@@ -17,16 +17,16 @@
 
 namespace rddl {
 
-// What a simulator tells about itself; all of it outlives it.
+// The description of a simulator; all of it outlives it.
 struct About {
     const rddl_problem& problem;
     std::span<const Site> sites;
     std::span<const Constants> constants;  // of each non-fluent
-    const rddl_policy* policy = nullptr;   // of the engine; null if it has none
+    const rddl_policy* policy = nullptr;   // of the engine; null without a policy
     const Details* details = nullptr;      // null if it was made without
 };
 
-// L is the lane type of the engine for larger batches: Scalar if there is none but the first one.
+// L is the lane type of the engine for larger batches: Scalar if there is only the first one.
 template <class L>
 struct SimulatorParts {
     const rddl_problem* problem;

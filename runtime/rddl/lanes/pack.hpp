@@ -97,7 +97,7 @@ struct Lanes {
         RDDL_INLINE Lanes(Number everywhere)
         : Lanes(filled(static_cast<T>(everywhere))) {}
 
-    // Of the results of `operation` on the operands' registers.
+    // Makes lanes of the results of `operation` on the operands' registers.
     template <class Operation, class... Operands>
     static RDDL_INLINE Lanes each(Operation operation, const Operands&... operands) {
         return each_part(operation, std::make_index_sequence<part_count>(), operands...);

@@ -1,4 +1,4 @@
-// What a real type offers to the elementary functions (rddl/values/math.hpp), here for double and
+// The interface of a real type for the elementary functions (rddl/values/math.hpp), here for double and
 // float.
 //
 // A pack of reals, one in each lane, offers the same names with the same meaning in every lane:

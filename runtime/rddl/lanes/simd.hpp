@@ -1,10 +1,10 @@
 // The vector registers of the processor that the compiler has been told to compile for.
 //
 // Four levels: AVX-512 (x86-64-v4), AVX2 (x86-64-v3), SSE2 (any x86-64), and 16-byte vectors as GCC
-// and Clang make them anywhere else. Arithmetic is that of the compilers' vector types; here is
-// only what they spell clumsily or translate badly. A mask is the bits of an unsigned number, lane
-// 0 lowest. Everything lives in a namespace named after the level, so that objects compiled for
-// different levels can be linked into one program.
+// and Clang make them anywhere else. Arithmetic is that of the compilers' vector types; this file
+// adds only operations that they spell clumsily or translate badly. A mask is the bits of an
+// unsigned number, lane 0 lowest. Everything lives in a namespace named after the level, so that
+// objects compiled for different levels can be linked into one program.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@
 #include <cmath>
 #include <type_traits>
 
-// What is filled lane by lane is zeroed first, since g++ warns of uninitialised values otherwise.
+// Registers that are filled lane by lane are zeroed first, since g++ warns of uninitialised values
+// otherwise.
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
 // ------------------------------------------------------------------------------- registers
@@ -90,7 +91,7 @@ using Floats = Vector<float>;
 using Ints = Vector<std::int64_t>;
 using Words = Vector<std::uint64_t>;
 
-// As many of the lowest bits count as there are lanes.
+// The lowest bits count, as many as there are lanes.
 using MaskBits = std::uint32_t;
 template <class T>
 inline constexpr MaskBits all_lanes_of = (1u << lanes_of<T>)-1;
@@ -147,9 +148,9 @@ template <class To, class From>
 
 namespace detail {
 
-// What a comparison of ints leaves in a mask register. GCC 12 makes one instruction of comparing
+// Hides the comparison of ints behind a mask register. GCC 12 makes one instruction of comparing
 // and widening such a mask, and splits it again as if only mask registers could hold the wide
-// number: where one waits in memory, only its first byte is ever written. So GCC must not know that
+// number: if one waits in memory, only its first byte is ever written. So GCC must not know that
 // this is a comparison. It does not join comparisons of reals with anything.
 [[gnu::always_inline]] inline __mmask8 hidden(__mmask8 mask) {
 #ifndef __clang__
@@ -191,7 +192,7 @@ template <class T>
     return (bit_of_lane & static_cast<T>(mask)) == bit_of_lane;
 }
 
-// Of lanes that are all ones or all zeros.
+// Gathers the bits of lanes that are all ones or all zeros.
 template <class V>
 [[gnu::always_inline]] inline MaskBits gathered(V a) {
     constexpr int count = register_bytes / static_cast<int>(sizeof a[0]);
@@ -238,7 +239,7 @@ template <class V>
 
 // ------------------------------------------------------------------------------ arithmetic
 
-// Of the lower 32 bits of each lane; all 64 bits of the products.
+// Multiplies the lower 32 bits of each lane; all 64 bits of the products.
 [[gnu::always_inline]] inline Words multiply_low_halves(Words a, Words b) {
 #ifdef RDDL_SIMD_AVX512
     return (Words)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
@@ -254,7 +255,7 @@ template <class V>
 // The upper 32 bits of each lane as the lower ones; those above are any.
 [[gnu::always_inline]] inline Words upper_halves(Words a) {
 #ifdef RDDL_SIMD_AVX512
-    // Not by a shift, since one execution port does all of those and the products, too.
+    // A shuffle replaces the shift, since one execution port does all shifts and also the products.
     return (Words)_mm512_maskz_shuffle_epi32(0xFFFF, (__m512i)a, static_cast<_MM_PERM_ENUM>(0xF5));
 #else
     return a >> 32;
@@ -336,7 +337,7 @@ template <class To, class V>
 
 namespace detail {
 
-// With one of the rounding modes of SSE4.1 and AVX-512.
+// Rounds by one of the rounding modes of SSE4.1 and AVX-512.
 template <int mode, class Function>
 [[gnu::always_inline]] inline Reals rounded(Reals a, [[maybe_unused]] Function function) {
 #if defined(RDDL_SIMD_AVX512)
@@ -376,7 +377,7 @@ template <int mode, class Function>
 #endif
 }
 
-// Of the first halves of a and b, or of the second ones, the lanes in turns.
+// Interleaves the first halves of a and b, or the second ones, lane by lane.
 [[gnu::always_inline]] inline Words interleave_half(Words a, Words b, int half) {
 #if defined(RDDL_SIMD_AVX512)
     const Words first = {0, 8, 1, 9, 2, 10, 3, 11};
@@ -478,7 +479,7 @@ typedef std::uint64_t TwoWords __attribute__((vector_size(16)));
 }
 #endif
 
-// Which of 0 < `count` <= 64 bytes are not 0.
+// A bit for each of 0 < `count` <= 64 bytes that is not 0.
 [[gnu::always_inline]] inline std::uint64_t bits_of_bytes(const void* bytes, int count) {
 #ifdef RDDL_SIMD_AVX512
     const __m512i values = _mm512_maskz_loadu_epi8(~std::uint64_t{0} >> (64 - count), bytes);

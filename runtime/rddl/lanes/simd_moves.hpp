@@ -10,8 +10,8 @@
 
 namespace rddl::simd::inline RDDL_SIMD_LEVEL {
 
-// The first `count` lanes of a register, of which there may be none or more than it has; zeros in
-// the others. No more is read or written.
+// The first `count` lanes of a register; `count` may be 0 or more than it has; zeros in the others.
+// No more is read or written.
 template <class T>
 [[gnu::always_inline]] inline Vector<T> load_some(const T* from, int count) {
 #ifdef RDDL_SIMD_AVX512
@@ -142,8 +142,8 @@ template <class V>
 
 namespace detail {
 
-// Exchanges what bit `distance` of the row and of the column tell apart: rows[i] gets the lanes of
-// rows[i + distance] that it shall have, and gives its own for them.
+// Exchanges the lanes whose numbers differ from the row's in bit `distance`: rows[i] gets lanes of
+// rows[i + distance], and gives its own for them.
 template <int distance, class V, std::size_t... lane>
 [[gnu::always_inline]] inline void exchange(V& row, V& later, std::index_sequence<lane...>) {
     constexpr std::size_t d = distance, all = sizeof...(lane);
@@ -161,7 +161,7 @@ template <int distance, class V>
 
 }  // namespace detail
 
-// Of as many registers of 64-bit values as each has lanes.
+// Transposes as many registers of 64-bit values as each has lanes.
 template <class V>
 [[gnu::always_inline]] inline void transpose(V* rows) {
     static_assert(sizeof(V{}[0]) == 8);

@@ -1,9 +1,9 @@
 // Several objects of one environment in vector registers.
 //
 // Emitted code evaluates some loops by for_each_object. Packs of environments take one object after
-// the other there; one environment alone takes 16 of them at once: a value is then a pack
-// whose lanes are neighbouring elements of tables. What is done in a lane is what is done to one
-// object, bit for bit, and the fault that is told is that of the first object.
+// the other there; one environment alone takes 16 of them at once: a value is then a pack whose
+// lanes are neighbouring elements of tables. Each lane computes what one object would, bit for bit,
+// and the reported fault is that of the first object.
 #pragma once
 
 #include <rddl/lanes/simd.hpp>
@@ -42,7 +42,7 @@ struct SomeObjects {
 
     Mask<n> mask() const { return Mask<n>::of_bits(~std::uint64_t{0} >> (64 - count)); }
 };
-// Where their values are stored.
+// The place where their values are stored.
 template <class T, int n>
 struct Elements {
     T* first;
@@ -58,7 +58,7 @@ struct Elements {
 template <int n, class R>
 struct Context<Objects<n, R>> {
     const philox::Schedule<philox::draw_rounds, std::uint64_t>& schedule;
-    Mask<n> active;  // the lanes whose values are looked at: they alone can fault
+    Mask<n> active;  // the lanes whose values are used: they alone can fault
     int faulty_lane = n;
     FaultRecord fault{};  // of the first of the lanes that have one
 

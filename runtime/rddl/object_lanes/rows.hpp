@@ -48,7 +48,7 @@ constexpr auto row_numbers() {
     return std::bit_cast<std::array<std::int64_t, sizeof kinds / sizeof(std::int64_t)>>(kinds);
 }
 
-// By object.
+// The lines by object.
 template <class R, std::size_t objects>
 struct Lines {
     std::array<R, objects> first, rise, last;
@@ -92,7 +92,7 @@ RDDL_INLINE auto at_row(const SomeObjects<n>& x, const Count& count) {
         using R = typename std::remove_cvref_t<decltype(lines.first)>::value_type;
         const auto steps = detail::reals<R>(Lanes<std::int64_t, n>(count));
         const auto value = at(lines.first, x) + at(lines.rise, x) * steps;
-        // As std::min, which Line takes: without the care for nan that minimum has.
+        // Takes the minimum as std::min does, for Line: without the care for nan that minimum has.
         return Lanes<R, n>::each([](auto a, auto b) { return b < a ? b : a; }, value,
                                  at(lines.last, x));
     } else if constexpr (sizeof...(kinds) == 0) {

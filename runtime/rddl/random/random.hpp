@@ -26,8 +26,8 @@ constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
     return {static_cast<std::uint32_t>(block[0]), static_cast<std::uint32_t>(block[1])};
 }
 
-// The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). For floats the upper 23,
-// hence what the double is rounded down to.
+// The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). Floats take the upper 23, so
+// the double rounded down.
 template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word bits) {
     const Word one = Word{std::uint64_t{0x3FF0000000000000}};
@@ -36,7 +36,7 @@ RDDL_INLINE auto unit_real(Word bits) {
     else
         return real_of_bits((bits >> 12) | one) - 1.0;
 }
-// Of a number's two words, low word first.
+// The unit real of a number's two words, low word first.
 template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word low, Word high) {
     return unit_real<R>(join_lower_halves(low, high));
@@ -129,8 +129,8 @@ inline constexpr auto lane_numbers = [] {
 
 }  // namespace detail
 
-// What a uniform number becomes before parameters have a part in it: nothing else, or a draw of a
-// standard distribution (distributions/continuous.hpp).
+// The standard distribution that a uniform number becomes before parameters have a part in it: here
+// the uniform one itself (others: distributions/continuous.hpp).
 struct Uniform {
     static constexpr std::uint32_t kind = 0;
     template <class Real>
@@ -179,8 +179,8 @@ RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
     return recent_number<Uniform>(context, place);
 }
 
-// A draw of a standard distribution. Alone, those of neighbours are made with it, in registers,
-// unless the compiler sees that it has none.
+// A draw of a standard distribution. A single environment also draws the neighbours' numbers, in
+// registers, unless the compiler sees that the draw has no neighbours.
 template <class Standard, class L>
 RDDL_INLINE typename L::Real standard_at(Context<L>& context, Place place) {
     if constexpr (L::width == 1)
@@ -198,7 +198,7 @@ RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
 // The random numbers of one draw in one environment, as many as it needs.
 class Draws {
   public:
-    // Of these, few draws need more.
+    // Few draws need more than these.
     static constexpr std::uint32_t first_count = 3;
 
     constexpr Draws(StreamKey key, std::uint32_t step, Place place)

@@ -24,11 +24,11 @@ struct Actions {
     const std::byte* block;  // null: the rows
 };
 
-// Where blocks were no longer stepped one after the other, since the next episodes are to start.
+// The place where stepping stopped, since the next episodes are to start.
 template <class L>
 struct Stop {
     std::int64_t block;
-    typename L::Bool over;  // its episodes that are over after a step; none: it has made no step
+    typename L::Bool over;  // its episodes that are over after a step; empty: it has made no step
 };
 
 namespace detail {
@@ -41,7 +41,7 @@ constexpr const auto& action_columns(const Blocks<L>& blocks) {
         return *blocks.action_columns;
 }
 
-// `room` is for a block that is no row.
+// `room` is for a block that is not a row.
 template <Engine E, class L>
 RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Blocks<L>& blocks,
                                                     std::int64_t b, const Actions& actions,
@@ -72,7 +72,7 @@ RDDL_ALWAYS_INLINE std::byte* next_state_of(const E& engine, const Blocks<L>& bl
     return elsewhere;
 }
 
-// What a step made, where the mask holds: those lanes go on, the others stay as they are.
+// Takes over the results of a step in the lanes of the mask; the other lanes stay as they are.
 template <Engine E, class L>
 [[gnu::noinline]] void take_over_some(const E& engine, const Blocks<L>& blocks, std::int64_t b,
                                       typename L::Bool mask, const StepBuffers& made) {
@@ -111,9 +111,9 @@ RDDL_ALWAYS_INLINE void take_over(const E& engine, const Blocks<L>& blocks, std:
     }
 }
 
-// One step of the running episodes of block `b`, with why they are over then; the rewards, 0 where
-// none is made. States and, if partially observed, observations change unless the step faults.
-// Preconditions are not looked at.
+// One step of the running episodes of block `b`, with the causes of their ends; returns the
+// rewards, 0 for lanes without a step. States and, if partially observed, observations change
+// unless the step faults. Preconditions are not checked.
 template <Engine E, class L>
 RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& blocks,
                                               std::int64_t b, typename L::Bool running,
@@ -138,7 +138,7 @@ RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& 
     if (all(moved)) {
         episodes.steps = wrap_add(episodes.steps, Int{1});
         ends = {terminal, episodes.steps >= Int{blocks.horizon}, violation, false};
-        if (any(ends.any())) episodes.ends = ends;  // they ran, so there were none
+        if (any(ends.any())) episodes.ends = ends;  // they ran, so they had no ends
         return reward;
     }
     episodes.steps = select(moved, wrap_add(episodes.steps, Int{1}), episodes.steps);
@@ -164,7 +164,7 @@ inline bool wants_finals(const rddl_transition& out) {
            out.final_observation_values != nullptr;
 }
 
-// Tells which episodes of block `b` are over.
+// Writes which episodes of block `b` are over.
 template <class L>
 RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, const Ends<L>& ends,
                                    const rddl_transition& out) {
@@ -215,14 +215,15 @@ RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Ran
 
 // ----------------------------------------------------------------- blocks of one environment
 
-// What is left to do of a step.
+// The remaining work of a step.
 enum class Rest : std::uint8_t {
     NextEpisode,   // its episode is over, and the next one starts
     Start,         // its episode was over, so that the next one starts instead of a step
     Observations,  // they are wanted
 };
 
-// What a thread's steps need of a batch: its blocks, room to work in, and who does the rest.
+// The parts of a batch that a thread's steps need: its blocks, buffers, and a function for the
+// rest.
 template <class L>
 struct BatchView {
     Blocks<L> blocks;

@@ -43,7 +43,7 @@ struct ColumnTable {
     bool has_bools = false;
     bool has_objects = false;
 };
-// Of any problem, and of one that is known when its simulator is compiled.
+// Columns of any problem, and of one that is known when its simulator is compiled.
 using Columns = ColumnTable<std::vector<Column>>;
 template <std::size_t count>
 using KnownColumns = ColumnTable<std::array<Column, count>>;
@@ -61,8 +61,8 @@ RDDL_INLINE void with_type(rddl_scalar scalar, Visit&& visit) {
 
 namespace detail {
 
-// Of a role with more fluents, neighbours make one column; and more columns than that are looped
-// over, not unrolled. So what is compiled does not grow with the fluents.
+// In a role with more fluents, neighbours make one column; and more columns than that are looped
+// over, not unrolled. So the compiled code does not grow with the fluents.
 inline constexpr std::size_t most_apart = 16;
 
 constexpr std::size_t fluent_count(const rddl_problem& problem, rddl_role role) {
@@ -189,7 +189,7 @@ RDDL_INLINE void for_each_column(const KnownColumns<count>& columns, Visit&& vis
 
 namespace detail {
 
-// What a record of the C interface holds for a value of one lane: all reals are double there.
+// The type of one lane's value in a record of the C interface: all reals are double there.
 template <class T>
 using InRecord = std::conditional_t<std::is_same_v<T, float>, double, T>;
 
@@ -227,7 +227,7 @@ RDDL_INLINE T read_numbers(const std::byte* rows, std::int64_t row_size, int pre
     else
         return read_some_numbers<T>(rows, row_size, present);
 }
-// As many columns as a register has lanes, of whole blocks.
+// Reads as many columns as a register has lanes, of whole blocks.
 template <class T>
 RDDL_INLINE void read_columns(const std::byte* rows, std::int64_t row_size, T* values) {
     using Value =
@@ -274,7 +274,7 @@ T* values_in(std::byte* block, const Column& column) {
 
 // ---------------------------------------------------------------------------- single values
 
-// Of the first `present` lanes.
+// Writes the first `present` lanes.
 inline void write_reals(double value, double* to, int) {
     *to = value;
 }
@@ -305,7 +305,7 @@ RDDL_INLINE bool has_plain_bools(const ColumnTable<List>& columns, const std::by
     return (bytes & 0xFEFEFEFEFEFEFEFE) == 0;
 }
 
-// Of the first `present` lanes; the others become zero.
+// Reads the first `present` lanes; the others become zero.
 template <class List>
 void read_records(Scalar, const ColumnTable<List>& columns, const std::byte* rows, int,
                   std::byte* block) {

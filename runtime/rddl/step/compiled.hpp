@@ -13,11 +13,11 @@
 
 namespace rddl {
 
-// Bytes of a record; C++ gives an empty struct one, the C interface none.
+// Bytes of a record. An empty struct has one byte in C++; an empty record of the C interface has 0.
 template <class Record>
 inline constexpr std::size_t record_size = std::is_empty_v<Record> ? 0 : sizeof(Record);
 
-// Of a simulator whose problem has no policy block.
+// The policy of a simulator whose problem has no policy block.
 struct NoPolicy {
     template <class L>
     struct Memory {};

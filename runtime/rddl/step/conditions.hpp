@@ -1,4 +1,4 @@
-// What the conditions of a simulator say together. Emitted functions add them one after the other:
+// The conditions of a simulator together. Emitted functions add them one after the other:
 //
 //     if (conditions.go_on()) conditions.add(invariant_0(state));
 #pragma once
@@ -24,7 +24,7 @@ class Terminations {
     typename L::Bool hold_{false};
 };
 
-// Those behind one that does not hold, or that faults, are not evaluated: they cannot fault.
+// Invariants after one that does not hold, or that faults, are not evaluated: they cannot fault.
 template <class L>
 class Invariants {
   public:

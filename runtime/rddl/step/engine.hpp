@@ -1,11 +1,11 @@
-// What a batch needs from a simulator, compiled or interpreted.
+// The interface of a simulator for a batch, compiled or interpreted.
 //
 // An engine works on blocks of Lane::width environments; that of the interpreter is one. A record
 // of a block holds each value as the lane type's Bool, Int or Real.
 //
 // An engine is immutable and shared by threads: all its functions are const and work on records
 // that the caller owns. Those of one environment are laid out as simulator.h says. Pointers are
-// never null and are aligned for any element, also where a record is empty.
+// never null and are aligned for any element, even if a record is empty.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>

@@ -1,4 +1,4 @@
-// The episodes of a block of environments: how they start, go on and end. An episode ends when a
+// The episodes of a block of environments: how they start, continue and end. An episode ends when a
 // termination condition holds in the new state, when a state invariant is violated there, at the
 // horizon, or by a fault.
 #pragma once
@@ -18,13 +18,13 @@
 
 namespace rddl {
 
-// Why the episodes of a block are over; those that run have none.
+// The causes of the ends of a block's episodes; false for running ones.
 template <class L>
 struct Ends {
     using Bool = typename L::Bool;
     Bool terminated{false}, beyond_horizon{false}, violated{false}, faulted{false};
 
-    // All are looked at, since that needs no jumps.
+    // All causes are combined, since that needs no jumps.
     Bool truncated() const { return Bool(beyond_horizon | violated | faulted); }
     Bool any() const { return Bool(terminated | truncated()); }
 
@@ -138,7 +138,7 @@ struct alignas(64) Episodes {
     Word next_step() const { return words_of(steps) + Word{std::uint64_t{1}}; }
 };
 
-// What an environment's random numbers are made of, with the number of its episode.
+// The source of an environment's random numbers, with the number of its episode.
 struct Stream {
     std::uint64_t seed;
     std::uint64_t identity;
@@ -148,7 +148,7 @@ struct Stream {
 template <class L>
 struct Blocks {
     std::int64_t environment_count;
-    std::int64_t horizon;  // the greatest int: none
+    std::int64_t horizon;  // the greatest int: no horizon
     rddl_autoreset autoreset;
     const Stream* streams;  // of each environment; null: nothing is drawn
     Episodes<L>* episodes;
@@ -213,7 +213,7 @@ typename L::Bool reset_some(const E& engine, const Columns&, typename L::Bool la
     return engine.terminal(made, context);
 }
 
-// Of the episodes of these lanes of block `b`, which are present.
+// Sets the keys of the episodes of these lanes of block `b`, which are present.
 template <class L>
 void set_keys(const Blocks<L>& blocks, std::int64_t b, typename L::Bool lanes) {
     Episodes<L>& episodes = blocks.episodes[b];

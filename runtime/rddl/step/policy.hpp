@@ -46,7 +46,7 @@ inline std::int64_t count_non_default(const rddl_problem& problem, const std::by
     return count;
 }
 
-// Where a decision leaves its results until it is known not to have faulted.
+// The place of a decision's results until it is known not to have faulted.
 struct DecisionBuffers {
     std::byte* scratch;
     std::byte* action;

@@ -51,7 +51,7 @@ auto bits(const Table& table) {
     return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
                                                                  first);
 }
-// Of what the caller gives.
+// The bits of the caller's actions.
 template <Index first = 0, class Table>
 auto action_bits(const Table& table) {
     return bits<first, false>(table);

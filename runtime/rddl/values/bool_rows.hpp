@@ -24,7 +24,7 @@ using BitRows = std::array<std::uint64_t, 8>;
 using BitColumns = std::array<std::uint8_t, 64>;
 #endif
 
-// Of matrices of 8 x 8, byte i being row i (H. Warren, Hacker's Delight, section 7-3).
+// Transposes matrices of 8 x 8, byte i being row i (H. Warren, Hacker's Delight, section 7-3).
 template <class Word>
 RDDL_INLINE Word transposed(Word a) {
     const auto swap = [&](std::uint64_t mask, int distance) RDDL_INLINE_LAMBDA {
@@ -39,7 +39,7 @@ RDDL_INLINE Word transposed(Word a) {
 
 #ifdef RDDL_SIMD_AVX512
 
-// Where bytes and pairs of bytes come from when 8 rows of 8 bytes become 8 columns, or columns
+// The sources of bytes and of pairs of bytes when 8 rows of 8 bytes become 8 columns, or columns
 // rows.
 template <class Element, int count, class Source>
 inline constexpr auto sources = [] {

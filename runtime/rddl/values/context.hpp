@@ -1,4 +1,4 @@
-// What an evaluation carries along: the random stream of the episode, the step, the first fault.
+// The context of an evaluation: the random stream of the episode, the step, the first fault.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
@@ -10,9 +10,9 @@
 
 namespace rddl {
 
-// Where a draw or a possible fault stands: a site of the program text, and the row-major index
-// into the objects of the site's scope. `series` is the site whose random numbers a draw has: its
-// own, or, where only one of several is evaluated, that of the first one.
+// The place of a draw or a possible fault: a site of the program text, and the row-major index into
+// the objects of the site's scope. `series` is the site whose random numbers a draw has: its own,
+// or, if only one of several is evaluated, that of the first one.
 struct Place {
     std::uint32_t site = 0;
     std::uint32_t index = 0;
@@ -33,7 +33,7 @@ struct StreamKey {
     constexpr bool operator==(const StreamKey&) const = default;
 };
 
-// What was wrong; sites.hpp says it in words.
+// The kind of a fault; sites.hpp says it in words.
 enum class FaultKind : std::uint8_t {
     None,
     Type,                 // a value of the wrong type; the site's text is the message
@@ -84,8 +84,8 @@ struct Context<ScalarOf<R>> {
     std::uint32_t step = 0;  // 0 at reset; the step that leaves timestep t has t + 1
     FaultRecord fault{};
 
-    // Of one series and step and pairs of neighbouring indices, the even ones first; uniform or of
-    // another kind (random.hpp).
+    // The recent numbers of one series and step and pairs of neighbouring indices, the even ones
+    // first; uniform or of another kind (random.hpp).
     static constexpr int most_pairs = simd::lanes_of<R> > 8 ? simd::lanes_of<R> : 8;
     struct Recent {
         std::uint32_t series = no_series;
@@ -125,11 +125,11 @@ struct Context<Pack<n, R>> {
 
     Word key_low, key_high;
     Word step;
-    Mask<n> active;  // the lanes whose values are looked at: they alone can fault
+    Mask<n> active;  // the lanes whose values are used: they alone can fault
     Mask<n> faulty{false};
     std::array<FaultRecord, static_cast<std::size_t>(n)> faults;  // of the faulty lanes
 
-    // Of one series and step, and the indices from `first` on.
+    // The recent numbers of one series and step, and the indices from `first` on.
     static constexpr std::uint32_t most_numbers = 4;
     struct Recent {
         std::uint32_t series = no_series;
@@ -138,7 +138,7 @@ struct Context<Pack<n, R>> {
     };
     std::array<Recent, recent_series> recent;
 
-    // Of all draws of the step; made by the first one.
+    // The schedule of all draws of the step; the first one makes it.
     philox::Schedule<philox::draw_rounds, Word> schedule;
     bool is_scheduled = false;
 

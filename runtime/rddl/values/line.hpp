@@ -20,7 +20,7 @@ struct Line {
 
 // Whether constant expressions may compute with the elements of a table: they may not overflow, nor
 // make a nan. Sums of such numbers, their products with each other and with the size of the table,
-// and quotients by those that are no smaller than 1 / most_in_lines do neither.
+// and quotients by those that are at least 1 / most_in_lines do neither.
 template <std::floating_point R>
 constexpr R most_in_lines = std::same_as<R, float> ? R(1e15) : R(1e150);
 
@@ -30,7 +30,7 @@ constexpr bool are_moderate(const std::array<R, size>& table) {
                                [](R x) { return -most_in_lines<R> <= x && x <= most_in_lines<R>; });
 }
 
-// That of a row of moderate numbers, if the row is one.
+// The line of a row of moderate numbers, if the row is one.
 template <class R, std::size_t cases>
 constexpr Line<R> line_of(const std::array<R, cases>& row) {
     return {row.front(), row[cases > 1] - row.front(), row.back()};

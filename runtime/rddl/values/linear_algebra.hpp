@@ -95,8 +95,8 @@ void cholesky(Index n, const Matrix& matrix, Factor& factor) {
     }
 }
 
-// By elimination with partial pivoting; overwrites the matrix. 0 if singular.
-// Golub and Van Loan, section 3.4.
+// The determinant by elimination with partial pivoting; overwrites the matrix. 0 if singular. Golub
+// and Van Loan, section 3.4.
 template <class Matrix, class Real>
 void determinant(Index n, Matrix& matrix, Real& result) {
     result = 1.0;

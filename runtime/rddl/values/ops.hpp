@@ -1,7 +1,8 @@
-// RDDL's scalar operators where C++ has none, or one that means something else.
+// RDDL's scalar operators that C++ lacks or defines differently.
 //
-// int is int64 and wraps around; real is IEEE double, or float. Nothing here is undefined for any
-// operand. Real + - * / and comparisons, and the connectives on bool, are the plain C++ operators.
+// int is int64 and wraps around; real is IEEE double, or float. Every operation here is defined for
+// all operands. Real + - * / and comparisons, and the connectives on bool, are the plain C++
+// operators.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
@@ -33,7 +34,7 @@ template <class R, class Then, class Else>
 constexpr auto branch(Context<ScalarOf<R>>&, bool condition, Then&& then_value, Else&& else_value) {
     return condition ? then_value() : else_value();
 }
-// Of branches that neither draw nor fault: packs evaluate both, without a jump.
+// Selects between branches that neither draw nor fault: packs evaluate both, without a jump.
 template <class Then, class Else>
 requires std::invocable<Then>
 constexpr auto branch(bool condition, Then&& then_value, Else&& else_value) {

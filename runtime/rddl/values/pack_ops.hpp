@@ -378,7 +378,7 @@ RDDL_INLINE Lanes<R, n> sqrt(const Lanes<R, n>& a) {
     return Lanes<R, n>::each([](auto x) { return simd::square_root(x); }, a);
 }
 
-// Those of two operands with one of them the same in all lanes.
+// Functions of two operands, one of which is the same in all lanes.
 #define RDDL_BROADCAST(function)                                                 \
     template <class A, class B>                                                  \
     requires(SomePack<A> != SomePack<B>) auto function(const A& a, const B& b) { \
@@ -390,7 +390,7 @@ RDDL_BROADCAST(hypot)
 RDDL_BROADCAST(atan2)
 #undef RDDL_BROADCAST
 
-// As that of scalars: by far the most frequent exponent is a constant 2.
+// See the power of scalars: by far the most frequent exponent is a constant 2.
 template <std::floating_point R, int n>
 RDDL_INLINE Lanes<R, n> power(const Lanes<R, n>& base, std::type_identity_t<R> exponent) {
     return exponent == R{2} ? base * base : power(base, Lanes<R, n>(exponent));
@@ -489,7 +489,7 @@ RDDL_INLINE Int place_in(const First& first, const Rest&... rest) {
         return begin + place_in<Row, Int>(rest...);
 }
 
-// Where the lowest bits are 1.
+// The lanes whose lowest bits are 1.
 template <int n>
 RDDL_INLINE Mask<n> lowest_bits(const Lanes<std::int64_t, n>& a) {
     return (a & Lanes<std::int64_t, n>(1)) != Lanes<std::int64_t, n>(0);

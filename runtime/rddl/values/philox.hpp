@@ -59,14 +59,15 @@ RDDL_INLINE Block<Word> generate(Block<Word> counter, Key<Word> key) {
     return counter;
 }
 
-// What generate() does alike for all counters (first, second, third, 0) with the same key and first
-// word: the keys of its rounds, and what the other words do not reach within two rounds.
+// The part of generate() that is the same for all counters (first, second, third, 0) with the same
+// key and first word: the keys of its rounds, and results that the other words do not reach within
+// two rounds.
 template <int rounds, class Word>
 class Schedule {
   public:
     Schedule() = default;
     RDDL_INLINE Schedule(const Word& first, const Key<Word>& key) { begin(first, key); }
-    // As a new schedule, but made where it stays, word by word.
+    // Begins a new schedule in place, word by word.
     RDDL_INLINE void begin(const Word& first, const Key<Word>& key) {
         const Word product = multiply_low_halves(first, Word{first_multiplier});
         const Word other_product =
@@ -119,7 +120,7 @@ class Schedule {
         words[3] = multiply_low_halves(after_one, Result{first_multiplier});
         words[2] = upper_halves(words[3]) ^ Result(after_two_rounds_[2]);
     }
-    // As constants, so that all rounds are compiled one after the other.
+    // The keys are constants, so that all rounds are compiled one after the other.
     template <class Use>
     RDDL_INLINE void for_each_later_key(Use&& use) const {
         [&]<std::size_t... k>(std::index_sequence<k...>) RDDL_INLINE_LAMBDA {

@@ -17,7 +17,7 @@
 
 namespace rddl {
 
-// What an aggregation runs over: [begin, end), or all of n objects.
+// The range of an aggregation: [begin, end), or all of n objects.
 struct IndexRange {
     constexpr IndexRange(Index n) : begin(0), end(n) {}
     constexpr IndexRange(Index first, Index last) : begin(first), end(last) {}
@@ -126,8 +126,8 @@ constexpr T maximum_over(Index n, Body&& body) {
 template <class Bool, class Body>
 constexpr Bool for_all(IndexRange range, Body&& body) {
     if constexpr (std::is_same_v<Bool, bool>) {
-        // As wide as the numbers that most bodies compare, of which compilers then take several at
-        // once.
+        // The counter is as wide as the numbers that most bodies compare, of which compilers then
+        // take several at once.
         std::int64_t exceptions = 0;
         for (Index i = range.begin; i < range.end; ++i) exceptions |= body(i) ? 0 : 1;
         return exceptions == 0;

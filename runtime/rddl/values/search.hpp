@@ -28,7 +28,7 @@ constexpr Int search_by_halves(const Table& table, Value value) {
     return count;
 }
 
-// Entries so even that a straight line through the first and the last one tells how many are at
+// Entries so even that a straight line through the first and the last one gives how many are at
 // most a value, off by one at the most.
 template <const auto& table>
 struct EvenEntries {
@@ -44,7 +44,7 @@ struct EvenEntries {
 
     static constexpr Entry place_of_zero = per_unit > 0 ? Entry{1} - table[0] * per_unit : Entry{1};
 
-    // Of the value on that line. nan becomes 0.
+    // The place of the value on that line. nan becomes 0.
     template <class Value>
     static constexpr Value clamped_place(Value value) {
         const Value place = value * per_unit + place_of_zero;
@@ -63,7 +63,7 @@ struct EvenEntries {
         return true;
     }();
 
-    // With an entry before the first and one after the last that correct no guess.
+    // The table with an entry before the first and one after the last that correct no guess.
     static constexpr std::array<Entry, size + 2> bounded = [] {
         std::array<Entry, size + 2> all{};
         all[0] = -std::numeric_limits<Entry>::infinity();

@@ -17,8 +17,8 @@ constexpr void assign(std::array<T, n>& target, const std::array<Source, m>& sou
     static_assert(n == m);
     for (std::size_t i = 0; i < n; ++i) assign(target[i], source[i]);
 }
-// Of the same elements. GCC 12 makes wrong copies of some constants for AVX-512 (of {1, 1, 0, 0}
-// for one, four times 1), so it must not know what it copies.
+// Assigns the same elements. GCC 12 makes wrong copies of some constants for AVX-512 (of {1, 1, 0,
+// 0} for one, four times 1), so it must not know what it copies.
 template <class T, std::size_t n>
 constexpr void assign(std::array<T, n>& target, const std::array<T, n>& source) {
     const std::array<T, n>* hidden = &source;
@@ -32,7 +32,7 @@ constexpr void assign(std::array<T, n>& target, const Source& source) {
     for (T& element : target) assign(element, source);
 }
 
-// What is too large for compilers to compute.
+// Makes a table that is too large for compilers to compute.
 template <class Make, class... Arguments>
 auto made_at_start(const Make& make, Arguments... arguments) {
     return make(arguments...);

@@ -77,7 +77,8 @@ TEST(CountBits, TakesSeveralWords) {
         "bit_and(bit_xor(bits(state.many, 64), -1), 131071)) != 0)");
 }
 
-// What is not the same element of all tables, not known before or not of bools, or counted twice.
+// These terms are not the same element of all tables, not known before or not of bools, or counted
+// twice.
 TEST(CountBits, LeavesOtherAggregations) {
     for (const char* cpf :
          {"sum_{?o : obj, ?u : obj} [p(?o) ^ s(?o, ?u)]",
@@ -89,7 +90,7 @@ TEST(CountBits, LeavesOtherAggregations) {
     }
 }
 
-// A bit stands for all entries that look at its place. Else each row is tested by itself.
+// A bit stands for all entries that read its place. Otherwise each row is tested by itself.
 TEST(CountBits, NeedsOneKnownValueForEachPlace) {
     EXPECT_EQ(counted_in_bits("exists_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ (HEAVY(?u) ~= p(?u))]"),
               "int(bit_xor(2, bits(state.p, 0)) != 0)");

@@ -5,7 +5,8 @@
 namespace rddlc {
 namespace {
 
-// With tables: NEXT has one object a row but for b3, TWO has several; CODE tells objects apart.
+// A problem with tables: NEXT has one object a row except for b3, TWO has several; CODE
+// distinguishes objects.
 Texts of(const std::string& cpf_of_x) {
     Problem problem{
         .pvariables =

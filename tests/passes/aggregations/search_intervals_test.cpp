@@ -81,7 +81,7 @@ TEST(SearchIntervals, IsExactAtTheEndsAndForAllThatIsNoNumber) {
     }
 }
 
-// What compares equal to 0.1f is found where x >= 0.1 begins, and x <= 0.1 ends behind it.
+// A float that compares equal to 0.1f is found where x >= 0.1 begins, and x <= 0.1 ends behind it.
 TEST(SearchIntervals, FindsTheIntervalsOfFloats) {
     const Searched x =
         searched("sum_{?s : obj} [SLOPE(?s) * (x >= LEFT(?s) + 1.1 ^ x <= RIGHT(?s) + 1.0)]",

@@ -19,7 +19,7 @@ TEST(SkipZeroTerms, ComputesOnlyTermsThatCount) {
               "power(sum[q in obj](state.v[q] * state.v[q]), 0.5), 0.0))");
 }
 
-// What is cheap, may be inf or nan, draws, or is no sum.
+// Terms are left if they are cheap, may be inf or nan, draw, or are not part of a sum.
 TEST(SkipZeroTerms, LeavesOtherTerms) {
     for (const char* cpf :
          {"sum_{?o : obj} [v(?o) * p(?o)]", "sum_{?o : obj} [exp[v(?o)] * p(?o)]",

@@ -64,7 +64,7 @@ TEST(FindRanges, TakesNoNumberFromOutsideForFinite) {
     EXPECT_FALSE(is_known_finite(program, "x", ir::Storage::Next)) << "cos[inf] is nan";
 }
 
-// What it is good for.
+// The pass is useful for this.
 TEST(FindRanges, LetsSumsLeaveOutProductsWithZero) {
     const auto made_sparse = [](const std::string& part) {
         passes::Report report;

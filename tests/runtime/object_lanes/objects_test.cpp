@@ -148,7 +148,7 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
     EXPECT_FALSE(context.faulted());
 }
 
-// Of several faults, and though one operator comes before the other.
+// The first of several faults counts, though one operator comes before the other.
 TEST(Objects, TellTheFaultOfTheFirstObject) {
     std::array<double, 40> p{}, variance{};
     p[30] = 2;

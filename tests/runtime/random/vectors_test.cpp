@@ -182,7 +182,7 @@ TEST(Multinomial, NeverCountsWhatIsImpossible) {
     }
 }
 
-// What is left of the sum of probabilities is 0 before the last one that is not.
+// The rest of the sum of probabilities is 0 before the last one that is not 0.
 TEST(Multinomial, GivesToTheCertainWhereTheSumRounds) {
     Context<Scalar> context;
     Counts counts;

@@ -37,7 +37,8 @@ struct StandardExponential {
 
 namespace rddl::sample {
 
-// On [lower, upper); lower = upper gives lower. The width must be finite and not negative.
+// A uniform draw from [lower, upper); lower = upper gives lower. The width must be finite and not
+// negative.
 template <class L>
 typename L::Real uniform(Context<L>& context, Place place, typename L::Real lower,
                          typename L::Real upper) {

@@ -49,10 +49,10 @@ inline double standard_gamma(Draws& draws, double shape) {
     return boost * detail::standard_gamma_from_one(draws, shape + 1.0);
 }
 
-// Both gamma draws of a quotient underflow so far below every double that their logarithms are
-// infinite, too, where both shapes are below 1e-306. But of shapes below 1e-200, one draw is
-// greater than the others by a factor beyond all doubles, and which one depends on the ratios of
-// the shapes alone: all are multiplied by this.
+// Both gamma draws of a quotient underflow so far below every double that their logarithms are also
+// infinite, if both shapes are below 1e-306. But with shapes below 1e-200, one draw is greater than
+// the others by a factor beyond all doubles, and which one depends on the ratios of the shapes
+// alone: all are multiplied by this.
 inline double raised_shapes(double greatest) {
     return greatest < 1e-300 ? 0x1p+200 : 1.0;
 }

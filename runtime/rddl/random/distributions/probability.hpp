@@ -1,7 +1,7 @@
-// Which numbers are taken for probabilities and weights.
+// The numbers that are accepted as probabilities and weights.
 //
 // Rounding may bring a probability a little out of [0, 1]: 0.1 / (0.8 - 0.3 - 0.4) is 1 + 9e-16. It
-// counts as the bound that it passed. nan is no probability.
+// counts as the bound that it passed. nan is not a probability.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
@@ -33,7 +33,7 @@ RDDL_INLINE typename L::Bool is_positive_probability(typename L::Real p) {
     return p > 0.0 && is_probability<L>(p);
 }
 
-// Of what is_probability() holds for.
+// Requires is_probability().
 template <class Real>
 RDDL_INLINE Real clamp_probability(Real p) {
     return maximum(Real{0}, minimum(p, Real{1}));

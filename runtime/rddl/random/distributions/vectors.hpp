@@ -53,7 +53,7 @@ void multivariate_normal(Context<L>& context, Place place, Index n, const Mean& 
     detail::correlate(n, mean, factor, draw);
 }
 
-// As pyRDDLGym has it: mean + L z with independent t components z.
+// The method of pyRDDLGym: mean + L z with independent t components z.
 template <class L, class Mean, class Factor, class Draw>
 void multivariate_student(Context<L>& context, Place place, Index n, typename L::Real degrees,
                           const Mean& mean, const Factor& factor, Draw& draw) {

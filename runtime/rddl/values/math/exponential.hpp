@@ -73,7 +73,7 @@ R exp(R a) {
 // e^a - 1 = 2^k (1 - 2^-k + ...).
 template <RealLanes R>
 R exp_minus_one(R a) {
-    const R bounded = detail::clamp(a, -40.0, 710.0);  // e^-40 is no more to be seen beside 1
+    const R bounded = detail::clamp(a, -40.0, 710.0);  // e^-40 is lost in rounding beside 1
     const auto e = detail::exponential(bounded, R{0.0});
     const R one = detail::power_of_two(-detail::clamp(e.exponent, -1000.0, 1000.0));
     const R result = detail::value(e, 1.0 - one);

@@ -7,7 +7,7 @@
 
 namespace rddl {
 
-// With u = e^|a| - 1: (u + u / (u + 1)) / 2.
+// Computes (u + u / (u + 1)) / 2 with u = e^|a| - 1.
 template <RealLanes R>
 R sinh(R a) {
     const R magnitude = absolute(a);

@@ -41,8 +41,8 @@ RDDL_ALWAYS_INLINE Binary<R> binary(R a) {
 
 // ln(a) + correction, for positive, finite a and a correction that is small beside ln(a).
 //
-// With a = 2^k (1 + f) and s = f / (2 + f), ln(1 + f) = f - (f^2 / 2 - s (f^2 / 2 + z (...))): the
-// great terms come without division, hence without its rounding.
+// Let a = 2^k (1 + f) and s = f / (2 + f). Then ln(1 + f) = f - (f^2 / 2 - s (f^2 / 2 + z (...))):
+// the great terms are computed without division, so without its rounding.
 template <class R>
 RDDL_ALWAYS_INLINE R ln_of_positive(R a, R correction) {
     const auto [exponent, significand] = binary(a);

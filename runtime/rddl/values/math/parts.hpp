@@ -1,4 +1,4 @@
-// What the elementary functions are made of: sums of two reals, products without rounding,
+// Building blocks of the elementary functions: sums of two reals, products without rounding,
 // rounding to integers, powers of two and polynomials.
 //
 // T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
@@ -46,7 +46,7 @@ RDDL_ALWAYS_INLINE Pair<R> multiply_exactly(R a, R b) {
     return {high, ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-// What sqrt(square) is more than `root`, its rounded value.
+// The difference between sqrt(square) and `root`, its rounded value.
 template <class R>
 RDDL_ALWAYS_INLINE R lost_by_root(R square, R root) {
     const Pair<R> again = multiply_exactly(root, root);
@@ -54,7 +54,7 @@ RDDL_ALWAYS_INLINE R lost_by_root(R square, R root) {
     return remainder / select(root == 0.0, R{1.0}, 2.0 * root);
 }
 
-// Of sums whose first part is the greater one; rounded nearly as if by one division.
+// The quotient of sums whose first part is the greater one; rounded nearly as if by one division.
 template <class R>
 RDDL_ALWAYS_INLINE R quotient(Pair<R> dividend, Pair<R> divisor) {
     const Pair<R> a = sum_exactly(dividend.high, dividend.low);
@@ -104,8 +104,8 @@ RDDL_ALWAYS_INLINE R with_sign_of(R a, R magnitude) {
     return real_of_bits(bits_of(magnitude) | (bits_of(a) & sign_bit));
 }
 
-// By Estrin's scheme: p(x) = low(x) + x^half high(x), and so on. It has shorter chains of dependent
-// operations than Horner's.
+// Evaluates by Estrin's scheme: p(x) = low(x) + x^half high(x), and so on. It has shorter chains of
+// dependent operations than Horner's.
 template <std::size_t first, std::size_t count, class Number, class R, std::size_t n,
           std::size_t powers>
 RDDL_ALWAYS_INLINE R polynomial_part(const Number (&coefficients)[n],

@@ -81,7 +81,7 @@ RDDL_ALWAYS_INLINE R rare_power(R base, R exponent, R of_magnitude) {
     return select(exponent == 0.0 || base == 1.0, R{1.0}, result);
 }
 
-// Where not all exponents are 2.
+// The power if not all exponents are 2.
 template <class R>
 R any_power(R base, R exponent) {
     const R result = power_of_positive(absolute(base), exponent);
@@ -94,7 +94,7 @@ R any_power(R base, R exponent) {
 
 }  // namespace detail
 
-// By far the most frequent exponent is a constant 2.
+// A constant 2 is by far the most frequent exponent.
 template <RealLanes R>
 RDDL_ALWAYS_INLINE R power(R base, R exponent) {
     return any(!(exponent == 2.0)) ? detail::any_power(base, exponent) : base * base;

@@ -31,7 +31,7 @@ RDDL_ALWAYS_INLINE R rest_after(R a, R n, R b) {
 // Has the sign of the divisor, unlike C's; by 0 gives nan.
 template <RealLanes R>
 RDDL_ALWAYS_INLINE R floor_mod(R a, R b) {
-    // That of -a and -b is its negative.
+    // The remainder of -a and -b is the negative one.
     const auto sign = bits_of(b) & detail::sign_bit;
     const R dividend = real_of_bits(bits_of(a) ^ sign);
     const R divisor = real_of_bits(bits_of(b) ^ sign);

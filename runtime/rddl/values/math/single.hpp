@@ -1,6 +1,6 @@
 // The functions of floats (binary32). The frequent ones have kernels of their own, after S.
-// Moshier's Cephes library; the others are those of doubles, rounded, hence nearly always the
-// nearest float. Alone and in packs they give the same bits.
+// Moshier's Cephes library; the others are those of doubles, rounded, so nearly always the nearest
+// float. Alone and in packs they give the same bits.
 #pragma once
 
 #include <rddl/lanes/real.hpp>

@@ -50,7 +50,7 @@ RDDL_ALWAYS_INLINE Angle<R> angle(R a) {
     return {bits_of(rounded), sum_exactly(third.high, low)};
 }
 
-// Of high + low, |high| <= pi / 4.
+// The sine of high + low, |high| <= pi / 4.
 template <class R>
 RDDL_ALWAYS_INLINE Pair<R> sine(Pair<R> a) {
     const R z = a.high * a.high;
