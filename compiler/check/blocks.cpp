@@ -1,3 +1,4 @@
+// Over 400 lines: a choice and its warnings for each kind of block.
 #include "check/blocks.hpp"
 
 #include "check/check.hpp"

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of expression.
 #include "ground/lowering.hpp"
 
 #include "ground/codes.hpp"

@@ -1,3 +1,4 @@
+// Over 400 lines: one traversal and the questions about its results.
 #include "ir/analysis.hpp"
 
 #include "support/match.hpp"

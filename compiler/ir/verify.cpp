@@ -1,3 +1,4 @@
+// Over 400 lines: a rule of the IR after the other, for each kind of node and statement.
 #include "ir/verify.hpp"
 
 #include "ir/analysis.hpp"
@@ -56,9 +57,8 @@ class Verifier {
         }
         std::map<Likeness, int> counts;
         for (const Buffer& buffer : program_.buffers) ++counts[likeness(buffer, buffer.storage)];
-        const bool makes_states = std::ranges::any_of(program_.buffers, [](const Buffer& buffer) {
-            return buffer.storage == Storage::Next;
-        });
+        const bool makes_states = std::ranges::any_of(
+            program_.buffers, [](const Buffer& buffer) { return buffer.storage == Storage::Next; });
         for (const Buffer& buffer : program_.buffers) {
             if (buffer.storage == Storage::State && makes_states)
                 require(counts[likeness(buffer, Storage::Next)] == 1, "'{}' has no next state",

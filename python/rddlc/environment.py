@@ -1,4 +1,7 @@
-"""One environment of a problem."""
+"""One environment of a problem.
+
+Over 400 lines: one class with the whole interface of gymnasium.
+"""
 
 from __future__ import annotations
 

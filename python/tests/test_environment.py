@@ -1,4 +1,7 @@
-"""rddlc.make: dictionaries, spaces, seeds, ends, errors, copies, pictures."""
+"""rddlc.make: dictionaries, spaces, seeds, ends, errors, copies, pictures.
+
+Over 400 lines: a test for each thing that can be seen.
+"""
 
 from __future__ import annotations
 

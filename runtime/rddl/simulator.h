@@ -35,7 +35,8 @@
  * Lifetimes. What a simulator points to, its texts too, stays as it is for as long as its library
  * is loaded. A batch needs its simulator. The text of last_error stays until the next call that
  * fails in the same thread.
- */
+ *
+ * Over 400 lines: the whole interface is one file, which clients read from top to bottom. */
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H
 

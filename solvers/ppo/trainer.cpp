@@ -1,3 +1,4 @@
+// Over 400 lines: one class, the state of a training, in the order of an update.
 #include "solvers/ppo/trainer.hpp"
 
 #include "solvers/files/checkpoint.hpp"

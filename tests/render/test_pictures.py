@@ -2,6 +2,8 @@
 
     test_pictures.py [CLASS]       some of the public problems
     test_pictures.py --all         every problem of rddlrepository: PNG and GIF decode, with their sizes
+
+Over 400 lines: a test for each thing that can be seen.
 """
 
 import base64

@@ -1,5 +1,7 @@
 // CGP: programs, their formulas in all forms, and searches that depend on nothing but their
 // options.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "simulators.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"

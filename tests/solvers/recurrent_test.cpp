@@ -2,6 +2,7 @@
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/collector.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 #include "solvers/ppo/unrolled.hpp"

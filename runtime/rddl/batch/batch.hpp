@@ -4,9 +4,12 @@
 // block i / width. Each has its own state and episode; nothing is shared between them, so a
 // trajectory does not depend on the batch around it or on the threads. Nothing is allocated after
 // construction.
+//
+// Over 400 lines: one class, whose functions are those of simulator.h for batches.
 #pragma once
 
 #include <rddl/batch/action_choices.hpp>
+#include <rddl/batch/environment.hpp>
 #include <rddl/batch/record_checks.hpp>
 #include <rddl/batch/threads.hpp>
 #include <rddl/simulator.h>
@@ -28,59 +31,6 @@
 #include <vector>
 
 namespace rddl {
-
-// Zeroed records of one size, one after the other, beginning at a cache line of their own.
-class Records {
-  public:
-    Records(std::size_t count, std::size_t size) : size_(size), lines_(lines(count, size)) {}
-
-    std::byte* operator[](std::int64_t i) {
-        return reinterpret_cast<std::byte*>(lines_.data()) + offset(i);
-    }
-    const std::byte* operator[](std::int64_t i) const {
-        return reinterpret_cast<const std::byte*>(lines_.data()) + offset(i);
-    }
-
-  private:
-    struct alignas(64) Line {
-        std::byte bytes[64]{};
-    };
-
-    // At least one, so that empty records have an address too.
-    static std::size_t lines(std::size_t count, std::size_t size) {
-        if (size > 0 && count > std::numeric_limits<std::size_t>::max() / 2 / size)
-            throw std::bad_alloc();
-        return count * size / sizeof(Line) + 1;
-    }
-    std::size_t offset(std::int64_t i) const { return static_cast<std::size_t>(i) * size_; }
-
-    std::size_t size_;
-    std::vector<Line> lines_;
-};
-
-// One environment, apart from a batch: records of the C interface, and its episode.
-struct Environment {
-    explicit Environment(const rddl_problem& problem, std::size_t memory_size)
-        : state(1, static_cast<std::size_t>(problem.state_size)),
-          observation(1, static_cast<std::size_t>(problem.observation_size)),
-          memory(1, memory_size),
-          last_state(1, static_cast<std::size_t>(problem.state_size)),
-          last_action(1, static_cast<std::size_t>(problem.action_size)) {}
-
-    Records state, observation, memory;
-    Records last_state, last_action;
-    std::optional<Context<Scalar>> last_step;  // empty: it has made no step, or does not keep it
-    Episodes<Scalar> episode;
-    Stream stream{};
-};
-
-// The last step of an environment: from where it went, by which action and with which random
-// numbers. Records of the C interface, with plain bools.
-struct LastStep {
-    const std::byte* state;
-    const std::byte* action;
-    Context<Scalar> context;
-};
 
 // How a batch is made, checked and with all defaults resolved.
 struct BatchOptions {

@@ -1,5 +1,7 @@
 // The operators of ops.hpp on packs. Where one operand is the same in all lanes it may be a plain
 // number. Functions without a form for registers are called lane by lane.
+//
+// Over 400 lines: an operator after the other, in the order of ops.hpp.
 #pragma once
 
 #include <rddl/lanes/pack.hpp>
