@@ -1,4 +1,4 @@
-// What may depend on what, cycles, and the order of evaluation.
+// Rules of dependence, cycles, and the order of evaluation.
 #include "check/definitions.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 // ------------------------------------------------------------------------------ the rules
 
-// What a definition may mention besides non-fluents; of a policy's, what it may mention of the
+// The fluents that a definition may mention besides non-fluents; for a policy's, those of the
 // domain, where state stands for what it observes.
 struct Rule {
     Definition definition;

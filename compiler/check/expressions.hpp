@@ -16,7 +16,7 @@ const ast::Expr& without_groups(const ast::Expr& expression);
 Typed check_variable(const ast::Variable& variable, Span span, Scope& scope);
 Typed check_literal(const ast::Literal& literal, Span span, Scope& scope);
 Typed check_reference(const ast::Reference& reference, Span span, Scope& scope);
-// The fluent that is referred to, with so many arguments; what they are is not looked at.
+// The fluent that is referred to, with so many arguments; the arguments are not checked.
 std::optional<model::FluentId> check_fluent(const ast::Reference& reference,
                                             std::size_t argument_count, Span span, Scope& scope);
 

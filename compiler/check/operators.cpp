@@ -135,9 +135,9 @@ bool is_constant(const ast::Expr& expression) {
            std::holds_alternative<ast::Real>(expression.node);
 }
 
-// Which operand of '^' and '|' is evaluated first: the right one if it is a literal or a plain
-// reference, otherwise the left one. The other may be skipped, so its type may be wrong as long as
-// that happens.
+// Decides which operand of '^' and '|' is evaluated first: the right one if it is a literal or a
+// plain reference, otherwise the left one. The other may be skipped, so its type may be wrong as
+// long as that happens.
 bool right_goes_first(const ast::Expr& right) {
     const ast::Expr& inner = without_groups(right);
     return is_constant(inner) || std::holds_alternative<ast::Reference>(inner.node) ||
@@ -163,7 +163,7 @@ bool is_literal_number(const ast::Expr& expression) {
            std::holds_alternative<ast::Real>(expression.node);
 }
 
-// What stands directly behind an operator that has this right side: the x of x * 2 > y.
+// The expression directly behind an operator that has this right side: the x of x * 2 > y.
 const ast::Expr& leftmost(const ast::Expr& expression) {
     const auto* binary = std::get_if<ast::Binary>(&without_groups(expression).node);
     return binary ? leftmost(*binary->left) : without_groups(expression);

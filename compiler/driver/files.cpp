@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Before any work is done, so that nobody waits for it.
+// Runs before any work is done, so that errors come at once.
 void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
     for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
         if (!output) continue;

@@ -55,7 +55,7 @@ std::string_view name_of(std::string_view variable) {
     return variable.substr(0, variable.find('='));
 }
 
-// Ours, but for those that are replaced.
+// Our environment, except for the variables that are replaced.
 std::vector<std::string> environment_with(std::vector<std::string> variables) {
     const std::vector<std::string> given = variables;
     for (char** ours = environ; *ours; ++ours)

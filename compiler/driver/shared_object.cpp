@@ -55,7 +55,7 @@ const char* processor_level() {
     return nullptr;
 }
 
-// With the beginning of what the compiler says.
+// The diagnostic with the beginning of the compiler's messages.
 Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::string& output) {
     constexpr int most_lines = 30;
     std::vector<std::string> names;
@@ -72,7 +72,7 @@ Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::strin
     return diagnostic;
 }
 
-// In English, so that one can tell what it says.
+// The messages are in English, so that they can be parsed.
 std::optional<ProcessResult> run_compiler(const std::vector<std::string>& command) {
     return run_process(command, {"LC_ALL=C"});
 }
@@ -101,8 +101,8 @@ bool is_refused(const std::optional<ProcessResult>& result) {
     return result && result->status != 0 && !result->was_killed();
 }
 
-// Names within a folder of what is prepared. Compilers look for the third when they are told to
-// include the second, which stands for it where they do not take it.
+// Names within a folder of prepared files. Compilers look for the third when they are told to
+// include the second, which replaces it if they do not accept it.
 constexpr const char* batches_name = "batches.o";
 constexpr const char* header_name = "simulator.hpp";
 constexpr const char* precompiled_name = "simulator.hpp.gch";
@@ -126,8 +126,8 @@ bool succeeds(const std::optional<ProcessResult>& result) {
     return result && result->status == 0;
 }
 
-// With what is prepared, which saves most of the time; where the compiler refuses a part of that,
-// without. The user's headers come before those of the runtime, so that these are not prepared.
+// Compiles with the prepared files, which saves most of the time; without them if the compiler
+// refuses one. The user's headers come before those of the runtime, so that these are not prepared.
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
                                      const std::optional<fs::path>& prepared,
                                      bool has_extern_headers) {

@@ -1,4 +1,4 @@
-// A folder of our own in which something is made, which nobody sees before it is complete.
+// A folder of our own for output that is hidden until it is complete.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@ namespace rddlc {
 // a folder at the same place: each holds a lock on its own, which the system takes from the dead.
 class WorkFolder {
   public:
-    // In `parent`, which exists, with a name that begins with `prefix`; nobody else may enter it.
-    // Throws UnwritableFile with the advice `hint`.
+    // Creates it in `parent`, which exists, with a name that begins with `prefix`; no other user
+    // may enter it. Throws UnwritableFile with the advice `hint`.
     WorkFolder(const std::filesystem::path& parent, const std::string& prefix,
                const std::string& hint);
     ~WorkFolder();

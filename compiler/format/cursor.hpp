@@ -9,7 +9,7 @@
 
 namespace rddlc::format {
 
-// What stands above a declaration.
+// The comments and blank lines above a declaration.
 struct Lead {
     std::vector<CommentAbove> comments;
     bool blank_line_before = false;  // between the comments, if any, and the declaration

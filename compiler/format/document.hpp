@@ -29,7 +29,7 @@ Doc concat(std::vector<Doc> parts);
 Doc nest(Doc body);
 // Lines that begin inside begin where the body begins.
 Doc align(Doc body);
-// On one line if it fits, else each of its own lines is broken; always so if `broken`.
+// One line if it fits, otherwise each of its own lines is broken; always so if `broken`.
 Doc group(Doc body, bool broken = false);
 // The same without a choice. What cannot be on one line does not fit.
 Doc flat(Doc body);

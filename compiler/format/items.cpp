@@ -87,7 +87,7 @@ std::size_t comment_column(std::span<const TextLine> lines) {
 
 void join_block(std::span<const TextLine> lines, std::string& text) {
     const std::size_t column = comment_column(lines);
-    std::size_t last_column = column;  // which a comment that goes on keeps
+    std::size_t last_column = column;  // which a continued comment keeps
     for (const TextLine& line : lines) {
         text += line.text;
         if (!line.comment.empty()) {

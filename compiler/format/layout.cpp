@@ -58,7 +58,7 @@ class Layout {
         return true;
     }
 
-    // What stands above a block or a section.
+    // Prints the comments above a block or a section.
     void print_lead_of_part(bool set_apart) {
         Lead lead = cursor_.take_lead();
         const bool has_blank_line =

@@ -140,7 +140,7 @@ void Lowering::call_matrix_operator(MatrixOperator op, const Matrix& matrix, ir:
     run_before({std::move(call)}, matrix.outer);
 }
 
-// Those that any of the nodes depends on.
+// The candidates on which any of the nodes depends.
 std::vector<ir::VariableId> Lowering::variables_in(const std::vector<ir::NodeId>& nodes,
                                                    const Variables& candidates) const {
     Variables used;
@@ -187,7 +187,7 @@ ir::BufferId Lowering::buffer_of(const model::VectorReference& reference) const 
     return reference.next ? *buffers.next : buffers.current;
 }
 
-// With the variables in place of the axes, in their order.
+// The indices with the variables in place of the axes, in their order.
 std::vector<ir::NodeId> Lowering::indices_of(const model::VectorReference& reference,
                                              const Variables& axes) {
     auto axis = axes.begin();
@@ -278,7 +278,7 @@ ir::NodeId Lowering::lower(const model::External& form, const model::Expr& expr)
     return builder_.load(result, indices_of(dimensions));
 }
 
-// Of the fluent's own type.
+// The argument keeps the fluent's own type.
 ir::TableView Lowering::argument_of(const model::VectorReference& reference,
                                     const model::Expr& expr) {
     Variables axes;

@@ -1,5 +1,5 @@
-// What a step computes on its way, as a program of its own: for those who ask about the last step
-// (rddl/details.hpp).
+// The intermediate values of a step, as a program of its own, for callers that ask about the last
+// step (rddl/details.hpp).
 #pragma once
 
 #include "ir/ir.hpp"

@@ -388,7 +388,7 @@ bool Evaluator::apply<bool>(const Apply& form, Frame& frame) const {
     unreachable_operator();
 }
 
-// The right operands of And and Or cannot fault (verify.hpp), so nobody notices a short circuit.
+// The right operands of And and Or cannot fault (verify.hpp), so a short circuit changes nothing.
 bool Evaluator::apply_to_bools(const Apply& form, Frame& frame) const {
     const bool a = value<bool>(form.operands.front(), frame);
     if (form.op == Operator::Not) return !a;
@@ -480,7 +480,7 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
 
 // ---------------------------------------------------------------------------------- draws
 
-// With outcomes, a draw is made all the same, to record what is wrong with its parameters.
+// A draw with outcomes is also made, to record faults of its parameters.
 template <class T>
 T Evaluator::draw(const Sample& form, Frame& frame) const {
     const rddl::Place here = place(form.place, frame);

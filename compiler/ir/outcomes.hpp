@@ -13,8 +13,8 @@
 
 namespace rddlc::ir {
 
-// Of the counts from 0 to trials, for trials >= 0 and 0 <= p <= 1. Throws a Failure where the list
-// would be too long.
+// The probabilities of the counts from 0 to trials, for trials >= 0 and 0 <= p <= 1. Throws a
+// Failure if the list would be too long.
 std::vector<double> binomial_probabilities(std::int64_t trials, double p);
 
 // Whether a draw with these parameters has one result only, such as a normal one without variance.
@@ -35,7 +35,7 @@ class Outcomes {
     void choose_multinomial(rddl::Place place, std::int64_t trials,
                             std::span<const double> probabilities, std::span<std::int64_t> counts);
 
-    // Of the choices made since the last next().
+    // The probability of the choices made since the last next().
     double probability() const;
 
     // False if all combinations have been made.

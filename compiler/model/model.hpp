@@ -200,7 +200,7 @@ struct Model {
     std::vector<Expr> state_invariants;
     std::vector<Expr> terminations;
 
-    std::int64_t horizon = 0;  // 0: none (pos-inf)
+    std::int64_t horizon = 0;  // 0: no horizon (pos-inf)
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;  // absent: no limit (pos-inf)
 

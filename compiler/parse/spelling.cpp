@@ -17,7 +17,7 @@ namespace {
 
 struct ForeignOperator {
     std::string_view spelling;
-    std::size_t meant;  // token type; where RDDL has none, one of similar use
+    std::size_t meant;  // token type; if RDDL lacks it, one of similar use
     std::string_view hint;
 };
 

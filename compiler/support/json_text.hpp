@@ -12,9 +12,9 @@
 
 namespace rddlc {
 
-// No JSON, or JSON that others may take: an object names a member twice, and nobody knows which one
-// is meant, a number is larger than any double, or so many brackets lie within each other that who
-// walks through them by recursion would run out of stack. what() is a sentence.
+// The text is not JSON, or is JSON that other programs may misread: an object names a member twice,
+// so that it is ambiguous, a number is larger than any double, or so many brackets lie within each
+// other that recursion would run out of stack. what() is a sentence.
 struct RefusedJson : std::runtime_error {
     explicit RefusedJson(const std::string& message, std::optional<std::size_t> place = {})
         : std::runtime_error(message), byte(place) {}
@@ -26,7 +26,7 @@ struct RefusedJson : std::runtime_error {
 nlohmann::json parse_json(std::string_view text);
 // Keeps the order of members.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
-// What other programs wrote: `discarded` (nlohmann's word) where it is no JSON.
+// JSON from other programs: `discarded` (nlohmann's word) if it is not JSON.
 nlohmann::json json_if_valid(std::string_view text);
 
 // The beginning of a value that somebody else wrote, for messages: ASCII without control
