@@ -96,7 +96,7 @@ def draw_scenes(rddl: str) -> None:
     """Draws the scenes that are shipped, for docs/scenes.md; their states are those of the
     visualizers."""
     for shot in SHOTS:
-        scene = ROOT / f"runtime/render/scenes/{shot.name}.json"
+        scene = ROOT / f"render/scenes/{shot.name}.json"
         if scene.exists():
             with_scene = Shot(shot.name, shot.problem, shot.instance, shot.step,
                               options=["--scene", str(scene)])

@@ -17,7 +17,7 @@
 
 #include "registers.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 #include <rddl/simulator.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Shared parts of the hand-written simulators, for single values and for several in registers.
 #pragma once
 
-#include <rddl/math.hpp>
-#include <rddl/pack_ops.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "registers.hpp"
 #include "tables.hpp"
 
-#include <rddl/distributions/normal_quantile.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
 
 #include <array>
 #include <cmath>

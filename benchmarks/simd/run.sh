@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh: compares rddl/simd.hpp with SIMD libraries, at each level that this processor has. Needs
+# run.sh: compares rddl/lanes/simd.hpp with SIMD libraries, at each level that this processor has. Needs
 # Debian's libxsimd-dev and libhwy-dev; std::experimental::simd comes with g++.
 set -eu
 here=$(dirname "$0")

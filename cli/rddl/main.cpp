@@ -55,7 +55,7 @@ Command rddl_command() {
 int main(int argc, char** argv) {
     using namespace rddlc;
     return run_program("rddl", version, [&] {
-        cli::catch_interrupts();
+        workbench::catch_interrupts();
         return cli::run_command_line(cli::rddl_command(), version, argc, argv);
     });
 }

@@ -20,7 +20,7 @@ std::optional<std::filesystem::path> runtime_include_folder();
 std::optional<std::string> complaint_about_environment();
 
 // For which processors: any of the architecture, or those with the vector registers of this one
-// (fewer if RDDL_INSTRUCTION_SET says so: rddl/processor.hpp).
+// (fewer if RDDL_INSTRUCTION_SET says so: rddl/lanes/processor.hpp).
 enum class Processors { Any, LikeThis };
 
 // The compiler and its arguments: $CXX (split at blanks) or c++.

@@ -1,5 +1,5 @@
 // The intermediate values of a step, as a program of its own, for callers that ask about the last
-// step (rddl/details.hpp).
+// step (rddl/interface/details.hpp).
 #pragma once
 
 #include "ir/ir.hpp"

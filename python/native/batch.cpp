@@ -31,7 +31,7 @@ solvers::Batch copy_of(const rddl_simulator& simulator, const rddl_batch* batch)
 
 }  // namespace
 
-Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
+Batch::Batch(workbench::Simulator simulator, const BatchSettings& settings)
     : simulator_(std::move(simulator)),
       settings_(settings),
       batch_(nullptr, simulator_->destroy),

@@ -43,12 +43,12 @@ struct Outputs {
 // interrupts still completes; the next call waits for it.
 class Batch {
   public:
-    Batch(cli::Simulator simulator, const BatchSettings& settings);
+    Batch(workbench::Simulator simulator, const BatchSettings& settings);
     Batch(const Batch& other);
     Batch& operator=(const Batch&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
-    const cli::Simulator& shared_simulator() const { return simulator_; }
+    const workbench::Simulator& shared_simulator() const { return simulator_; }
     const BatchSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 
@@ -108,7 +108,7 @@ class Batch {
     void read_observations();  // records, and values
     bool has_ended() const;
 
-    cli::Simulator simulator_;  // outlives the batch
+    workbench::Simulator simulator_;  // outlives the batch
     BatchSettings settings_;
     solvers::Batch batch_;
     std::int64_t process_;  // whose threads the batch has

@@ -32,7 +32,7 @@ using Distribution = std::map<std::pair<std::string, std::uint8_t>, Mass>;
 // Steps with every combination of what is drawn, by the interpreter.
 class Enumeration {
   public:
-    Enumeration(ir::Program program, cli::ExternalLibrary library)
+    Enumeration(ir::Program program, workbench::ExternalLibrary library)
         : library_(std::move(library)),
           interpreter_(std::move(program), library_.functions),
           scratch_(interpreter_.scratch_size()),
@@ -84,20 +84,20 @@ class Enumeration {
         return reinterpret_cast<const std::byte*>(record.data());
     }
 
-    cli::ExternalLibrary library_;
+    workbench::ExternalLibrary library_;
     ir::Interpreter interpreter_;
     std::vector<std::byte> scratch_, observation_;
 };
 
-Enumeration enumeration_of(const cli::LoadedProblem& problem, const nb::object& headers) {
+Enumeration enumeration_of(const workbench::LoadedProblem& problem, const nb::object& headers) {
     const std::vector<std::string> externs = paths_of(headers);
-    cli::LoadOptions options;
-    options.engine = cli::Engine::Interpreter;
+    workbench::LoadOptions options;
+    options.engine = workbench::Engine::Interpreter;
     options.externs = {externs.begin(), externs.end()};
-    Compilation compilation = cli::compile_problem(problem.files, options);
+    Compilation compilation = workbench::compile_problem(problem.files, options);
     if (compilation.diagnostics.has_errors()) throw Refused("the problem's files have changed");
-    cli::ExternalLibrary library =
-        cli::external_library(*compilation.program, problem.files, options);
+    workbench::ExternalLibrary library =
+        workbench::external_library(*compilation.program, problem.files, options);
     return Enumeration(*std::move(compilation.program), std::move(library));
 }
 

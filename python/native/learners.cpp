@@ -35,8 +35,8 @@ namespace rddlc::python {
 
 namespace {
 
-using cli::LoadedProblem;
-using cli::Simulator;
+using workbench::LoadedProblem;
+using workbench::Simulator;
 
 // A policy, which acts in one batch at a time.
 class Policy {
@@ -204,7 +204,7 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
                       std::uint64_t seed) {
     return {problem.simulator, [text, random, seed](const rddl_simulator& simulator) {
-                return cli::policy_of_text(simulator, text, random, seed, "learned");
+                return workbench::policy_of_text(simulator, text, random, seed, "learned");
             }};
 }
 

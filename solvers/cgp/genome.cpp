@@ -1,6 +1,6 @@
 #include "solvers/cgp/genome.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
 
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <fmt/format.h>
 

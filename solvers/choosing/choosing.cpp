@@ -4,7 +4,7 @@
 #include "solvers/choosing/probabilities.hpp"
 #include "solvers/spaces/mending.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/evaluation/threads.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <algorithm>
 #include <atomic>

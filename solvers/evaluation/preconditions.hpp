@@ -1,7 +1,7 @@
 // The treatment of actions that violate a precondition, and the record that is kept of them.
 #pragma once
 
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <vector>

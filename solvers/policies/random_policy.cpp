@@ -1,6 +1,6 @@
 #include "solvers/policies/random_policy.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <algorithm>
 #include <cmath>

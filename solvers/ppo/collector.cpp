@@ -1,6 +1,6 @@
 #include "solvers/ppo/collector.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "solvers/ppo/unrolled.hpp"
 #include "solvers/ranks/ranks.hpp"
 
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <cstdint>
 #include <span>

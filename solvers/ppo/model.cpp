@@ -1,6 +1,6 @@
 #include "solvers/ppo/model.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include "solvers/ppo/room.hpp"
 #include "support/failure.hpp"
 
-#include <rddl/philox.hpp>
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <fmt/format.h>
 

@@ -170,11 +170,11 @@ void expect_compiled_trace(const Case& expected, const Compilation& compilation,
 
 // The interpreter's trace is the expected one, and that of the compiled simulator.
 void expect_trace(const Case& expected, const Compilation& compilation) {
-    cli::LoadOptions load;
+    workbench::LoadOptions load;
     load.externs = expected.headers;
-    const auto interpreted =
-        cli::interpreted_simulator(*compilation.program, compilation.sources,
-                                   cli::external_library(*compilation.program, {}, load));
+    const auto interpreted = workbench::interpreted_simulator(
+        *compilation.program, compilation.sources,
+        workbench::external_library(*compilation.program, {}, load));
     const std::string trace = trace_of(*interpreted);
     if (expected.expects("trace.exp")) expect_golden(expected.folder / "trace.exp", trace, "cases");
 #ifdef RDDL_BATCHES

@@ -63,7 +63,7 @@ TAKEN = taken_by_rddl()
 
 def collect(compilers: list[str]) -> dict[str, list[str]]:
     """Maps the origins of names to the names, as far as RDDL can spell them."""
-    skeleton = in_files("templates/*", "runtime/rddl/compiled.hpp", "runtime/rddl/simulator*")
+    skeleton = in_files("templates/*", "runtime/rddl/step/compiled.hpp", "runtime/rddl/simulator*")
     for emitter in ("names", "functions", "about", "tables", "emit"):
         strings = re.findall(r'"([^"\n]*)"', (ROOT / f"compiler/emit/{emitter}.cpp").read_text())
         skeleton |= identifiers(" ".join(strings))

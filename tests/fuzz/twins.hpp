@@ -3,7 +3,7 @@
 
 #include "ir/ir.hpp"
 
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <cstdint>

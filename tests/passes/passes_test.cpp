@@ -2,10 +2,10 @@
 #include "passes/passes.hpp"
 
 #include "ir/print.hpp"
-#include "passes/fold_constant_expressions.hpp"
-#include "passes/fold_uniform_tables.hpp"
-#include "passes/hoist_aggregations.hpp"
-#include "passes/remove_unused_buffers.hpp"
+#include "passes/aggregations/hoist_aggregations.hpp"
+#include "passes/constants/fold_constant_expressions.hpp"
+#include "passes/constants/fold_uniform_tables.hpp"
+#include "passes/sharing/remove_unused_buffers.hpp"
 #include "texts.hpp"
 
 #include <algorithm>

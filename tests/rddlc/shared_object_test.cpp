@@ -5,7 +5,7 @@
 #include "driver/process.hpp"
 #include "support/diagnostic.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 #include <rddl/simulator.h>
 
 #include <dlfcn.h>

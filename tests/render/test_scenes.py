@@ -20,7 +20,7 @@ class Scenes(PictureTest):
     def test_scenes_that_are_shipped(self):
         for name, (problem, instance, step) in self.DRAWN.items():
             self.rddl("run", problem, instance, "--engine=interpreter", "--quiet", "--png=a.png",
-                      f"--step={step}", f"--scene={ROOT}/runtime/render/scenes/{name}.json",
+                      f"--step={step}", f"--scene={ROOT}/render/scenes/{name}.json",
                       f"--size={gallery.SIZE[0]}x{gallery.SIZE[1]}")
             with Image.open(self.folder / "a.png") as picture:
                 now = numpy.asarray(picture.convert("RGB"), dtype=int)

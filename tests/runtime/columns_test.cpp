@@ -1,7 +1,7 @@
 // Rows of the C interface become blocks of packs and rows again. This file is also built for other
 // instruction sets than the compiler's default (CMakeLists.txt).
-#include <rddl/columns.hpp>
-#include <rddl/tables.hpp>
+#include <rddl/step/columns.hpp>
+#include <rddl/values/tables.hpp>
 
 #include <gtest/gtest.h>
 

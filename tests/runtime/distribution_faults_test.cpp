@@ -1,5 +1,5 @@
 // Parameters outside their domains: which fault, with which value, and that nothing hangs.
-#include <rddl/distributions.hpp>
+#include <rddl/random/distributions.hpp>
 
 #include <gtest/gtest.h>
 

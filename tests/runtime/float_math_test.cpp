@@ -1,7 +1,7 @@
 // The functions of floats: how exact they are, and that lanes have the bits of single floats.
-#include <rddl/distributions/normal_quantile.hpp>
-#include <rddl/math.hpp>
-#include <rddl/pack_ops.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The gamma family against Boost.Math's distribution functions.
 #include "fit.hpp"
 
-#include <rddl/distributions/gamma.hpp>
+#include <rddl/random/distributions/gamma.hpp>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>

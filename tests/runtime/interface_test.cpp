@@ -1,7 +1,7 @@
 // The C interface over the hand-written simulator: records, copies, refusals, messages.
 #include "tiny_batch.hpp"
 
-#include <rddl/action_choices.hpp>
+#include <rddl/batch/action_choices.hpp>
 
 #include <gtest/gtest.h>
 

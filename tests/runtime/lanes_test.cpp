@@ -2,7 +2,7 @@
 // with every instruction set.
 #include "trajectories.hpp"
 
-#include <rddl/abi.hpp>
+#include <rddl/interface/abi.hpp>
 
 #include <gtest/gtest.h>
 

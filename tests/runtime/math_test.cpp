@@ -2,8 +2,8 @@
 // and against themselves in packs.
 #include "plain_pack.hpp"
 
-#include <rddl/distributions/normal_quantile.hpp>
-#include <rddl/math.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
+#include <rddl/values/math.hpp>
 
 #include <gtest/gtest.h>
 

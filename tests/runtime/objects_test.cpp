@@ -1,6 +1,6 @@
 // One environment whose objects are in registers has the values, draws and faults that it has with
 // one object after the other. Also built for other instruction sets (CMakeLists.txt).
-#include <rddl/objects.hpp>
+#include <rddl/object_lanes/objects.hpp>
 #include <rddl/simulator.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include <rddl/pack.hpp>
-#include <rddl/pack_ops.hpp>
-#include <rddl/search.hpp>
+#include <rddl/lanes/pack.hpp>
+#include <rddl/values/pack_ops.hpp>
+#include <rddl/values/search.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <gtest/gtest.h>
 

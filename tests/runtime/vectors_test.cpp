@@ -1,8 +1,8 @@
 // Random vectors: each element against its own law, the elements together by their covariances.
 #include "fit.hpp"
 
-#include <rddl/distributions/vectors.hpp>
-#include <rddl/linear_algebra.hpp>
+#include <rddl/random/distributions/vectors.hpp>
+#include <rddl/values/linear_algebra.hpp>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>

@@ -2,7 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "engines/interpreted_simulator.hpp"
-#include "problems/description.hpp"
+#include "formats/description.hpp"
 #include "problems/front_end.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
