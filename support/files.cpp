@@ -224,8 +224,8 @@ void OutputFile::open_stream() {
     if (descriptor_ < 0) throw UnwritableFile(path_, errno);
 }
 
-// Beside the target, so that renaming it is one step. Without a name where the system can do that:
-// of a process that is killed nothing is left then.
+// Opens a file beside the target, so that renaming it is one step. It has no name if the system can
+// do that: then a process that is killed leaves nothing.
 void OutputFile::open_temporary(mode_t mode) {
     descriptor_ = open_nameless(folder_of(target_), mode);
     is_nameless_ = descriptor_ >= 0;
@@ -248,7 +248,7 @@ void OutputFile::open_named(mode_t mode) {
     throw UnwritableFile(path_, errno);
 }
 
-// Only renaming replaces, so the name lasts for a moment.
+// Only renaming replaces a file, so the name lasts for a moment.
 void OutputFile::give_name() {
     do {
         temporary_ = temporary_name(target_);

@@ -27,7 +27,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t largest = s
 // The same of an open file, called `name` in messages, which may have so many bytes.
 std::string read_descriptor(int descriptor, std::string_view name,
                             std::size_t largest = std::string::npos);
-// The limit of a text that people write: places in it have 32 bits, and devices have no end.
+// The limit of a text that users write: places in it have 32 bits, and devices have no end.
 inline constexpr std::size_t largest_text = std::size_t{1} << 28;
 
 // Why not to write: the system's reason, or that the file is in use by this very run.
@@ -75,12 +75,12 @@ class OutputFile {
     // Throws UnwritableFile, as the functions below do. `mode` is that of a new file, before umask.
     OutputFile(const std::filesystem::path& path, const UsedFiles& used, mode_t mode = 0666);
     static OutputFile standard_output(const UsedFiles& used);
-    // Without finish() nothing is left.
+    // Removes the file unless finish() was called.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    // Whether somebody may be reading while it is written.
+    // Whether another program may be reading while it is written.
     bool is_stream() const;
 
     void write(std::string_view text);

@@ -1,5 +1,5 @@
-// JSON as text, read and written. Programs that call these do not make nlohmann's parser and writer
-// anew in each of their files, which takes seconds a file to compile.
+// JSON as text, read and written. Callers do not compile nlohmann's parser and writer in each of
+// their files, which takes seconds a file.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -29,13 +29,12 @@ nlohmann::ordered_json parse_ordered_json(std::string_view text);
 // JSON from other programs: `discarded` (nlohmann's word) if it is not JSON.
 nlohmann::json json_if_valid(std::string_view text);
 
-// The beginning of a value that somebody else wrote, for messages: ASCII without control
-// characters.
+// The beginning of a value from another program, for messages: ASCII without control characters.
 std::string json_excerpt(const nlohmann::json& value);
 
-// Names of files may hold bytes that are not UTF-8: these become U+FFFD. What is not visible, such
-// as a control character, is written as an escape, so that it does not drive a terminal.
-// Without line breaks.
+// Names of files may hold bytes that are not UTF-8: these become U+FFFD. Invisible characters, such
+// as control characters, are written as escapes, so that they do not drive a terminal. The line has
+// no line breaks.
 std::string json_line(const nlohmann::ordered_json& value);
 // Indented, with a line break at the end.
 std::string json_document(const nlohmann::ordered_json& value);

@@ -58,7 +58,7 @@ struct Arguments {
     bool verbose = false;
 };
 
-// For --help.
+// The list of passes for --help.
 std::string list_of_passes() {
     std::string text = "Optimisations, in their order:\n";
     for (const PassDescription& pass : all_passes())
@@ -221,7 +221,7 @@ Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
         last = *stage;
     }
     if (arguments.check_only) last = std::min(last, Stage::Check);
-    // A user who only wants to see a form does not wait for the stages after it.
+    // A user who only wants a form does not wait for the stages after it.
     if (!arguments.output.empty()) return last;
     const std::optional<Stage> wanted = last_wanted_stage(arguments, print);
     return wanted ? std::min(last, *wanted) : last;

@@ -83,7 +83,7 @@ class Narrowing {
         return fault_at(span, found, need_, context_);
     }
 
-    // Before it was promoted to match the other branches.
+    // The type before it was promoted to match the other branches.
     static model::ValueType natural_type(const model::Expr& e) {
         const auto* cast = std::get_if<model::Convert>(&e.node);
         return cast ? cast->operand->type : e.type;

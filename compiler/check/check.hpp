@@ -25,7 +25,7 @@ std::optional<model::Model> check(const ast::Program& program, const Sources& so
                                   Diagnostics& diagnostics,
                                   Standard standard = Standard::PyRddlGym);
 
-// The name in `non-fluents = NAME`; null without one. Of several the last counts.
+// The name in `non-fluents = NAME`; null without one. The last of several counts.
 const ast::Name* named_non_fluents(const ast::Instance& instance);
 
 }  // namespace rddlc

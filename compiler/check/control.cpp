@@ -46,8 +46,8 @@ struct Label {
     Span span;
 };
 
-// For each member of the type, which of the labels names it. Reports labels that name no member
-// and labels used twice.
+// The label that names each member of the type. Reports labels that name no member and labels used
+// twice.
 std::optional<std::vector<std::optional<std::size_t>>> match_labels(
     const std::vector<Label>& labels, model::TypeId type_id, Context& context) {
     const model::Type& type = context.type(type_id);

@@ -20,7 +20,7 @@ enum class Definition : std::uint8_t {
     StateInvariant,
     Termination,
     InitialValue,
-    // In a policy.
+    // Definitions of a policy.
     PolicyAction,
     PolicyDerived,
     PolicyState,

@@ -130,7 +130,7 @@ struct Edge {
     std::size_t to;  // a CPF
     Span span;       // where it is mentioned
 };
-// For each CPF the CPFs it mentions, each once.
+// The CPFs that each CPF mentions, each once.
 using Graph = std::vector<std::vector<Edge>>;
 
 Graph build_graph(const std::vector<model::Cpf>& cpfs, const std::vector<CpfUses>& all_uses,

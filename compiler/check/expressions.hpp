@@ -9,7 +9,7 @@ namespace rddlc::checking {
 // Everything is reported; nothing is returned if a part was wrong.
 Typed check_expression(const ast::Expr& expression, Scope& scope);
 
-// Without the brackets around it.
+// The expression without the brackets around it.
 const ast::Expr& without_groups(const ast::Expr& expression);
 
 // references.cpp
@@ -43,7 +43,8 @@ bool check_square(std::string_view function, model::VariableId row, model::Varia
                   Span span, Context& context);
 Typed check_matrix_function(const ast::MatrixFunction& function, Span span, Scope& scope);
 Typed check_external(const ast::External& external, Span span, Scope& scope);
-// Only as the whole right-hand side of a CPF, whose parameters are all that is in scope.
+// Accepts them only as the whole right-hand side of a CPF, whose parameters are all that is in
+// scope.
 Typed check_random_vector(const ast::RandomVector& vector, Span span, Scope& scope);
 
 }  // namespace rddlc::checking

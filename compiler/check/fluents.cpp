@@ -132,7 +132,7 @@ void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, B
                                .with_hint("the instance gives no values to a policy"));
         return;
     }
-    // After an error any value will do: what matters is that there is a default.
+    // Any value will do after an error: it matters only that there is a default.
     fluent.default_value = model::Value{false};
     if (block == Block::Domain && has_object_range(fluent, context)) return;
     const std::optional<model::Value> value =

@@ -13,7 +13,7 @@ namespace rddlc::checking {
 // brackets.
 void report_unknown_name(const ast::Reference& reference, Scope& scope);
 
-// For "True" and the like; else empty.
+// A hint for "True" and the like; else empty.
 std::string hint_for_bool(std::string_view name);
 
 // The name that is meant, else a list of all. Empty if there are no names.

@@ -177,7 +177,7 @@ bool is_meant_as_power(const BinaryPlace& place) {
            (binary && is_arithmetic(operator_of(binary->op)));
 }
 
-// 'a ^ 2.0 > 1.0' is a matter of bools, but who compares literals means something else.
+// 'a ^ 2.0 > 1.0' is about bools, but a comparison of literals suggests another meaning.
 void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     const ast::Expr& inner = without_groups(place.right);
     const auto* binary = std::get_if<ast::Binary>(&inner.node);

@@ -1,4 +1,4 @@
-// The machine's C++ compiler: who it is, and which options it knows.
+// The machine's C++ compiler: its name, and the options that it knows.
 #pragma once
 
 #include <string>

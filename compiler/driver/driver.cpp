@@ -146,7 +146,7 @@ void run_stages(Run& run) {
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;
 
-    // Without an instance there is no model, but much to check.
+    // A problem without an instance has no model, but much to check.
     if (may_stand_alone(run.options) && is_domain_alone(tree)) {
         result.is_domain_alone = true;
         const auto domain = run.measure(Stage::Check, [&] {

@@ -24,7 +24,7 @@
 
 namespace rddlc {
 
-// In the order in which they run.
+// The stages in the order in which they run.
 enum class Stage { Read, Parse, Check, Ground, Verify, Optimise, Emit, Write };
 std::string_view name_of(Stage stage);  // "read", ...
 std::optional<Stage> stage_named(std::string_view name);

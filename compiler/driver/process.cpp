@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Until there is something to read, or the output ends. False when the time is over before.
+// Waits until there is something to read, or the output ends. False when the time is over before.
 bool wait_for_output(int descriptor, std::optional<Clock::time_point> end) {
     while (end) {
         const auto left =

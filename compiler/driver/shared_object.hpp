@@ -19,7 +19,7 @@ std::optional<std::filesystem::path> runtime_include_folder();
 // The error in RDDLC_INCLUDE or RDDL_INSTRUCTION_SET, if they are set.
 std::optional<std::string> complaint_about_environment();
 
-// For which processors: any of the architecture, or those with the vector registers of this one
+// The target processors: any of the architecture, or those with the vector registers of this one
 // (fewer if RDDL_INSTRUCTION_SET says so: rddl/lanes/processor.hpp).
 enum class Processors { Any, LikeThis };
 
@@ -33,7 +33,7 @@ std::vector<std::string> shared_object_command(const std::filesystem::path& sour
 // can do that, the headers that they include. False if there is no such code afterwards.
 bool prepare_runtime(const std::filesystem::path& folder, RealType real);
 
-// For any processor of x86-64, the object holds the simulator for each instruction set; its entry
+// An object for any processor of x86-64 holds the simulator for each instruction set; its entry
 // chooses when it is called. For those like this one, it is made with the files that
 // prepare_runtime has put into the folder `prepared`, if there is one, as far as the compiler
 // accepts them; otherwise all is compiled. A precompiled header that it refuses is removed.

@@ -75,8 +75,8 @@ void close_all_others() {
 #endif
 }
 
-// Compilers remove their temporary files when they are asked to end. What then still runs is
-// killed.
+// Compilers remove their temporary files when they are asked to end. Processes that then still run
+// are killed.
 void end_group(pid_t program) {
     constexpr timespec patience{1, 0};
     sigset_t ended;
@@ -91,7 +91,7 @@ int status_like(int status) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-// In the process of our own, where nothing may be allocated.
+// Runs in a process of our own, where nothing may be allocated.
 [[noreturn]] void watch(const Start& start, const sigset_t& signals, pid_t parent, int told) {
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

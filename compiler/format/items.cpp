@@ -28,7 +28,7 @@ std::string in_columns(const Item& item, const std::vector<std::size_t>& widths)
     return text;
 }
 
-// A line that is on the page by itself shall not leave it for its neighbours' sake.
+// A line that fits on the page by itself must not leave it because of its neighbours.
 bool aligns(std::span<const Item> items, std::size_t indent,
             const std::vector<std::size_t>& widths) {
     constexpr std::size_t widest_gap = 32;

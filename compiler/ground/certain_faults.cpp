@@ -22,7 +22,7 @@ namespace {
 
 using Fault = rddl::FaultRecord;
 
-// In operations: what takes longer to find out is left to the runs.
+// The limit in operations: longer trials are left to the runs.
 constexpr double most_work = 1e6;
 
 // Something that may fault, whose parameters the instance fixes.

@@ -11,8 +11,8 @@
 namespace rddlc::grounding {
 namespace {
 
-// In operations (ir::Facts). Passes name what is used several times; this is for nested products,
-// which would grow exponentially until then.
+// The limit in operations (ir::Facts). Passes name values that are used several times; this is for
+// nested products, which would grow exponentially until then.
 constexpr double largest_repeated_cost = 200;
 // Selects inside each other that a 'switch' becomes.
 constexpr std::size_t longest_chain = 512;
@@ -305,7 +305,7 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
             return builder_.select(condition, then_value, rest);
         }
     }
-    // In the second branch the first factor is not zero, which the other one need not ask again.
+    // The first factor is not zero in the second branch, which the other one need not ask again.
     const auto* asks = std::get_if<ir::Select>(&program_[other].form);
     if (asks && asks->condition == test(first)) other = asks->else_value;
     const ir::NodeId left = right_first ? other : first;
@@ -356,8 +356,8 @@ ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     return choice(subject, labels, std::span(values).subspan(1), values.front());
 }
 
-// Labels fall. Of more than a chain should have, each half is a choice for itself: what follows
-// recurses on expressions.
+// Labels fall. A long chain is halved, and each half is a choice for itself: later passes recurse
+// on expressions.
 ir::NodeId Lowering::choice(ir::NodeId subject, std::span<const ir::NodeId> labels,
                             std::span<const ir::NodeId> values, ir::NodeId rest) {
     if (labels.size() > longest_chain) {

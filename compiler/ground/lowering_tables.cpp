@@ -56,7 +56,7 @@ std::string problem_with(MatrixOperator op) {
 
 // ------------------------------------------------------------------------------------- tables
 
-// In the way of what comes after: what has been lowered so far may be read from then on.
+// Runs the statement before the next ones: they may read the values that have been lowered so far.
 void Lowering::run_before(ir::Statement statement, std::span<const ir::VariableId> variables) {
     prelude_.push_back(looped(std::move(statement), variables));
 }
@@ -205,8 +205,7 @@ ir::NodeId Lowering::element_of(const model::VectorReference& reference, const V
     return builder_.load(buffer_of(reference), indices_of(reference, axes));
 }
 
-// The fluent itself where it is a table of that type whose last dimensions are the axes; else a
-// copy.
+// The fluent itself if it is a table of that type whose last dimensions are the axes; else a copy.
 ir::TableView Lowering::view_of(const model::VectorReference& reference, const Variables& axes,
                                 ir::Scalar scalar, std::string_view name, const model::Expr& expr) {
     const auto leading = static_cast<std::ptrdiff_t>(reference.slots.size() - axes.size());

@@ -14,7 +14,7 @@ namespace {
 constexpr double cheap_cost = 6;
 constexpr double elementary_cost = 20;
 
-// In units of an addition.
+// The cost in units of an addition.
 double cost_of(Operator op) {
     switch (op) {
         case Operator::Divide:

@@ -14,7 +14,7 @@
 namespace rddlc::ir {
 
 struct CallSignature {
-    std::vector<std::size_t> input_axes;  // 1: a vector, 2: a square matrix; of Real
+    std::vector<std::size_t> input_axes;  // 1: a vector, 2: a square matrix; the elements are Real
     bool overwrites_inputs;               // to work in them: they are Scratch
     std::size_t room;                     // of the inputs, how many at the end are nothing else
     std::optional<Scalar> scalar;         // the type of the scalar, where there is one

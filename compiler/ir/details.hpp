@@ -9,7 +9,7 @@
 
 namespace rddlc::ir {
 
-// For which objects a precondition holds: those of the `forall`s that it begins with.
+// The objects for which a precondition holds: those of the `forall`s that it begins with.
 struct ConditionTable {
     BufferId holds;  // Observation, Bool, over the objects of `scope`
     std::vector<VariableId> scope;

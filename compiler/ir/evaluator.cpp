@@ -38,7 +38,8 @@ void choose_counts(const TableArguments& multinomial, rddl::Place place, Outcome
 // Constant tables for which these bytes leave no room are looked up where they are.
 constexpr std::size_t most_packed = std::size_t{1} << 25;
 
-// To write out all elements would take much longer than to look up those that somebody reads.
+// Writing out all elements of such a table would take much longer than looking up those that are
+// read.
 bool is_sparse(const Table& table) {
     return table.size() > 64 * (std::ssize(table.exceptions()) + 1024);
 }

@@ -44,14 +44,13 @@ class Evaluator {
     // Evaluates with other last digits from now on. `rounding` must outlive this.
     void round_by(Rounding& rounding) { rounding_ = &rounding; }
 
-    // Before values that read constant tables which are new.
+    // Call it before values that read new constant tables.
     void know_added_tables();
 
     // One evaluation: the records, and room for loop indices and locals.
     class Frame {
       public:
-        // Without outcomes, draws are random; with them, Failure says which draw has no finite
-        // list.
+        // Draws are random without outcomes; with them, Failure says which draw has no finite list.
         Frame(const Evaluator& evaluator, Records records, Context& context,
               Outcomes* outcomes = nullptr);
         Frame(const Frame&) = delete;

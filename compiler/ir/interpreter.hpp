@@ -24,7 +24,7 @@ class Interpreter {
     // See Evaluator::round_by.
     void round_by(Rounding& rounding) { evaluator_.round_by(rounding); }
 
-    // In bytes.
+    // Sizes in bytes.
     std::size_t state_size() const { return state_size_; }
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }

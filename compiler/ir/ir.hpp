@@ -287,10 +287,11 @@ struct Fluent {
     std::vector<std::uint32_t> parameter_types;  // index into Program::types
     std::optional<BufferId> buffer;              // absent: nothing reads it (a pass found out)
     Span span;
-    // NonFluent: what the instance says, whatever passes make of the buffer; else empty.
+    // NonFluent: the instance's values, whatever passes make of the buffer; else empty.
     Table values;
-    // Per grounding, from action-preconditions and state-invariants (semantics of env-and-viz 1.1);
-    // -inf/+inf where nothing bounds it. Only for numeric State and Action fluents; else empty.
+    // The bounds per grounding, from action-preconditions and state-invariants (semantics of
+    // env-and-viz 1.1); -inf/+inf without a bound. Only for numeric State and Action fluents; else
+    // empty.
     std::vector<double> lower, upper;
 };
 
@@ -328,7 +329,7 @@ struct Program {
     // The draws at the start of an episode, into State buffers that hold their values already. They
     // read constants only.
     std::vector<Definition> reset;
-    // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
+    // The CPFs in evaluation order. CPFs that fill Observation buffers run like all others, in
     // their place.
     std::vector<Definition> step;
     Computation reward;                      // Real

@@ -27,8 +27,8 @@ bool is_certain(Distribution distribution, double a, double b);
 //     do { evaluate; use probability(); } while (outcomes.next());
 class Outcomes {
   public:
-    // An index into the probabilities, of which at least one is positive; what is chosen has a
-    // positive one. A draw that is evaluated twice is one draw. part: of a vector that is drawn.
+    // An index into the probabilities, of which at least one is positive; the chosen one is
+    // positive. A draw that is evaluated twice is one draw. part: of a vector that is drawn.
     std::int64_t choose(rddl::Place place, std::vector<double> probabilities, std::size_t part = 0);
 
     // Counts of the trials in each category, whose probabilities sum up to about 1.

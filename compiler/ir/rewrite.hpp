@@ -17,8 +17,8 @@ using Replace = std::function<std::optional<NodeId>(Builder&, NodeId, const Node
 
 // The program with every reachable node replaced, operands first.
 Program rewrite(Program program, const Replace& replace);
-// A node with others in place of those below it (or of itself) that are keys of `known`; what it
-// finds out is added there.
+// A node with others in place of those below it (or of itself) that are keys of `known`; new
+// results are added there.
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
 // The same if `find` gives the replacement of a node that is not known yet, or nothing to keep it
 // with replacements in its operands. So the outermost nodes with a replacement are replaced.

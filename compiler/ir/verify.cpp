@@ -185,7 +185,7 @@ class Verifier {
         }
     }
 
-    // For complaints: to print every node would take the square of their number.
+    // The text for complaints: printing every node would take the square of their number.
     std::string text_unless(bool ok, NodeId id) const { return ok ? "" : print(program_, id); }
 
     void numbers_fit(const Site& site) {

@@ -167,8 +167,8 @@ struct Cpf {
     Span span;
 };
 
-// A policy block: how to choose the action. What it declares are state-fluents (its memory),
-// derived-fluents and non-fluents, among which param-fluents are.
+// A policy block: how to choose the action. It declares state-fluents (its memory), derived-fluents
+// and non-fluents, among which param-fluents are.
 struct Policy {
     std::string name;
     FluentId first_fluent;  // from there on, Model::fluents are the policy's own

@@ -91,7 +91,7 @@ class Policy {
     }
 
   private:
-    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
     bool bind(const Batch& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
@@ -114,7 +114,7 @@ class Policy {
     std::vector<std::int32_t> violated_;
 };
 
-// Whether an update shall end early: what a learner's options ask.
+// Whether an update has to end early: the `stops` of a learner's options.
 using Stop = std::shared_ptr<std::atomic<bool>>;
 
 std::function<bool()> asks(const Stop& stop) {

@@ -103,7 +103,7 @@ class ChoiceActions:
         self._quick = quick_writer(self.plan, self._values[0]) if self._squash is None else None
 
     def _new_row_writer(self, batch: _native.Batch) -> _native.RowWriter | None:
-        """For rows of categories or of numbers, if each sets a value of its own and these stand
+        """Writes rows of categories or of numbers, if each sets a value of its own and these stand
         together."""
         plan = self.plan
         if plan.picks or (plan.category_counts and plan.numbers):

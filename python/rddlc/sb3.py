@@ -54,7 +54,7 @@ def takes_actions(space: gymnasium.Space[Any]) -> bool:
 
 
 class VecEnv(Base):
-    """Environments that start anew in the step that ends them: infos[i] then holds
+    """Environments that restart in the step that ends them: infos[i] then holds
     "terminal_observation", "TimeLimit.truncated" and "cause"."""
 
     def __init__(self, env: RDDLVectorEnv) -> None:

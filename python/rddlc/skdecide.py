@@ -39,8 +39,8 @@ class D(RLDomain, FullyObservable, Renderable):
 
 
 class RDDLDomain(D):
-    """An environment with dictionaries of observations and of actions. Of a partially observed
-    problem observations are all that is seen. An end is an end, whatever its cause."""
+    """An environment with dictionaries of observations and of actions. Partially observed problems
+    show observations only. An end is an end, whatever its cause."""
 
     def __init__(
         self,

@@ -142,7 +142,7 @@ std::string text_of(const ObservationSpace& space) {
                        space.stack, space.time, space.horizon);
 }
 
-// In files [output][input].
+// Files hold weights as [output][input].
 std::string weights_text(const Weights<const float>& weights) {
     std::string text;
     std::vector<float> of_output(static_cast<std::size_t>(weights.inputs));

@@ -111,7 +111,7 @@ class Files(PictureTest):
                          (self.folder / "all/000030.png").read_bytes())
 
     def test_standard_output(self):
-        """For other programs; nothing else stands there, and no file is written."""
+        """Output for other programs: nothing else is printed, and no file is written."""
         self.run_car("--trace=t.jsonl", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html")
         before = self.left_behind()
         for kind in "gif", "png", "svg", "html":
@@ -144,7 +144,7 @@ class Files(PictureTest):
         self.assertNotEqual((self.folder / "other.gif").read_bytes(), picture)
 
     def test_traces_of_other_programs(self):
-        """States alone, without a header: as who steps pyRDDLGym would write them."""
+        """States alone, without a header, as a user of pyRDDLGym would write them."""
         states = [{"state": {"position": -0.5 + 0.01 * k, "velocity": 0.01}} for k in range(5)]
         (self.folder / "t.jsonl").write_text("\n".join(map(json.dumps, states)))
         self.rddl("render", "t.jsonl", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
@@ -603,7 +603,7 @@ def draw_every_problem() -> None:
                          "--preconditions=ignore", f"--gif={folder}/a.gif", f"--png={folder}/a.png",
                          "--size=480x320"] + ([f"--visualizer={visualizer}"] if visualizer else [])
                 done = subprocess.run(words, text=True, capture_output=True, env=environment())
-                # Random actions make some problems fault; what came before is drawn.
+                # Random actions make some problems fault; the steps before the fault are drawn.
                 is_fault = done.returncode == DIAGNOSED and "faulted" in done.stderr
                 assert done.returncode == SUCCESS or is_fault, f"{words}\n{done.stderr}"
                 with Image.open(f"{folder}/a.png") as picture:

@@ -42,7 +42,7 @@ std::string verdict(const Compilation& compilation) {
                        compilation.is_domain_alone ? fmt::format("\n{}", no_instance_given) : "");
 }
 
-// External functions are only checked where somebody defines them.
+// External functions are only checked if files define them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
     CompileOptions front_end = check_options(files, has_externs ? Stage::Verify : Stage::Ground);
@@ -71,7 +71,7 @@ Outcome check_quietly(const ProblemFiles& files) {
     return {true, render_each(compilation.diagnostics, compilation.sources)};
 }
 
-// In parallel; outcomes in the order of the files. Stops early on an interrupt.
+// Checks in parallel; outcomes are in the order of the files. Stops early on an interrupt.
 std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
     std::vector<Outcome> outcomes(files.size());
     for_each_in_parallel("checking", files.size(),

@@ -1,4 +1,4 @@
-// rddl export: learned policies for people and for other programs.
+// rddl export: learned policies for readers and for other programs.
 #include "solvers/ppo/export.hpp"
 
 #include "commands/commands.hpp"
