@@ -104,7 +104,7 @@ class Batch {
     rddl_transition transition(const Outputs& outputs);
     std::size_t number_size() const { return settings_.doubles ? sizeof(double) : sizeof(float); }
     rddl_batch* live();
-    void read_values();
+    void read_values(void* values);
     void read_observations();  // records, and values
     bool has_ended() const;
 

@@ -13,16 +13,18 @@ from numpy.typing import NDArray
 
 from . import _native, causes
 from .arguments import one_of, options_of_reset, seed_of, seed_or_none, whole, whole_or_none
-from .dictionaries import DictionaryActions, GroundedReader, LiftedReader
 from .errors import ActionError, ArgumentError, EpisodeOver, Error
-from .learning import ChoiceActions, FlatReader
-from .legal import go_on_from, legal_space
-from .masks import ActionMasks
 from .model import Model
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
 from .states import State
+from .translation.choice_actions import ChoiceActions
+from .translation.dictionary_actions import SingleActions
+from .translation.legal import go_on_from, legal_space
+from .translation.masks import ActionMasks
+from .translation.protocols import ActionWriter, ObservationReader
+from .translation.readers import dictionary_reader, observation_reader
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
@@ -98,20 +100,19 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self.render_mode is not None:
             self._renderer = self._new_renderer()
 
-    def _new_reader(self) -> Any:
-        if self._forms["observations"] == "flat":
-            return FlatReader(
-                self.problem,
-                self._batch.observation_values,
-                self._batch.final_values,
-                normalize=self._forms["normalize"],
-            )
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.observed, self._batch.observations)
+    def _new_reader(self) -> ObservationReader:
+        return observation_reader(
+            self.model.observed,
+            self._batch,
+            flat=self._forms["observations"] == "flat",
+            lifted=self._forms["vectorized"],
+            normalize=self._forms["normalize"],
+            by_values=self._forms["actions"] != "dict",
+        )
 
-    def _new_writer(self) -> Any:
+    def _new_writer(self) -> ActionWriter:
         if self._forms["actions"] == "dict":
-            return DictionaryActions(
+            return SingleActions(
                 self.problem,
                 self._batch,
                 lifted=self._forms["vectorized"],
@@ -155,8 +156,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """The true state in the form of dictionary observations, also where it is not observed."""
         record = np.zeros((1, self.model.state_size), np.uint8)
         self._batch.read_state(0, record[0])
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.states, record).read()
+        return dictionary_reader(self.model.states, record, lifted=self._forms["vectorized"]).read()
 
     @property
     def timestep(self) -> int:
@@ -198,11 +198,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """
         if self._ended or self._seed is None:
             raise self._no_step()
-        self._batch.finish()
-        self._writer.write(action)
         if self._enforces:
-            self._check_preconditions()
-        self._writer.step()
+            self._check_preconditions(action)
+        self._writer.step(action)
         ended = self._causes.item()
         info: dict[str, Any] = {}
         if ended or self._tells_mask:
@@ -227,20 +225,21 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self._tells_mask:
             info["action_mask"] = self._masks.for_space()
 
-    def _check_preconditions(self) -> None:
-        self._writer.write_record()
-        if self._batch.violated_preconditions(self._batch.actions)[0] >= 0:
-            raise ActionError(self._why_violated())
+    def _check_preconditions(self, action: Any) -> None:
+        record = self._writer.record(action)
+        if self._batch.violated_preconditions(record)[0] >= 0:
+            raise ActionError(self._why_violated(record))
 
-    def _why_violated(self) -> str:
+    def _why_violated(self, action: NDArray[np.uint8]) -> str:
         if self.problem.has_details:
+            self._batch.actions[:] = action
             return self._batch.explain_violation(0)
         batch = _native.Batch(self.problem.detailed, values=False)
         batch.reset()
         record = np.zeros(self.model.state_size, np.uint8)
         self._batch.read_state(0, record)
         batch.write_state(0, record, self.timestep)
-        batch.actions[:] = self._batch.actions
+        batch.actions[:] = action
         return batch.explain_violation(0)
 
     def action_masks(self) -> NDArray[np.bool_]:

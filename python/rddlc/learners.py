@@ -17,11 +17,10 @@ from typing import Any, ClassVar, TypeVar
 
 from . import _native
 from .arguments import SEEDS, seed_of, thread_count, whole, whole_or_none
-from .dictionaries import GroundedReader, LiftedReader
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
-from .lifted import LiftedRows
 from .problems import Problem
+from .translation.readers import dictionary_reader
 from .vector import RDDLVectorEnv
 
 Solvable = Problem | RDDLEnv | RDDLVectorEnv
@@ -220,11 +219,11 @@ class Learner:
         self._acts_in = env
         fluents = env.problem.model.actions
         if isinstance(env, RDDLVectorEnv):
-            return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True), None
+            return dictionary_reader(fluents, batch.actions, lifted=True).rows(copy=True), None
         if env._forms["actions"] != "dict":
             raise Error("predict() gives dictionaries: make the environment with actions='dict'")
-        reader = LiftedReader if env._forms["vectorized"] else GroundedReader
-        return reader(fluents, batch.actions).read(), None
+        lifted = env._forms["vectorized"]
+        return dictionary_reader(fluents, batch.actions, lifted=lifted).read(), None
 
     def evaluate(
         self,

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from . import _native
 from .arguments import seed_of, shown, whole, whole_or_none
-from .choices import ActionPlan, plan_of
 from .errors import ActionError, Error
 from .problems import Problem, batch_horizon
-from .records import columns_of, grounded_view
+from .records import action_records, columns_of
 from .states import State
+from .translation.action_plan import ActionPlan, plan_of
 
 MOST_ACTIONS = 10_000
 MOST_REMEMBERED = 100_000
@@ -74,7 +74,7 @@ class Transitions:
         given = self._options["horizon"]
         self.horizon: int = problem.model.horizon if given is None else given
         self._values = _action_values(problem, self._options["levels"])
-        self._records = _action_records(problem, self._values)
+        self._records = action_records(problem.model, self._values)
         self._single = self._new_batch(1)
         # Seeds in a row would also be those of the next `seed`.
         self._seeds = np.random.default_rng(self._options["seed"])
@@ -258,14 +258,3 @@ def _levels_of(plan: ActionPlan, levels: int) -> list[Sequence[float]]:
         if not np.isfinite(column.bounds).all():
             raise Error(f"action '{column.name}' has no two bounds, so there are no levels between them")
     return [np.linspace(*column.bounds, levels).tolist() for column in plan.numbers]
-
-
-def _action_records(problem: Problem, values: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(actions, bytes)"""
-    fluents = problem.model.actions
-    records = np.zeros((len(values), problem.model.action_size), np.uint8)
-    view = grounded_view(records, fluents)
-    is_real = [column.fluent.scalar == "real" for column in columns_of(fluents)]
-    for place, row in enumerate(values.tolist()):
-        view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
-    return records

@@ -8,10 +8,10 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from . import _native
-from .choices import ActionPlan
-from .errors import Error
-from .problems import Problem
+from .. import _native
+from ..errors import Error
+from ..problems import Problem
+from .protocols import ActionWriter
 
 ALWAYS = -1  # in place of a choice: unknown, so it is allowed
 Change = tuple[int, int]  # a column of action values, and what it is set to
@@ -21,10 +21,9 @@ class ActionMasks:
     """For each environment of a batch and each category of an action: whether it is legal, while
     all others have their default."""
 
-    def __init__(self, problem: Problem, batch: _native.Batch, writer: Any) -> None:
+    def __init__(self, problem: Problem, batch: _native.Batch, writer: ActionWriter) -> None:
         self._problem, self._batch = problem, batch
-        self._space: spaces.Space[Any] = writer.space
-        self._plan: ActionPlan | None = getattr(writer, "plan", None)
+        self._space, self._plan = writer.space, writer.plan
         self._is_prepared = False  # that takes a while, and few ask
 
     def rows(self) -> NDArray[np.bool_]:

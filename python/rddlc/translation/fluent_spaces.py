@@ -12,8 +12,8 @@ from gymnasium import spaces
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from .model import Fluent, Model
-from .records import STORED, Column, columns_of
+from ..model import Fluent, Model
+from ..records import STORED, Column, columns_of
 
 
 class ActionDict(spaces.Dict):

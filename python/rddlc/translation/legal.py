@@ -6,11 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import deepcopy
 from functools import cache
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
+
+from .protocols import ActionWriter
 
 Array = NDArray[Any]
 
@@ -19,22 +21,7 @@ TRIES = 128
 """Actions that are tried. If no action is legal in an environment, the last one stays."""
 
 
-class Writer(Protocol):
-    """The writer that knows the form of actions (`DictionaryActions`, `LiftedActions`,
-    `ChoiceActions`)."""
-
-    space: spaces.Space[Any]  # of one environment
-
-    def violated(self, action: Any) -> NDArray[np.bool_]:
-        """(environments,): whether the action violates a precondition; nothing is changed."""
-        ...
-
-    def default(self) -> Any:
-        """The action of one environment that changes nothing."""
-        ...
-
-
-def legal_space(space: spaces.Space[Any], writer: Writer, environments: int) -> spaces.Space[Any]:
+def legal_space(space: spaces.Space[Any], writer: ActionWriter, environments: int) -> spaces.Space[Any]:
     """The same space, whose `sample()` draws legal actions. With a mask it draws what the mask allows.
 
     Copies of it, and what is pickled, are the plain space: they belong to no environment.
@@ -80,7 +67,7 @@ class _Sampler:
     Rows are lists of arrays (environments, values), one for each entry of a dictionary.
     """
 
-    def __init__(self, space: spaces.Space[Any], writer: Writer, environments: int) -> None:
+    def __init__(self, space: spaces.Space[Any], writer: ActionWriter, environments: int) -> None:
         self._writer, self._environments = writer, environments
         self._is_dict = isinstance(space, spaces.Dict)
         self._entries = dict(space.spaces) if isinstance(space, spaces.Dict) else {"": space}

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import ActionError
-from .problems import Problem
-from .records import Column, columns_of
+from ..errors import ActionError
+from ..problems import Problem
+from ..records import Column, columns_of
 
 Array = NDArray[Any]
 
