@@ -186,17 +186,17 @@ void add_picture_options(Command& command, PictureOptions& options) {
                               options.frames_per_second, 0.01, 1000);
     add_number_option<double>(command, "--real-time-factor", "X",
                               "X seconds of the problem in a second of the movie, where a "
-                              "non-fluent tells how long a step is",
+                              "non-fluent gives the length of a step",
                               options.real_time_factor, 1e-6, 1e6);
     add_number_option<std::int64_t>(command, "--max-frames", "N",
-                                    "At most so many pictures: every second, third, ... state of "
+                                    "Largest number of pictures: every second, third, ... state of "
                                     "a longer episode (1000)",
                                     options.most_frames, 1, most);
     add_number_option<std::int64_t>(command, "--environment", "K",
-                                    "Which episode, from 0 on (0; --watch shows all)",
+                                    "Number of the episode, from 0 on (0; --watch shows all)",
                                     options.episode, 0, most);
     add_number_option<std::int64_t>(command, "--step", "K",
-                                    "Which state a single picture shows (the last one)",
+                                    "State that a single picture shows (the last one)",
                                     options.step, 0, most);
 }
 
