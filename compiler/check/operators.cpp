@@ -185,9 +185,10 @@ void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     if (!is_literal_number(without_groups(*binary->left)) ||
         !is_literal_number(without_groups(*binary->right)))
         return;
-    context.report(diagnose(compared_literals, inner.span,
-                            "both sides of this comparison are literals, so it tells nothing")
-                       .with_hint(power_hint));
+    context.report(
+        diagnose(compared_literals, inner.span,
+                 "both sides of this comparison are literals, so the result never changes")
+            .with_hint(power_hint));
 }
 
 Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {

@@ -31,7 +31,7 @@ void check_kind(const fs::path& output, Diagnostics& diagnostics) {
     diagnostics.report(Diagnostic{
         .code = unknown_output_kind,
         .span = {},
-        .message = fmt::format("cannot tell from its name what '{}' shall be", output.string())}
+        .message = fmt::format("the name '{}' does not show the kind of output", output.string())}
                            .with_hint("end it in .cpp, .hpp or .so"));
 }
 

@@ -43,9 +43,9 @@ std::string problem_with(MatrixOperator op) {
         case MatrixOperator::Determinant:
             break;
         case MatrixOperator::Inverse:
-            return "the matrix of 'inverse' is singular, or has elements that are no numbers";
+            return "the matrix of 'inverse' is singular, or has elements that are not numbers";
         case MatrixOperator::PseudoInverse:
-            return "the matrix of 'pinverse' has elements that are no numbers";
+            return "the matrix of 'pinverse' has elements that are not numbers";
         case MatrixOperator::Cholesky:
             return "the matrix of 'cholesky' is not positive definite";
     }
