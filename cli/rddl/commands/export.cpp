@@ -84,7 +84,7 @@ Command export_command() {
     const auto options = std::make_shared<ExportOptions>();
     Command command;
     command.name = "export";
-    command.summary = "Write a learned policy for people or other programs";
+    command.summary = "Write a learned policy as a formula, code or a network";
     command.details =
         "Examples:\n"
         "  rddl export MountainCar_ippc2023 1 --policy runs/c\n"
