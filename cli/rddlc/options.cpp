@@ -21,7 +21,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
     "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
-    "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc domain.rddl instance.rddl --check       only check for errors\n"
     "  rddlc domain.rddl --check                     those of a domain, without an instance\n"
     "  rddlc --explain E0203                         what a diagnostic means\n\n"
     "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"

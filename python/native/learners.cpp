@@ -241,7 +241,7 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 }  // namespace
 
 void add_learners(nb::module_& module) {
-    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+    nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
         .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",

@@ -322,7 +322,7 @@ class Errors(PictureTest):
                                 ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
                                 ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
                                 ('{"state": {}, "episode": 18446744073709551615}', "'episode' is an int from 0 on"),
-                                ('{"state": {}, "step": 9007199254740993}', "'step' is no more than 9007199254740992"),
+                                ('{"state": {}, "step": 9007199254740993}', "'step' is at most 9007199254740992"),
                                 ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
             (self.folder / "t.jsonl").write_text(line)
             text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
@@ -364,7 +364,7 @@ class Errors(PictureTest):
         (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)
         self.assertIn("'t.bin' is not a trace: its first line is not JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
         text = self.refuse("render", EXAMPLE, "1", "--gif=a.gif")
-        self.assertIn("is a folder, and no trace", text)
+        self.assertIn("is a folder, not a trace", text)
         self.assertIn("rddl run --gif", text)
 
     def test_links_that_lead_nowhere(self):
@@ -376,7 +376,7 @@ class Errors(PictureTest):
         self.assertIn("is empty", self.refuse("render", "t.jsonl", "--gif=a.gif"))
         self.assertIn("cannot read", self.refuse("render", "missing.jsonl", "--gif=a.gif"))
         (self.folder / "t.jsonl").write_text('{"state": {}}\n')
-        self.assertIn("does not tell which problem", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+        self.assertIn("does not say which problem", self.refuse("render", "t.jsonl", "--gif=a.gif"))
         self.trace()
         self.assertIn("has no step of episode 5",
                       self.refuse("render", "t.jsonl", "--gif=a.gif", "--environment=5"))
@@ -418,7 +418,7 @@ class Errors(PictureTest):
 
     def test_a_visualizer_of_another_domain(self):
         done = self.run_car("--png=a.png", "--visualizer=network")
-        self.assertIn("draws a fluent 'running', which this problem has not", done.stderr)
+        self.assertIn("draws a fluent 'running', which this problem lacks", done.stderr)
         self.run_car("--png=b.png", "--visualizer=auto")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 

@@ -116,7 +116,7 @@ std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
         return std::nullopt;
     }
     if (!line.contains("state") && !line.contains("next_state") && !line.contains("action"))
-        fail("the line is not a step:  it has no state and no action");
+        fail("the line is not a step: it has no state and no action");
     TraceStep step;
     step.number = count_in(line, "step", next_number_);
     if (step.number < next_number_)

@@ -108,9 +108,8 @@ void choose_policy(const std::string& name, Policy& policy,
     if (is_learned_policy(name)) {
         if (!learned)
             throw UsageError(
-                fmt::format("--policy: '{}' is a trace or what a solver has learned, which this "
-                            "command does not "
-                            "take; --states takes the states of a trace",
+                fmt::format("--policy: '{}' is a trace or a learned policy, which this "
+                            "command does not accept; --states takes the states of a trace",
                             name));
         policy = Policy::Learned;
         *learned = name;
@@ -128,7 +127,7 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
         command, "--policy", "POLICY",
         std::string("random (default): legal random actions; noop: default actions; rddl: the "
                     "policy block of the problem; FILE: the policy block in it") +
-            (learned ? ", what a solver has learned, or the actions of a trace (.jsonl): episode 0 "
+            (learned ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
                        "plays those of its episode 0 and so on, and after its last episode comes "
                        "its first one again"
                      : ""),
