@@ -80,8 +80,8 @@ class VectorEnv {
     std::uint8_t causes(std::int64_t environment);
     std::string fault(std::int64_t environment);
 
-    // For each environment the first precondition that its action violates, or -1: of records, or
-    // of rows of values, which are floats.
+    // The first precondition that the action of each environment violates, or -1: for records, or
+    // for rows of values, which are floats.
     std::vector<std::int32_t> violated_preconditions(std::span<const std::byte> actions);
     std::vector<std::int32_t> violated_preconditions(std::span<const float> values);
     std::string explain_violation(std::int64_t environment);

@@ -78,7 +78,7 @@ def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
 
 
 def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> None:
-    """what: "option". Else a misspelt name would be a setting that does nothing."""
+    """Raises for unknown names, since a misspelt option would have no effect. what: "option"."""
     for name in given:
         if name not in known:
             raise ArgumentError(f"there is no {what} {shown(name)}; there are {_listed(known)}")
@@ -105,7 +105,7 @@ def _listed(names: Iterable[str]) -> str:
 
 
 def shown(given: Any) -> str:
-    """For a message: not too long."""
+    """Returns a value for a message: not too long."""
     try:
         text = repr(given)
     except ValueError:  # Python writes no int of thousands of digits

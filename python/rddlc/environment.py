@@ -331,7 +331,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self._renderer.show()
 
     def _repr_html_(self) -> str:
-        """In a notebook an environment is a picture of its state."""
+        """Notebooks show an environment as a picture of its state."""
         if self._seed is None:
             return f"<code>{self}</code>: call reset() to see its state"
         renderer = self._renderer
@@ -341,13 +341,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return renderer.image_tag()
 
     def replay_page(self) -> str:
-        """The episode so far as a page that replays it (docs/pictures.md), an HTML file of its own;
-        of environments with a render_mode."""
+        """Returns the episode so far as a page that replays it (docs/pictures.md), an HTML file of
+        its own; for environments with a render_mode."""
         return self._remembered().page()
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
-        """Writes the episode so far (since the last set_state, if there was one), but no more than its
-        last 1,000 steps, as a movie; of environments with a render_mode."""
+        """Writes the episode so far (since the last set_state, if there was one), but no more than
+        its last 1,000 steps, as a movie; for environments with a render_mode."""
         self._remembered().write_gif(path)
 
     def _remembered(self) -> Renderer:

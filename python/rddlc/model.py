@@ -82,7 +82,7 @@ class Model:
     instance: str
     types: dict[str, ObjectType]
     fluents: dict[str, Fluent]
-    """In declaration order."""
+    """The fluents in declaration order."""
     horizon: int
     """Steps; 0: no horizon."""
     discount: float

@@ -54,7 +54,7 @@ def takes_actions(space: gymnasium.Space[Any]) -> bool:
 
 
 class VecEnv(Base):
-    """Environments that start anew in the step that ends them: infos[i] then holds
+    """Environments that restart in the step that ends them: infos[i] then holds
     "terminal_observation", "TimeLimit.truncated" and "cause"."""
 
     def __init__(self, env: RDDLVectorEnv) -> None:
@@ -79,7 +79,8 @@ class VecEnv(Base):
         return observations
 
     def _options_of_reset(self) -> dict[str, Any] | None:
-        """What set_options has for the next reset: {"state": State} of each environment."""
+        """Returns the options that set_options has left for the next reset: {"state": State} of
+        each environment."""
         if not any(self._options):
             return None
         refuse_unknown("option of reset", {name for each in self._options for name in each}, ("state",))
@@ -123,7 +124,7 @@ class VecEnv(Base):
     def env_method(
         self, method_name: str, *method_args: Any, indices: Indices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """Of "action_masks" each environment's own row, as MaskablePPO asks for it."""
+        """Returns each environment's own row of "action_masks", as MaskablePPO asks for it."""
         chosen = list(self._get_indices(indices))
         result = getattr(self.env, method_name)(*method_args, **method_kwargs)
         is_by_row = isinstance(result, np.ndarray) and len(result) == self.num_envs

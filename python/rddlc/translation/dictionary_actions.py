@@ -81,7 +81,7 @@ def _layout(
 
 class SingleActions(DictionaryActions):
     """The actions of one environment. Names may be grounded or lifted. `limits_all`: whether
-    max-nondef-actions counts ints, objects and reals, too."""
+    max-nondef-actions also counts ints, objects and reals."""
 
     def __init__(
         self, problem: Problem, batch: _native.VectorEnv, *, lifted: bool, limits_all: bool
@@ -149,7 +149,7 @@ class SingleActions(DictionaryActions):
 
 
 class _Entry:
-    """What an action value may be."""
+    """The type and bounds of an action value."""
 
     def __init__(self, column: Column) -> None:
         self._name = column.name
@@ -159,7 +159,7 @@ class _Entry:
         self._lower, self._upper = column.bounds
 
     def value(self, given: Any) -> Any:
-        """As a Python number. Arrays of one element are that element."""
+        """Returns a Python number. Arrays of one element are that element."""
         if isinstance(given, str):
             return self._index_of(given)
         if isinstance(given, np.ndarray):
@@ -242,7 +242,7 @@ class LiftedActions(DictionaryActions):
 
 
 def _default_values(problem: Problem) -> list[Any]:
-    """Of all action values, as Python numbers."""
+    """Returns all action values, as Python numbers."""
     values: list[Any] = []
     for fluent in problem.model.actions:
         convert = float if fluent.scalar == "real" else int

@@ -1,4 +1,4 @@
-"""What environments ask of the modules beside this one."""
+"""The interfaces of the modules beside this one for environments."""
 
 from __future__ import annotations
 
