@@ -31,7 +31,7 @@ solvers::Batch copy_of(const rddl_simulator& simulator, const rddl_batch* batch)
 
 }  // namespace
 
-Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
+Batch::Batch(workbench::Simulator simulator, const BatchSettings& settings)
     : simulator_(std::move(simulator)),
       settings_(settings),
       batch_(nullptr, simulator_->destroy),
@@ -72,8 +72,8 @@ Batch::Batch(const Batch& other)
       records_of_values_(other.records_of_values_),
       calls_(other.calls_) {}
 
-// A forked process has none of the threads of its parent: a copy has threads of its own. The old
-// batch is not destroyed there, since that waits for its threads.
+// A forked process lacks the threads of its parent: a copy has threads of its own. The old batch is
+// not destroyed there, since that waits for its threads.
 rddl_batch* Batch::live() {
     finish();
     if (settings_.threads == 1 || process_ == ::getpid()) return batch_.get();

@@ -12,7 +12,7 @@
 
 namespace rddlc::python {
 
-// What an entry of a row may be, and what is added to it.
+// The limits of an entry of a row, and the offset that is added to it.
 struct RowLimits {
     float lower, upper, offset;
 };

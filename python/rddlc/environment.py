@@ -56,7 +56,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         render_size: tuple[int, int] = (600, 400),
         visualizer: str = "",
     ) -> None:
-        """See `rddlc.make`, which loads the problem, too."""
+        """See `rddlc.make`, which also loads the problem."""
         self._forms = {
             "vectorized": vectorized,
             "observations": one_of("observations", observations, OBSERVATIONS),
@@ -79,13 +79,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             values=observations != "dict",
         )
         self._seed: int | None = None
-        # An episode may go on with other random numbers than its own.
+        # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
         self._own: _native.Batch | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
-        """All that looks at the batch's arrays."""
+        """Binds everything that reads the batch's arrays."""
         batch, forms = self._batch, self._forms
         self._reader = self._new_reader()
         self._writer = self._new_writer()
@@ -193,7 +193,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One step. At an end, info["cause"] says why: "terminated", "horizon", "invariant" (a state
-        invariant is violated) or "fault" (info["fault"] tells which); several are joined by ", ".
+        invariant is violated) or "fault" (info["fault"] describes it); several are joined by ", ".
 
         Raises ActionError or EpisodeOver, and has changed nothing then.
         """
@@ -245,13 +245,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return state_from(self.problem, values, steps)
 
     def set_state(self, state: State, *, seed: int | None = None, replay: bool = False) -> None:
-        """The episode goes on from there, with new random numbers each time: a planner that tries an
-        action several times sees several successors, and never the one that is to come. They are
+        """The episode continues from there, with new random numbers each time: a planner that tries
+        an action several times sees several successors, and never the one that is to come. They are
         drawn from `np_random`, so that the same seed of reset() and the same calls give the same.
 
         seed: of the random numbers that follow: the same seed gives the same successors.
         replay: the numbers are this episode's own, which depend on its seed, its number and the
-            number of the step alone: the same actions lead to what they have led to before.
+            number of the step alone: the same actions have the same results as before.
         """
         self.problem.state_form.record_of(state)
         if seed is not None and replay:
@@ -299,7 +299,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- pictures
 
     def render(self) -> Any:
-        """(height, width, 3) uint8, a text, or None: as `render_mode` says."""
+        """Returns (height, width, 3) uint8, a text, or None, as `render_mode` says."""
         if self._renderer is None or self._seed is None:
             return None
         if self.render_mode == "human":
@@ -307,7 +307,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
     def _begin_pictures(self) -> None:
-        """What is drawn begins where the environment stands."""
+        """Starts drawing at the environment's present state."""
         if self._renderer is not None:
             self._renderer.begin(self._batch, self.horizon)
             self._show()
@@ -351,8 +351,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- copies
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RDDLEnv:
-        """What follows is the same in both as long as the actions are: the copy draws what this one
-        will draw. `set_state(env.get_state(), seed=...)` gives it random numbers of its own."""
+        """Returns a copy. The future is the same in both as long as the actions are: the copy draws
+        what this one will draw. `set_state(env.get_state(), seed=...)` gives it random numbers
+        of its own."""
         copy = type(self)(self.problem, **self._forms)
         copy._take(self, self._batch.copy())
         return copy

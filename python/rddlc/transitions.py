@@ -27,7 +27,7 @@ MOST_REMEMBERED = 100_000
 
 @dataclass(frozen=True)
 class Outcome:
-    """Where an action may lead. `reward` is the mean of all ways there."""
+    """A possible successor of an action. `reward` is the mean of all ways there."""
 
     state: State
     probability: float
@@ -55,8 +55,8 @@ class Transitions:
         """levels: values of each number of an action, evenly between its bounds.
         samples: draws from which next states of a stochastic problem are estimated; 0: they are exact,
             by all combinations of what a step draws, as long as these are finitely many.
-        most_outcomes: of these combinations no more are made.
-        horizon: steps; None: the instance's; 0: none.
+        most_outcomes: the largest number of these combinations.
+        horizon: steps; None: the instance's; 0: no horizon.
 
         Raises Error for a partially observed problem, and where actions are too many or have no
         bounds.
@@ -76,7 +76,7 @@ class Transitions:
         self._values = _action_values(problem, self._options["levels"])
         self._records = action_records(problem.model, self._values)
         self._single = self._new_batch(1)
-        # Seeds in a row would be those of the next `seed`, too.
+        # Seeds in a row would also be those of the next `seed`.
         self._seeds = np.random.default_rng(self._options["seed"])
         self._outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
         self._applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
@@ -121,7 +121,7 @@ class Transitions:
         }
 
     def start(self) -> State:
-        """Of the first episode of `seed`."""
+        """Returns the initial state of the first episode of `seed`."""
         self._single.set_seed(self._options["seed"])
         self._single.reset()
         return self._state_of(self._single, 0, self._single.causes_of(0))
@@ -179,7 +179,7 @@ class Transitions:
         return _native.enumeration(self.problem.simulator, list(self.problem.externs))
 
     def applicable(self, state: State) -> tuple[int, ...]:
-        """The actions that satisfy the preconditions; none after the end."""
+        """Returns the actions that satisfy the preconditions; empty after the end."""
         self.problem.state_form.record_of(state)
         return self._applicable(state)
 

@@ -73,7 +73,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         render_size: tuple[int, int] = (600, 400),
         visualizer: str = "",
     ) -> None:
-        """See `rddlc.make_vec`, which loads the problem, too."""
+        """See `rddlc.make_vec`, which also loads the problem."""
         self._forms = {
             "observations": one_of("observations", observations, OBSERVATIONS),
             "actions": one_of("actions", actions, ACTIONS),
@@ -211,10 +211,10 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: Mapping[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Starts episodes: of seed + i, or of the i-th seed; without seeds the next ones. options:
-        {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts them in that
-        state, each with random numbers of its own, and {"state": [State or None, ...]} each in its
-        own state, or in its initial one."""
+        """Starts episodes with seed + i, or with the i-th seed; without seeds the next ones.
+        options: {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts
+        them in that state, each with random numbers of its own, and {"state": [State or None, ...]}
+        each in its own state, or in its initial one."""
         given = options_of_reset(options, ("reset_mask", "state"))
         mask = self._mask_of(given.get("reset_mask"))
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
@@ -240,7 +240,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return mask
 
     def _states_of(self, given: Any, chosen: NDArray[np.int64]) -> dict[int, State]:
-        """By the places of environments; a state that is over starts no episode."""
+        """Returns the states by the places of environments; a state that is over starts no episode."""
         if isinstance(given, State):
             states: Any = [given] * self.num_envs
         elif given is None or isinstance(given, (list, tuple)):
@@ -273,7 +273,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._batch.set_seeds(place, [seed])
 
     def _seeds_of(self, seed: Any) -> list[int | None]:
-        """One for each environment; None: it goes on with its own."""
+        """One for each environment; None: it continues with its own."""
         if not _is_list(seed):
             first = seed_of(seed)
             if first + self.num_envs > SEEDS:
@@ -306,8 +306,8 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return rows, *into[1:], self._infos(any_ended)
 
     def _new_results(self) -> tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any]]:
-        """New arrays for a step: observations (None if they are not the engine's values), rewards,
-        terminated, truncated."""
+        """Returns new arrays for a step: observations (None if they are not the engine's values),
+        rewards, terminated, truncated."""
         count = self.num_envs
         shape = self._engine_shape
         return (

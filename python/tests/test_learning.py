@@ -1,4 +1,4 @@
-"""What learners take: flat observations, simplified actions, one box for everything."""
+"""The forms that learners take: flat observations, simplified actions, one box for everything."""
 
 from __future__ import annotations
 

@@ -21,12 +21,14 @@ MOST_CATEGORIES = 1024
 
 @dataclass(frozen=True, eq=False)
 class ActionPlan:
-    """What a learner chooses, and which columns of action values that sets.
+    """The categories and numbers that a learner chooses, and the columns of action values that they
+    set.
 
     Without picks there is a category for each bool, object or int of few values, in declaration
-    order. With picks, where max-nondef-actions lets few values change, each category is a change of
-    the default action: of a bool, in its order, to its other value; of an object or an int to each
-    other value; of a number to the one that is chosen for it. The last category changes nothing.
+    order. With picks, where max-nondef-actions lets few values change, each category is a change
+    of the default action: of a bool, in its order, to its other value; of an object or an int to
+    each other value; of a number to the one that is chosen for it. The last category changes
+    nothing.
     """
 
     defaults: Array  # (columns,)
@@ -34,7 +36,7 @@ class ActionPlan:
     number_columns: Array  # (numbers,)
     category_counts: list[int]
     picks: int  # 0: each category sets a value of its own
-    columns: Array  # of each category, or with picks of each change; -1: none
+    columns: Array  # of each category, or with picks of each change; -1: no column
     values: Array  # the least of each category, or with picks that of each change
 
     def check_categories(self, categories: Array) -> None:
@@ -75,9 +77,9 @@ def _as_slice(columns: Array) -> Any:
 
 
 class Squash:
-    """Numbers from -1 to 1 for those of any bounds: -1 and 1 are the bounds where there are two. Else
-    the middle is the default, or lies a unit from the only bound, and the ends are some 74 units
-    away: sinh(5 u), so that small numbers are told apart well."""
+    """Maps numbers from -1 to 1 to those of any bounds: -1 and 1 are the bounds if there are two.
+    Otherwise the middle is the default, or lies a unit from the only bound, and the ends are
+    some 74 units away: sinh(5 u), so that small numbers are well separated."""
 
     def __init__(self, plan: ActionPlan) -> None:
         lower, upper = np.array([each.bounds for each in plan.numbers]).reshape(-1, 2).T

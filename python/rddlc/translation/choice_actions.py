@@ -133,7 +133,7 @@ class ChoiceActions:
         lower, upper = self._row_limits
         if (numbers >= lower).all() and (numbers <= upper).all():
             return
-        outside = ~((numbers >= self._lower) & (numbers <= self._upper))  # nan, too
+        outside = ~((numbers >= self._lower) & (numbers <= self._upper))  # also nan
         row, place = np.argwhere(outside)[0]
         raise ActionError(
             f"the number for '{self.plan.numbers[place].name}' is {numbers[row, place]:g}, "

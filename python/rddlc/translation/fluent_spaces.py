@@ -96,12 +96,12 @@ def lifted_space(fluents: Sequence[Fluent]) -> spaces.Dict:
 
 
 def _in_order(entries: dict[str, spaces.Space[Any]]) -> spaces.Dict:
-    """Of anything else, Gymnasium sorts the names."""
+    """Gymnasium sorts the names of other mappings."""
     return spaces.Dict(OrderedDict(entries))
 
 
 def action_space(model: Model, defaults: Mapping[str, Any], *, lifted: bool) -> spaces.Dict:
-    """Of action dictionaries; `defaults` by the same keys."""
+    """The space of action dictionaries; `defaults` by the same keys."""
     space = lifted_space(model.actions) if lifted else grounded_space(model.actions)
     limit = model.limited_actions
     return space if limit is None else ActionDict(space.spaces, defaults, limit)

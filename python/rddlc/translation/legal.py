@@ -18,7 +18,7 @@ Array = NDArray[Any]
 
 DRAWS = 8  # are made before values of an illegal action fall back to their default
 TRIES = 128
-"""Actions that are tried. Of an environment in which none is legal the last one stays."""
+"""Actions that are tried. If no action is legal in an environment, the last one stays."""
 
 
 def legal_space(space: spaces.Space[Any], writer: ActionWriter, environments: int) -> spaces.Space[Any]:

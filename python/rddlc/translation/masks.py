@@ -1,4 +1,4 @@
-"""Which actions satisfy the preconditions."""
+"""Masks of the actions that satisfy the preconditions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..errors import Error
 from ..problems import Problem
 from .protocols import ActionWriter
 
-ALWAYS = -1  # in place of a choice: nobody knows, so it is allowed
+ALWAYS = -1  # in place of a choice: unknown, so it is allowed
 Change = tuple[int, int]  # a column of action values, and what it is set to
 
 
@@ -36,8 +36,8 @@ class ActionMasks:
         return allowed | (self._choices == ALWAYS)
 
     def for_space(self) -> Any:
-        """Of the first environment as the action space's sample(mask) takes it: int8; None for what
-        has no categories."""
+        """Returns the masks of the first environment as the action space's sample(mask) takes them:
+        int8; None for entries without categories."""
         self._prepare()
         if not len(self._choices):
             return None
@@ -66,7 +66,7 @@ class ActionMasks:
         self._masks = np.zeros((environments, self._batch.choice_count()), np.uint8)
 
     def _entries(self) -> list[list[Change]]:
-        """What each category of each entry of the space changes; nothing for numbers."""
+        """The changes of each category of each entry of the space; nothing for numbers."""
         if self._plan is None:
             return self._entries_of_dictionary()
         plan = self._plan
