@@ -69,6 +69,9 @@ class VectorEnv {
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
     void read_state(std::int64_t environment, std::byte* record);
+    // All environments: states, steps of their episodes, episodes before these, and causes.
+    void read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
+                     std::uint8_t* causes);
     // States, one behind the other, of the environments at these places, after so many steps.
     void write_states(std::span<const std::int64_t> places, const std::byte* records,
                       std::span<const std::int64_t> steps);

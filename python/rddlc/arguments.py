@@ -77,6 +77,14 @@ def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
     return given
 
 
+def size_of(given: Any) -> tuple[int, int]:
+    """Width and height in pixels; the painter knows how many there may be."""
+    if not isinstance(given, (Sequence, np.ndarray)) or isinstance(given, str) or len(given) != 2:
+        raise ArgumentError(f"render_size is {given!r}, which is not a width and a height")
+    most = (1 << 31) - 1
+    return whole("render_size", given[0], -most, most), whole("render_size", given[1], -most, most)
+
+
 def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> None:
     """Raises for unknown names, since a misspelt option would have no effect. what: "option"."""
     for name in given:
