@@ -206,7 +206,7 @@ void VectorEnv::read_state(std::int64_t environment, std::byte* record) {
 }
 
 void VectorEnv::read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
-                        std::uint8_t* causes) {
+                            std::uint8_t* causes) {
     rddl_batch* const batch = live();
     const std::int64_t count = settings_.environments;
     check(*simulator_, simulator_->get_state(batch, 0, count, records));
@@ -215,7 +215,7 @@ void VectorEnv::read_states(std::byte* records, std::int64_t* steps, std::int64_
 }
 
 void VectorEnv::write_states(std::span<const std::int64_t> places, const std::byte* records,
-                         std::span<const std::int64_t> steps) {
+                             std::span<const std::int64_t> steps) {
     rddl_batch* const batch = live();
     const std::int64_t size = simulator_->problem->state_size;
     for (std::size_t k = 0; k < places.size(); ++k)
