@@ -15,7 +15,7 @@ namespace {
 constexpr double cheap_cost = 6;
 constexpr double elementary_cost = 20;
 
-// In units of an addition.
+// The cost in units of an addition.
 double cost_of(Operator op) {
     switch (op) {
         case Operator::Divide:
@@ -103,7 +103,7 @@ class Collector {
                                                        : object_range(buffer);
     }
 
-    // Of a fluent whose values are objects.
+    // The range of a fluent whose values are objects.
     std::optional<Range> object_range(const Buffer& buffer) const {
         if (!buffer.fluent) return std::nullopt;
         const auto type = program_.fluents[*buffer.fluent].object_type;
@@ -221,7 +221,7 @@ class Collector {
                    : std::numeric_limits<double>::infinity();
     }
 
-    // On average, where the bounds are neighbours in a table of where rows begin.
+    // The average length, if the bounds are neighbours in a table of where rows begin.
     double length_of(const Bounds& bounds, std::int64_t size) const {
         const auto* end = std::get_if<Load>(&program_[bounds.end].form);
         const std::int64_t rows = end ? program_[end->buffer].count() - 1 : 1;
@@ -270,7 +270,8 @@ class Collector {
 
     // ------------------------------------------------------------------- zeros and their signs
 
-    // Of reals. What underflows is a zero, whose sign is that of what was rounded.
+    // The sign of real zeros: an underflow gives a zero with the sign of the number that was
+    // rounded.
     bool is_never_negative_zero(const Constant& constant) const {
         return !is_negative_zero(constant.value);
     }
@@ -302,7 +303,7 @@ class Collector {
                 return has_no_sign(a);
             case Operator::Sqrt:
                 return never_negative_zero(a);
-            // Of equal numbers they take the first.
+            // Equal operands give the first one.
             case Operator::Minimum:
                 return never_negative_zero(a) &&
                        (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
@@ -331,7 +332,7 @@ class Collector {
         return range && range->lower >= 0;
     }
 
-    // Of the operators that may fault.
+    // Whether an operator that may fault is defined for these operands.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();

@@ -10,7 +10,7 @@
 namespace rddlc::ir {
 namespace {
 
-// The smallest range that holds all corners; none if one of them is nan.
+// The smallest range that holds all corners; nothing if one of them is nan.
 std::optional<Range> hull(std::initializer_list<double> corners) {
     for (double corner : corners) {
         if (std::isnan(corner)) return std::nullopt;
@@ -46,7 +46,7 @@ Range symmetric(double magnitude) {
     return {-magnitude, magnitude};
 }
 
-// With room for what functions and long sums round.
+// The range with room for the rounding of functions and long sums.
 Range padded(Range range) {
     const double slack = 1e-9 * magnitude(range);
     return {range.lower >= 0 ? std::max(0.0, range.lower - slack) : range.lower - slack,
@@ -190,7 +190,7 @@ std::optional<Range> range_of(Distribution distribution,
         case Distribution::Binomial:
         case Distribution::NegativeBinomial:
         case Distribution::Geometric:
-            return std::nullopt;  // the last five are no reals
+            return std::nullopt;  // the last five are not real
     }
     return std::nullopt;
 }

@@ -91,7 +91,7 @@ class Policy {
     }
 
   private:
-    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
     bool bind(const VectorEnv& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
@@ -114,7 +114,7 @@ class Policy {
     std::vector<std::int32_t> violated_;
 };
 
-// Whether an update shall end early: what a learner's options ask.
+// Whether an update has to end early: the `stops` of a learner's options.
 using Stop = std::shared_ptr<std::atomic<bool>>;
 
 std::function<bool()> asks(const Stop& stop) {
@@ -241,7 +241,7 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 }  // namespace
 
 void add_learners(nb::module_& module) {
-    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+    nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
         .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",

@@ -1,4 +1,4 @@
-// The native part of the Python package; python/rddlc/ is what people use.
+// The native part of the Python package; users import python/rddlc/.
 #include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
 #include "native/learners.hpp"

@@ -90,7 +90,7 @@ class Painter {
     }
 
   private:
-    // From the first step that is remembered, each with its picture drawn.
+    // Visits all moments from the first step that is remembered, each with its picture drawn.
     template <class Visit>
     void for_each_moment(Visit&& visit) {
         std::deque<render::Step> shown;

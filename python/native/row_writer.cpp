@@ -18,7 +18,7 @@ namespace rddlc::python {
 
 namespace {
 
-// Without a branch for each entry: the compiler puts several into a vector register.
+// The loop has no branch for each entry: the compiler puts several into a vector register.
 template <class T>
 bool are_within(const T* entries, std::int64_t count, std::span<const RowLimits> limits) {
     const std::size_t width = limits.size();

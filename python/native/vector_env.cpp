@@ -205,8 +205,17 @@ void VectorEnv::read_state(std::int64_t environment, std::byte* record) {
     check(*simulator_, simulator_->get_state(live(), environment, 1, record));
 }
 
+void VectorEnv::read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
+                        std::uint8_t* causes) {
+    rddl_batch* const batch = live();
+    const std::int64_t count = settings_.environments;
+    check(*simulator_, simulator_->get_state(batch, 0, count, records));
+    check(*simulator_, simulator_->get_progress(batch, 0, count, steps, episodes));
+    check(*simulator_, simulator_->get_causes(batch, 0, count, causes));
+}
+
 void VectorEnv::write_states(std::span<const std::int64_t> places, const std::byte* records,
-                             std::span<const std::int64_t> steps) {
+                         std::span<const std::int64_t> steps) {
     rddl_batch* const batch = live();
     const std::int64_t size = simulator_->problem->state_size;
     for (std::size_t k = 0; k < places.size(); ++k)

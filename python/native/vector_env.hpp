@@ -69,6 +69,9 @@ class VectorEnv {
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
     void read_state(std::int64_t environment, std::byte* record);
+    // All environments: states, steps of their episodes, episodes before these, and causes.
+    void read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
+                     std::uint8_t* causes);
     // States, one behind the other, of the environments at these places, after so many steps.
     void write_states(std::span<const std::int64_t> places, const std::byte* records,
                       std::span<const std::int64_t> steps);
@@ -80,8 +83,8 @@ class VectorEnv {
     std::uint8_t causes(std::int64_t environment);
     std::string fault(std::int64_t environment);
 
-    // For each environment the first precondition that its action violates, or -1: of records, or
-    // of rows of values, which are floats.
+    // The first precondition that the action of each environment violates, or -1: for records, or
+    // for rows of values, which are floats.
     std::vector<std::int32_t> violated_preconditions(std::span<const std::byte> actions);
     std::vector<std::int32_t> violated_preconditions(std::span<const float> values);
     std::string explain_violation(std::int64_t environment);

@@ -21,6 +21,8 @@ using Bytes = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::c
 using ConstBytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Records = nb::ndarray<const std::uint8_t, nb::c_contig, nb::device::cpu>;
 using Integers = nb::ndarray<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Matrix = nb::ndarray<std::uint8_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Counts = nb::ndarray<std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Values = nb::ndarray<const float, nb::c_contig, nb::device::cpu>;
 
 // The memory belongs to the batch, which lives as long as the array.
@@ -140,6 +142,20 @@ void add_states(nb::class_<VectorEnv>& batch) {
                                   {steps.data(), count});
             },
             nb::arg("places"), nb::arg("records"), nb::arg("steps"))
+        .def(
+            "read_states",
+            [](VectorEnv& self, const Matrix& records, const Counts& steps, const Counts& episodes,
+               const Bytes& causes) {
+                const auto count = static_cast<std::size_t>(self.settings().environments);
+                const auto size = static_cast<std::size_t>(self.simulator().problem->state_size);
+                if (records.size() != count * size || steps.size() != count ||
+                    episodes.size() != count || causes.size() != count)
+                    throw Refused(fmt::format("{} states have {} bytes, not {}", count,
+                                              count * size, records.size()));
+                self.read_states(reinterpret_cast<std::byte*>(records.data()), steps.data(),
+                                 episodes.data(), causes.data());
+            },
+            nb::arg("records"), nb::arg("steps"), nb::arg("episodes"), nb::arg("causes"))
         .def("become", &VectorEnv::become, nb::arg("other"))
         .def("read_interm",
              [](VectorEnv& self, std::int64_t environment, const Bytes& record) {

@@ -63,7 +63,8 @@ class Renderer:
                 "render_mode='human' shows a window with pygame: pip install pygame-ce"
             ) from missing
         if self._window is None:
-            # Else SDL catches SIGTERM, which then no longer ends the process, nor its forks.
+            # SDL would otherwise catch SIGTERM, which then no longer ends the process, nor its
+            # forks.
             os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
             try:
                 pygame.display.init()

@@ -92,7 +92,7 @@ def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
 
 
 def seconds_of_make(words: list[str]) -> float:
-    """From the cache, in this process, the best of five."""
+    """The time of loading from the cache, in this process, the best of five."""
     times = []
     for _ in range(5):
         begin = time.process_time()

@@ -13,7 +13,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// Numbers that people read: three digits.
+// Rounds numbers for display: three digits.
 double rounded(double x) {
     if (x == 0 || !std::isfinite(x)) return 0;
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);

@@ -143,7 +143,7 @@ std::string text_of(const ObservationSpace& space) {
                        space.stack, space.time, space.horizon);
 }
 
-// In files [output][input].
+// Files hold weights as [output][input].
 std::string weights_text(const Weights<const float>& weights) {
     std::string text;
     std::vector<float> of_output(static_cast<std::size_t>(weights.inputs));
@@ -318,9 +318,9 @@ void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& mo
     // Compares values, since other programs lay out JSON in their own way.
     if (seen_in(parse_json(text_of(model.observations))) != seen_in(seen.at("space")) ||
         parse_json(text_of(model.actions)) != json.at("action"))
-        throw Failure(
-            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
-                        json.at("instance").get<std::string>(), problem.instance));
+        throw Failure(fmt::format(
+            "it was learned in {}, whose observations or actions differ from those of {}",
+            json.at("instance").get<std::string>(), problem.instance));
 }
 
 // A value of JSON takes about that much once it is read, with what vectors keep in reserve.
@@ -411,7 +411,7 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
     try {
         return read(simulator, text);
     } catch (const RefusedJson& refused) {
-        throw Failure(refused.byte ? "it is not complete, or no JSON" : refused.what());
+        throw Failure(refused.byte ? "it is incomplete, or not JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
         throw Failure("it is not a PPO policy, or something in it is missing");
     }

@@ -355,7 +355,7 @@ struct PpoTrainer::State {
             learn(rate);
         } catch (const Failure& failure) {
             throw Failure(fmt::format("after {} steps {}", progress.steps, failure.what()),
-                          "try a lower --lr, or look for rewards and observations that are huge");
+                          "try a lower --lr, or check for huge rewards and observations");
         }
         progress.learn_seconds = seconds_since(begin);
         progress.steps += static_cast<std::int64_t>(experience.count()) * ranks.count;

@@ -71,7 +71,7 @@ TEST(Conditions, AreToldOnOneLine) {
 }
 
 TEST(TreeSearch, GrowsTheSameTreeOnEverySimulator) {
-    // In the middle of an episode, half of the network is down.
+    // Half of the network is down in the middle of an episode.
     const rddl_problem& problem = *networks().at("linked")->problem;
     std::vector<std::byte> root(static_cast<std::size_t>(problem.state_size));
     for (std::size_t i = 0; i < root.size(); i += 2) root[i] = std::byte{1};

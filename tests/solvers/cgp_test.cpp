@@ -284,7 +284,8 @@ class FormulaReader {
     bool good_ = true;
 };
 
-// Without one pair of brackets, those of a function's arguments left out, it is another formula.
+// The formula is another one without one pair of brackets, those of a function's arguments left
+// out.
 void expect_no_bracket_too_many(const std::string& text,
                                 const std::map<std::string, double>& names) {
     const std::string tree = FormulaReader(text, names).read()->tree;

@@ -362,7 +362,7 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     const auto read = [&](const std::string& other) {
         return complaint([&] { read_ppo_policy(car, other); });
     };
-    EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is not complete, or no JSON");
+    EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is incomplete, or not JSON");
     EXPECT_EQ(read("{}"), "it is not a PPO policy");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");

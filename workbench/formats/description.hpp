@@ -1,4 +1,4 @@
-// A problem described for people and for programs.
+// The description of a problem for readers and for programs.
 #pragma once
 
 #include "engines/load_simulator.hpp"

@@ -86,7 +86,7 @@ std::string default_text(const model::Model& model, const model::Fluent& fluent)
     return shortened(model::text_of(model, fluent.range, *fluent.default_value), 12);
 }
 
-// "[0, 100]"; of groundings that differ, the range that holds them all and a star.
+// "[0, 100]"; if groundings differ, the range that holds them all and a star.
 std::string bounds_text(const rddl_fluent& fluent) {
     if (!fluent.lower || !fluent.upper || fluent.count == 0) return "";
     const auto [least_lower, most_lower] =

@@ -39,7 +39,7 @@ class VerifiedEnvironments {
     const std::vector<std::byte>& act();
     // The outcomes of all environments under their actions, environment by environment.
     std::vector<StepOutcome> step(const std::vector<std::byte>& actions);
-    // Without a step: states, and whether the episodes are over.
+    // The present states, and whether the episodes are over; makes no step.
     std::vector<StepOutcome> look() const;
 
     Record state(std::int64_t environment) const;

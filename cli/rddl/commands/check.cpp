@@ -40,7 +40,7 @@ std::string verdict(const Compilation& compilation) {
                        compilation.is_domain_alone ? fmt::format("\n{}", no_instance_given) : "");
 }
 
-// External functions are only checked where somebody defines them.
+// External functions are only checked if files define them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
     CompileOptions front_end = check_options(files, has_externs ? Stage::Verify : Stage::Ground);

@@ -1,4 +1,4 @@
-// rddl export: learned policies for people and for other programs.
+// rddl export: learned policies for readers and for other programs.
 #include "learning/export.hpp"
 
 #include "commands/commands.hpp"
@@ -49,7 +49,7 @@ Command export_command() {
     const auto options = std::make_shared<ExportOptions>();
     Command command;
     command.name = "export";
-    command.summary = "Write a learned policy for people or other programs";
+    command.summary = "Write a learned policy as a formula, code or a network";
     command.details =
         "Examples:\n"
         "  rddl export MountainCar_ippc2023 1 --policy runs/c\n"

@@ -1,4 +1,4 @@
-// rddl info: what a problem is made of, as someone who picks a solver asks.
+// rddl info: the characteristics of a problem that matter for the choice of a solver.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/description.hpp"

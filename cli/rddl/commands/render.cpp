@@ -49,7 +49,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     if (!options.beside.empty()) require_pages_alone(options);
     if (is_folder(options.trace))
         throw Failure(
-            fmt::format("'{}' is a folder, and no trace", options.trace),
+            fmt::format("'{}' is a folder, not a trace", options.trace),
             "'rddl run --gif FILE' runs a problem and draws it; 'rddl run --trace FILE' writes a "
             "trace");
     UsedFiles used;

@@ -46,7 +46,7 @@ std::string when(const auto& event) {
     return fmt::format("episode {}, step {}", event.episode, event.step);
 }
 
-// In the form of the compiler's messages; `count` illegal actions there were in all.
+// Reports in the form of the compiler's messages; `count` is the number of all illegal actions.
 void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
                            Preconditions preconditions, ViolationExplainer& explainer) {
     const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
@@ -187,7 +187,7 @@ void require_drawn_episode(const RunOptions& options) {
     require_different_files(options.pictures, options.trace);
 }
 
-// The name of the episode for people.
+// The name of the episode in titles.
 std::string course_name(const RunOptions& options) {
     return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
                        options.rollouts.seed);

@@ -112,7 +112,7 @@ Command verify_command() {
                       "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options->load);
     add_cache_option(command, options->load);
-    add_flag(command, "--json", "Print what was found as JSON", options->json);
+    add_flag(command, "--json", "Print the results as JSON", options->json);
     add_flag(command, "--quiet", "Print nothing if all agree", options->quiet);
     command.run = [options] {
         options->load.quiet = options->quiet || options->json;

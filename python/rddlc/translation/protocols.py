@@ -1,4 +1,4 @@
-"""What environments ask of the modules beside this one."""
+"""The interfaces of the modules beside this one for environments."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ class ActionWriter(Protocol):
     def violated(self, actions: Any) -> NDArray[np.bool_]:
         """(environments,): whether an action violates a precondition; nothing is changed."""
 
-    def record(self, action: Any) -> NDArray[np.uint8]:
-        """(1, bytes): the action of the only environment."""
+    def records(self, actions: Any) -> NDArray[np.uint8]:
+        """(environments, bytes)"""
 
     def default(self) -> Any:
         """The action of one environment that changes nothing."""

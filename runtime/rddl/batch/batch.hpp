@@ -119,7 +119,7 @@ class Batch {
     std::int64_t episode_number(std::int64_t i) const { return get_lane(at(i).number, lane_of(i)); }
     std::uint8_t causes(std::int64_t i) const { return at(i).ends.causes(lane_of(i)); }
 
-    // The fault of the episode, or of the last one until this one makes a step; else nothing.
+    // The fault of the episode, or of the last one until this one makes a step; else null.
     const FaultRecord* fault(std::int64_t i) const {
         const bool faulty = get_lane(at(i).has_fault, lane_of(i));
         return faulty ? &at(i).faults[static_cast<std::size_t>(lane_of(i))] : nullptr;
@@ -131,7 +131,7 @@ class Batch {
     void get_state(std::int64_t i, std::byte* record) const {
         write_record(L{}, state_columns_, state(i / width), lane_of(i), record);
     }
-    // In a fully observed problem the state is what is observed.
+    // A fully observed problem observes its state.
     void get_observation(std::int64_t i, std::byte* record) const {
         write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
     }
@@ -211,7 +211,7 @@ class Batch {
             while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
     }
-    // For one environment that accepts all actions; else null.
+    // The view of the only environment, if it accepts all actions; else null.
     const BatchView<L>* only_one() const {
         const bool is_one = std::is_same_v<L, Scalar> && options_.environment_count == 1;
         const bool accepts_all = !action_columns_.has_objects;
@@ -259,7 +259,7 @@ class Batch {
     }
 
     bool keeps_steps() const { return options_.keeps_steps; }
-    // Only of batches that keep steps; nothing before the first one.
+    // The last step, for batches that keep steps; nothing before the first one.
     std::optional<LastStep> last_step(std::int64_t i) const {
         const auto& context = last_steps_[index(i)];
         if (!context) return std::nullopt;

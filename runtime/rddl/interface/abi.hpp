@@ -626,7 +626,7 @@ class Functions {
             }
         return copy_defaults(maker, described, begin, count, to);
     }
-    // From the record in which states begin, or from that of the default action.
+    // Copies from the record in which states begin, or from that of the default action.
     static rddl_error copy_defaults(const Parts& maker, const rddl_fluent& fluent,
                                     std::int64_t begin, std::int64_t count, std::byte* to) {
         const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;

@@ -254,7 +254,7 @@ template <class V>
 #endif
 }
 
-// The upper 32 bits of each lane as the lower ones; those above are any.
+// Moves the upper 32 bits of each lane to the lower ones; the upper bits are arbitrary then.
 [[gnu::always_inline]] inline Words upper_halves(Words a) {
 #ifdef RDDL_SIMD_AVX512
     // A shuffle replaces the shift, since one execution port does all shifts and also the products.
@@ -300,7 +300,7 @@ template <class V>
 #endif
 }
 
-// Between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
+// Converts between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
 template <class T>
 struct HalfOf {
     typedef T type __attribute__((vector_size(register_bytes / 2)));
