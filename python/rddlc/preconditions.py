@@ -29,7 +29,7 @@ def _reason(problem: Problem, batch: _native.Batch, place: int, records: Any) ->
     if problem.has_details:
         batch.actions[:] = records
         return batch.explain_violation(place)
-    single = _native.VectorEnv(problem.detailed, values=False)
+    single = _native.EnvPool(problem.detailed, values=False)
     single.reset()
     state = np.zeros(problem.model.state_size, np.uint8)
     batch.read_state(place, state)
