@@ -1,10 +1,10 @@
 #include "native/learners.hpp"
 
 #include "learning/learned_policy.hpp"
+#include "native/env_pool.hpp"
 #include "native/long_calls.hpp"
 #include "native/options.hpp"
 #include "native/paths.hpp"
-#include "native/vector_env.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
@@ -49,7 +49,7 @@ class Policy {
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
-    void act(VectorEnv& batch, bool begins) {
+    void act(EnvPool& batch, bool begins) {
         const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
         if (begins || is_bound || !actor_ || running_.size() != count) {
@@ -93,7 +93,7 @@ class Policy {
   private:
     // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
-    bool bind(const VectorEnv& batch) {
+    bool bind(const EnvPool& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
         const Simulator simulator = batch.shared_simulator();
         solvers::Policy policy = make_(*simulator);

@@ -5,6 +5,7 @@
 #include "formats/trace_steps.hpp"
 #include "learning/learning_curves.hpp"
 #include "solvers/cgp/policy_file.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/training/training.hpp"
 #include "support/failure.hpp"
