@@ -53,8 +53,6 @@ TEST(MakeAggregationsSparse, RunsOverTheEntriesOfARow) {
 }
 
 TEST(MakeAggregationsSparse, FlattensNests) {
-    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [(RISK(?o) == 0 ^ LINK(?o, ?u)) * v(?u)]"),
-              "sum[entry in 0 .. 3](state.v[LINK-u[entry]])");
     EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ p(?u)]"),
               "real(sum[entry in 0 .. 4](int(state.p[LINK-u[entry]])))");
     EXPECT_EQ(sparse("forall_{?o : obj, ?u : obj} [LINK(?o, ?u) => p(?o) | q(?u)]"),
@@ -90,6 +88,20 @@ TEST(MakeAggregationsSparse, TabulatesWhatIsFixedForAnEntry) {
               "LINK-entries[entry])))");
     EXPECT_EQ(sparse_table(cpf, "LINK-entries"),
               "LINK-entries[4]: bool = {false true false false}");
+}
+
+TEST(MakeAggregationsSparse, KeepsSumsOfRealsNested) {
+    const std::string cpf = "sum_{?o : obj, ?u : obj} [(RISK(?o) == 0 ^ LINK(?o, ?u)) * v(?u)]";
+    EXPECT_EQ(sparse(cpf),
+              "sum[entry-2 in 0 .. 2](sum[entry in LINK-rows[entry-2] .. LINK-rows[entry-2 + 1]]("
+              "state.v[LINK-u[entry]]))");
+    EXPECT_EQ(sparse_table(cpf, "LINK-rows"), "LINK-rows[3]: int = {0 1 3}");
+    EXPECT_EQ(sparse_table(cpf, "LINK-u"), "LINK-u[3]: int = {1 0 1}");
+    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [LINK(?o, ?u) * v(?u) * v(?u)]"),
+              "sum[o in obj](sum[entry in LINK-rows[o] .. LINK-rows[o + 1]]("
+              "state.v[LINK-u[entry]] * state.v[LINK-u[entry]]))");
+    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [(RISK(?o) == 0) * COST(?u) * v(?o) * v(?u)]"),
+              "sum[entry-2 in 0 .. 2](2.5 * state.v[RISK-o[entry-2]] * state.v[x-u[entry-2]])");
 }
 
 TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
@@ -140,8 +152,7 @@ TEST(MakeAggregationsSparse, LeavesDenseTables) {
 
 TEST(MakeAggregationsSparse, KnowsRowsInsideOfEntries) {
     EXPECT_EQ(sparse("sum_{?o : obj} [RISK(?o) * (sum_{?u : obj} [LINK(?o, ?u) * v(?u) * v(?u)])]"),
-              "1.5 * sum[entry in 1 .. 2]("
-              "state.v[LINK-u[entry]] * state.v[LINK-u[entry]])");
+              "1.5 * (state.v[2] * state.v[2])");
 }
 
 }  // namespace
