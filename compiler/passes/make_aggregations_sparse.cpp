@@ -186,10 +186,15 @@ class Rewriting {
         const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
         if (!neutral || reduce.bounds) return std::nullopt;
         Nest nest = nest_of(reduce);
-        const std::optional<Relation> found = exceptions_.of(nest.body, *neutral);
-        if (!found) return std::nullopt;
-        if (found->tuples.empty()) return builder_.constant(*neutral);
+        std::vector<ir::NodeId> doubtful;
+        std::optional<Relation> found = exceptions_.of(nest.body, *neutral);
+        if (!found && reduce.op == Reduction::Sum)
+            found = exceptions_.of_term(reduce.body, doubtful);
+        if (!found || exceptions_.depend(doubtful, reduce.variable)) return std::nullopt;
         Scope scope = scope_for(*found, nest, outer);
+        if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
+        if (found->tuples.empty())
+            return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
         // Objects that no table tells apart are left to loops inside.
         for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();
              ++variable) {
@@ -201,7 +206,31 @@ class Rewriting {
         entries_left_ -= scope.relation.count();
         ++report_["aggregations made sparse"];
         name(scope, nest.body);
-        return over_entries(reduce.op, nest.body, scope);
+        return with_terms_left_out(over_entries(reduce.op, nest.body, scope), doubtful, outer);
+    }
+
+    // A term that is left out is zero times each of these: it is nan where one is not finite. Else
+    // it is a zero, which does not change a sum, since a sum is never -0.0.
+    ir::NodeId with_terms_left_out(ir::NodeId sum, const std::vector<ir::NodeId>& doubtful,
+                                   Scope& outer) {
+        for (const ir::NodeId factor : doubtful) {
+            const ir::NodeId zero = builder_.constant(0.0);
+            const ir::NodeId term =
+                builder_.apply(Operator::Multiply, {zero, rewritten(factor, outer)});
+            sum = builder_.apply(Operator::Add, {sum, term});
+        }
+        return sum;
+    }
+
+    static bool lacks_entries_in_each_row(const Scope& scope) {
+        const auto columns = volume(scope.columns());
+        if (!columns) return false;
+        std::int64_t row = -1, count = 0;
+        return std::ranges::none_of(scope.relation.tuples, [&](std::int64_t tuple) {
+            count = tuple / *columns == row ? count + 1 : 1;
+            row = tuple / *columns;
+            return count == *columns;
+        });
     }
 
     Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) {

@@ -18,7 +18,11 @@
 //         RATE-entries[entry] * real(state.on[RATE-y[entry]])))
 //
 // Entries are in the order of the objects, and what is left out would have added 0, multiplied by 1
-// and so on.
+// and so on. A zero times what may be inf would have added nan; where the factor is the same for
+// all objects, one such term stands for all that are left out:
+//
+//     sum[y in cell](RATE[x, y] * state.s)   =>   sum[entry in ...](RATE-entries[entry] * state.s)
+//                                                     + 0.0 * state.s
 #pragma once
 
 #include "ir/ir.hpp"
