@@ -111,6 +111,15 @@ std::optional<std::string> difference_of_moderate(const ir::Program& any,
     return difference(any, story(any, tried, seed), story(moderate, tried, seed), {});
 }
 
+// In any situation, whichever step is made in it: it depends on a test whether that is the one for
+// moderate values.
+std::optional<std::string> difference_of_choice(const ir::Program& any, const ir::Program& both,
+                                                Values values, std::uint64_t seed, int steps) {
+    const std::vector<Situation> tried =
+        situations(any, values, false, seed, affordable_steps(any, steps));
+    return difference(any, story(any, tried, seed), story(both, tried, seed), {});
+}
+
 }  // namespace
 
 Contracts check_contracts(const ir::Program& program, const PassOptions& options, Values values,
@@ -127,6 +136,9 @@ Contracts check_contracts(const ir::Program& program, const PassOptions& options
         if (const auto text = difference_of_moderate(any, moderate, values, seed, steps))
             result.breaches.push_back({"ground", "for moderate values: " + *text});
         result.optimised = optimise(program, options);
+        for (const ir::Program& both : {program, result.optimised})
+            if (const auto text = difference_of_choice(any, both, values, seed, steps))
+                result.breaches.push_back({"ground", "by the choice of a step: " + *text});
     }
     return result;
 }
