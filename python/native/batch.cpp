@@ -290,7 +290,7 @@ void Batch::action_masks(std::uint8_t* masks) {
 }
 
 void Batch::act() {
-    if (!simulator_->policy_act) throw Refused("the problem has no policy block");
+    if (!simulator_->policy_act) throw Failure("the problem has no policy block");
     check(*simulator_, simulator_->policy_act(live(), arrays_.actions.data()));
 }
 
