@@ -3,6 +3,7 @@
 #include "support/diagnostic.hpp"
 #include "support/option_names.hpp"
 #include "support/program.hpp"
+#include "support/suggestion.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -94,8 +95,7 @@ void declare(Declared& declared) {
 }
 
 std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
-    const auto near = did_you_mean(name, known);
-    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+    return ending_with_name(did_you_mean(name, known));
 }
 
 std::vector<KnownOption> known_options(const Command& command) {

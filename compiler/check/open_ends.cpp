@@ -66,7 +66,7 @@ std::vector<const ast::Binary*> left_edge(const ast::Expr& body) {
 
 void add_open_edge(const ast::Expr& e, std::vector<const ast::Binary*>& operators);
 
-// Those that an `if` or another construct at the end of `e` has taken in.
+// The operators that an `if` or another construct at the end of `e` has taken in.
 void add_taken_in(const ast::Expr& e, std::vector<const ast::Binary*>& operators) {
     if (const auto* unary = std::get_if<ast::Unary>(&e.node))
         add_taken_in(*unary->operand, operators);
@@ -211,7 +211,7 @@ std::string text_before(const ast::Expr& construct, const std::vector<const ast:
            blank;
 }
 
-// What stands before an operator in the body.
+// The part of the body before an operator.
 Span body_before(const OpenConstruct& parts, const ast::Binary& end) {
     return {parts.body->span.file, parts.body->span.begin, end.left->span.end};
 }

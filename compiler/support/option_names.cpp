@@ -1,8 +1,7 @@
 #include "support/option_names.hpp"
 
 #include "support/diagnostic.hpp"
-
-#include <fmt/format.h>
+#include "support/suggestion.hpp"
 
 #include <algorithm>
 
@@ -47,8 +46,7 @@ std::optional<std::string> option_meant(std::string_view given,
 }
 
 std::string option_meant_text(std::string_view given, const std::vector<KnownOption>& known) {
-    const auto meant = option_meant(given, known);
-    return meant ? fmt::format("; did you mean '{}'?", *meant) : "";
+    return ending_with_name(option_meant(given, known));
 }
 
 }  // namespace rddlc
