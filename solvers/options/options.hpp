@@ -32,7 +32,7 @@ struct OptionText {
     std::string keyword;  // "learning_rate", of Python
     std::string value;    // "RATE"; "" for a flag
     std::string help;
-    // What Stable-Baselines3 or RLlib call it: an unknown option of that name means this one.
+    // Its names in Stable-Baselines3 and RLlib: an unknown option of such a name means this one.
     std::vector<std::string> elsewhere = {};
     bool is_setting = true;                 // a run goes on with the same
     bool is_list = false;                   // of words with commas between them
@@ -171,7 +171,7 @@ void require_ranges(const OptionTable<Options>& table, const Options& options) {
     }
 }
 
-// Whose names are those by which a face knows its options.
+// The names by which a face knows its options.
 enum class Face { CommandLine, Python };
 
 // "there is no option 'minibach'; did you mean 'minibatch'?"

@@ -10,7 +10,7 @@ using O = PpoOptions;
 using Option = LearnerOption<O>;
 using Time = ObservationOptions::Time;
 
-// What the presets alone change is told by their names.
+// Settings that only presets change are reported by the name of a preset.
 Option preset_option() {
     Option option{{"--preset",
                    "preset",

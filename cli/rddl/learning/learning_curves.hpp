@@ -33,7 +33,7 @@ struct Curve {
     std::vector<double> x, mean, deviation;
 };
 
-// Of the runs, one curve by `x` and `y`, which are names of columns. Several runs are read at the
+// One curve of the runs by `x` and `y`, which are names of columns. Several runs are read at the
 // same places; one that ended before others keeps its last value. Throws a Failure if a run has no
 // such column, or no number in it.
 Curve curve_of(const std::string& name, const std::vector<RunProgress>& runs, const std::string& x,
@@ -51,7 +51,7 @@ struct RunDescription {
     std::string what;  // "ppo mountain_car inst_1": solver, domain and instance
     std::uint64_t seed = 0;
 };
-// Of the run in the folder, as its run.json tells it, if there is one. Throws a Failure that names
+// The run in the folder, as its run.json describes it, if there is one. Throws a Failure that names
 // the file where that makes no sense.
 std::optional<RunDescription> description_of(const std::filesystem::path& folder);
 
