@@ -299,7 +299,7 @@ void EnvPool::action_masks(std::uint8_t* masks) {
 }
 
 void EnvPool::act() {
-    if (!simulator_->policy_act) throw Refused("the problem has no policy block");
+    if (!simulator_->policy_act) throw Failure("the problem has no policy block");
     check(*simulator_, simulator_->policy_act(live(), arrays_.actions.data()));
 }
 
