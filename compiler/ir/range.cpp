@@ -24,7 +24,7 @@ std::optional<Range> multiply(Range a, Range b) {
 
 // A zero in the divisor makes nan possible.
 std::optional<Range> divide(Range a, Range b) {
-    if (b.lower <= 0 && b.upper >= 0) return std::nullopt;
+    if (!excludes_zero(b)) return std::nullopt;
     return hull({a.lower / b.lower, a.lower / b.upper, a.upper / b.lower, a.upper / b.upper});
 }
 
@@ -36,7 +36,7 @@ bool is_whole_number(double value) {
     return value == std::floor(value);
 }
 bool is_positive(Range range) {
-    return range.lower > 0 && std::isfinite(range.upper);
+    return excludes_zero(range) && range.lower > 0 && std::isfinite(range.upper);
 }
 
 double magnitude(Range range) {
@@ -76,7 +76,8 @@ bool is_finite(const Range& range) {
 }
 
 bool excludes_zero(const std::optional<Range>& range) {
-    return range && (range->lower > 0 || range->upper < 0);
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    return range && (range->lower >= least || range->upper <= -least);
 }
 
 Range join(Range a, Range b) {

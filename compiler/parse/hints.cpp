@@ -1,5 +1,7 @@
 #include "parse/hints.hpp"
 
+#include "support/suggestion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -199,8 +201,7 @@ std::vector<std::string> expected_words(const SyntaxError& error) {
 
 std::string misspelt_word(const SyntaxError& error) {
     if (!is(&error.found(), Parser::ID) && !is(&error.found(), Parser::FLUENT_KIND)) return "";
-    const auto meant = did_you_mean(error.found().getText(), expected_words(error));
-    return meant ? fmt::format("did you mean '{}'?", *meant) : "";
+    return hint_of_name(did_you_mean(error.found().getText(), expected_words(error)));
 }
 
 // rddlsim writes "$s1" for an object; in RDDL of pyRDDLGym '$' calls an external function.
