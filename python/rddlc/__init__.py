@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _native, causes
+from . import _native, callbacks, causes
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
@@ -41,6 +41,7 @@ __all__ = [
     "RDDLEnv",
     "RDDLVectorEnv",
     "State",
+    "callbacks",
     "causes",
     "make",
     "make_vec",
