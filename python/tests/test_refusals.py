@@ -40,11 +40,11 @@ class Refusals(unittest.TestCase):
                 (lambda: vector(num_envs=-1), rddlc.Error, "num_envs is -1"),
                 (lambda: vector(num_envs=1 << 40), rddlc.Error, "GiB|memory"),
                 (lambda: vector(num_envs="4"), TypeError, ""),
-                (lambda: vector(observations="none"), ValueError, "none of 'flat', 'dict'"),
+                (lambda: vector(observations="none"), ValueError, "not one of 'flat', 'dict'"),
                 (lambda: vector(autoreset_mode="none"), ValueError, ""),
-                (lambda: example("mountain_car", observations="none"), ValueError, "none of"),
+                (lambda: example("mountain_car", observations="none"), ValueError, "not one of"),
                 (lambda: example("mountain_car", no_option=1), TypeError, "no_option.*horizon"),
-                (lambda: vector(render_mode="human"), ValueError, "none of None, .rgb_array., .ansi."),
+                (lambda: vector(render_mode="human"), ValueError, "not one of None, .rgb_array., .ansi."),
                 (lambda: vector(no_option=1), TypeError, "no_option.*autoreset_mode"),
                 (lambda: rddlc.make(LOADED, engine="interpreter"), rddlc.Error, "loaded already"),
                 (lambda: rddlc.make(LOADED, 2), rddlc.Error, "loaded already: give instance"),
@@ -54,7 +54,7 @@ class Refusals(unittest.TestCase):
                 (lambda: example("mountain_car", render_mode="ansi", visualizer="x"), rddlc.Error, "no visualizer"),
                 (lambda: rddlc.make("/etc/passwd", engine="interpreter"), rddlc.CompileError, "E0"),
                 (lambda: rddlc.make("/no/such/file", engine="interpreter"), rddlc.Error, "no/such"),
-                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "none of"),
+                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "not one of"),
                 (lambda: Transitions(example("mountain_car").problem, levels=-1), rddlc.Error, "2 or more"),
             ]
         )
