@@ -9,14 +9,14 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _native, causes
+from . import _native, callbacks, causes
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
 from .learners import CGP, PPO, Estimate, Evaluation, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
-from .registration import register_environments
+from .registration import register, register_environments, spec_of
 from .states import State
 from .vector import RDDLVectorEnv
 
@@ -41,10 +41,12 @@ __all__ = [
     "RDDLEnv",
     "RDDLVectorEnv",
     "State",
+    "callbacks",
     "causes",
     "make",
     "make_vec",
     "problems",
+    "register",
 ]
 
 _OF_PROBLEM = ("instance_name", "engine", "externs", "extended", "details")
@@ -56,7 +58,7 @@ def make(
     **options: Any,
 ) -> RDDLEnv:
     """A `gymnasium.Env` of a problem: two files, one file that holds both, a folder and an instance,
-    a problem and an instance of rddlrepository, or a `Problem`.
+    their texts, a problem and an instance of rddlrepository, or a `Problem`.
 
     engine: "compiled" (default) or "interpreter"; instance_name, externs, extended, details: see
         `Problem`.
@@ -76,7 +78,10 @@ def make(
 
     Raises CompileError with the compiler's diagnostics, and Error if files are missing.
     """
-    return RDDLEnv(_problem_of(domain, instance, options, RDDLEnv), **options)
+    problem = _problem_of(domain, instance, options, RDDLEnv)
+    env = RDDLEnv(problem, **options)
+    env.spec = spec_of(problem, env.horizon, options)
+    return env
 
 
 def make_vec(
@@ -98,8 +103,12 @@ def make_vec(
     copy: whether arrays are copies; else they may be the engine's own memory, which the next step
         changes.
     """
+    if (steps := options.pop("max_episode_steps", None)) is not None:  # Gymnasium's name of a horizon
+        options["horizon"] = steps
     problem = _problem_of(domain, instance, options, RDDLVectorEnv)
-    return RDDLVectorEnv(problem, num_envs, **options)
+    envs = RDDLVectorEnv(problem, num_envs, **options)
+    envs.spec = spec_of(problem, envs.horizon, options)
+    return envs
 
 
 def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type[Any]) -> Problem:
@@ -115,4 +124,8 @@ def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type
     return domain
 
 
+for maker, kind in ((make, RDDLEnv), (make_vec, RDDLVectorEnv)):
+    setattr(maker, "metadata", kind.metadata)  # gymnasium.make reads the render modes there
+for error in (ActionError, ArgumentError, CompileError, EpisodeOver, Error):
+    error.__module__ = "rddlc"  # the name by which people catch it
 register_environments()

@@ -8,10 +8,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from copy import deepcopy
+from dataclasses import replace
 from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from . import _native, causes
@@ -82,6 +84,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             values=observations != "dict",
         )
         self._seed: int | None = None
+        self._spec: EnvSpec | None = None
         # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
         self._own: _native.EnvPool | None = None  # a batch that has the episode's own
@@ -135,6 +138,17 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return Renderer(self.problem.simulator, size, name, self.metadata["render_fps"])
 
     # ---- what the problem says of itself
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """What Gymnasium made it of; the horizon is known to the problem."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, given: EnvSpec | None) -> None:
+        if given is not None and given.max_episode_steps is None:
+            given = replace(given, max_episode_steps=self.horizon or None)
+        self._spec = given
 
     @property
     def model(self) -> Model:

@@ -9,22 +9,37 @@ from __future__ import annotations
 import html
 import math
 import os
-from collections.abc import Callable
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 from . import _native
+from .acting import actions_in, batch_at, environment_in, problem_in, shows
 from .arguments import SEEDS, seed_of, shown, thread_count, whole, whole_or_none
+from .callbacks import Callback
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
 from .problems import Problem
-from .translation.readers import dictionary_reader
 from .vector import RDDLVectorEnv
 
-Solvable = Problem | RDDLEnv | RDDLVectorEnv
-Callback = Callable[["Learner"], bool | None]
-"""Called after each update; learning ends when it returns False."""
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .learner_options import CGPOptions, PPOOptions
+
+
+class Wrapped(Protocol):
+    """An environment of rddlc, also within wrappers of Gymnasium or Stable-Baselines3."""
+
+    @property
+    def unwrapped(self) -> Any: ...
+
+
+Solvable = Problem | Wrapped
+"""Whatever wrappers do to an environment, learners know its problem alone."""
 MOST_EPISODES = 10_000_000
 EVALUATION_SEED = 0x65766131  # with the learner's seed, as `rddl train` has it
 EVALUATION_HORIZON = 1000  # of a problem without one
@@ -83,10 +98,10 @@ class Learner:
     extension: ClassVar[str]
     total: ClassVar[str]  # the option for the amount of training
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        self.problem: Problem = (
-            env_or_problem if isinstance(env_or_problem, Problem) else env_or_problem.problem
-        )
+    def __init__(self, env_or_problem: Solvable, *, verbose: int = 0, **options: Any) -> None:
+        self.problem = problem_in(env_or_problem)
+        self._env = environment_in(env_or_problem)
+        self._verbose = whole("verbose", verbose, 0)
         self._options = options
         self._native: _native.Learner | None = None
         self._loaded: str | None = None  # a policy file
@@ -97,6 +112,7 @@ class Learner:
     def _forget_actor(self) -> None:
         """Called before whatever changes the policy: no other value is kept of it."""
         self._actor: _native.Policy | None = None
+        self._is_deterministic = True
         self._acts_in: Any = None
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
@@ -104,20 +120,27 @@ class Learner:
 
     def learn(
         self: L,
-        amount: int,
-        callback: Callback | None = None,
+        amount: int | None = None,
+        callback: Callback | Sequence[Callback] | None = None,
         *,
+        total_timesteps: int | None = None,
         evaluations: int = 20,
         evaluation_episodes: int = 20,
+        progress_bar: bool = False,
     ) -> L:
         """Learns for so many steps (PPO) or generations (CGP); another call continues.
         Ctrl-C ends it, also within an update, and keeps what has been learned.
 
         callback: called with the learner after each update; learning ends when it returns False.
+            rddlc.callbacks has some. A list of callbacks is called in its order.
+        total_timesteps: of PPO another name of `amount`.
         evaluations: so often, evenly, the policy is evaluated in `evaluation_episodes` episodes of
-            the same seeds, and `best` keeps the best one; 0: never.
+            the same seeds, and `best` keeps the best one; 0: never. With verbose=1 each of them is
+            printed.
+        progress_bar: whether a line on standard error shows how much has been learned.
         """
-        amount = whole(self.total, amount, 1)
+        amount = self._amount_of(amount, total_timesteps)
+        callbacks = callback if isinstance(callback, Sequence) else [callback] if callback else []
         evaluations = whole("evaluations", evaluations, 0)
         evaluation_episodes = whole("evaluation_episodes", evaluation_episodes, 1, MOST_EPISODES)
         if self._loaded is not None:
@@ -139,11 +162,22 @@ class Learner:
             if due > made:
                 self._evaluate_for_best(evaluation_episodes)
                 made, evaluated_at = due, self.steps
-            if callback is not None and callback(self) is False:
+            if progress_bar:
+                _show_progress(self.steps - before, amount)
+            if False in [each(self) for each in callbacks]:
                 break
+        if progress_bar:
+            print(file=sys.stderr)
         if evaluations and evaluated_at != self.steps:
             self._evaluate_for_best(evaluation_episodes)
         return self
+
+    def _amount_of(self, amount: int | None, total_timesteps: int | None) -> int:
+        if total_timesteps is not None and self.total != "steps":
+            raise ArgumentError(f"this learner counts {self.total}, not steps: say learn({self.total})")
+        if (amount is None) == (total_timesteps is None):
+            raise ArgumentError(f"learn() takes one number of {self.total}")
+        return whole(self.total, total_timesteps if amount is None else amount, 1)
 
     def _evaluate_for_best(self, episodes: int) -> None:
         problem = self.problem.model
@@ -154,6 +188,8 @@ class Learner:
         )
         if self._latest.is_better_than(None if self._best is None else self._best.evaluation):
             self._best = _Best(self.policy_text, self._latest)
+        if self._verbose:
+            print(f"{self.steps} {self.total}: {self._latest}")
 
     @property
     def steps(self) -> int:
@@ -199,22 +235,35 @@ class Learner:
             self.problem.simulator, self.policy_text, not deterministic, seed
         )
 
-    def predict(self, env: RDDLEnv | RDDLVectorEnv) -> tuple[Any, None]:
-        """Returns the action, as env.step takes it, for the present state of `env`; and None, since
-        Stable-Baselines3 has a second result. `env` is of any instance that the policy may act
-        in, and has actions="dict". Call it once before each step."""
-        if self._actor is None:
-            self._actor, self._acts_in = self.policy(), None
-        batch = env._batch
-        self._actor.act(batch, self._acts_in is not env)
-        self._acts_in = env
-        fluents = env.problem.model.actions
-        if isinstance(env, RDDLVectorEnv):
-            return dictionary_reader(fluents, batch.actions, lifted=True).rows(copy=True), None
-        if env._forms["actions"] != "dict":
-            raise Error("predict() gives dictionaries: make the environment with actions='dict'")
-        lifted = env._forms["vectorized"]
-        return dictionary_reader(fluents, batch.actions, lifted=lifted).read(), None
+    def predict(
+        self,
+        observation: Any,
+        state: Any = None,
+        episode_start: Any = None,
+        deterministic: bool = True,
+    ) -> tuple[Any, None]:
+        """Returns the action, as env.step takes it, for an observation or for an environment: of any
+        instance that the policy may act in, also within wrappers. The second result and `state`
+        and `episode_start` are Stable-Baselines3's, and mean nothing.
+
+        An observation that the learner's own environment shows now stands for that environment: the
+        policy knows the time, and remembers the episode, if it is called once before each step. Any
+        other observation of a problem that is fully observed is taken for the start of an episode.
+        Rows of observations give rows of actions.
+        """
+        env = environment_in(observation)
+        if env is not None:
+            batch = env._batch
+        else:
+            env = self._env = self._env or RDDLEnv(self.problem)
+            batch = env._batch if shows(env, observation) else batch_at(env, observation)
+        if self._actor is None or self._is_deterministic != deterministic:
+            self._actor, self._acts_in = self.policy(deterministic=deterministic), None
+            self._is_deterministic = deterministic
+        self._actor.act(batch, self._acts_in is not batch)
+        self._acts_in = batch
+        is_single = isinstance(env, RDDLEnv) and len(batch.rewards) == 1
+        return actions_in(env, batch.actions, is_single=is_single), None
 
     def evaluate(
         self,
@@ -283,6 +332,12 @@ class Learner:
         self._native.load(work)
 
 
+def _show_progress(made: int, amount: int) -> None:
+    share = min(made / amount, 1)
+    done = round(share * 40)
+    print(f"\r[{'=' * done}{' ' * (40 - done)}] {share:4.0%} {made:,} of {amount:,}", end="", file=sys.stderr)
+
+
 class PPO(Learner):
     """Proximal policy optimisation: a neural network.
 
@@ -295,8 +350,10 @@ class PPO(Learner):
 
     solver, extension, total = "ppo", ".json", "steps"
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        super().__init__(env_or_problem, **options)
+    def __init__(
+        self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[PPOOptions]
+    ) -> None:
+        super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
@@ -315,8 +372,10 @@ class CGP(Learner):
 
     solver, extension, total = "cgp", ".cgp", "generations"
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        super().__init__(env_or_problem, **options)
+    def __init__(
+        self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[CGPOptions]
+    ) -> None:
+        super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"generations": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
+import tempfile
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from . import _native
@@ -72,6 +75,7 @@ class Problem:
             "extended": flag("extended", extended),
             "details": flag("details", details),
         }
+        domain, instance = _written(domain, instance)
         self.engine = _engine_at_hand(engine)
         self.simulator = self._load(
             domain,
@@ -130,11 +134,40 @@ class Problem:
         start; the defaults of an action-fluent."""
         return self.simulator.constants(self.model.fluents[fluent].index)
 
+    @property
+    def options(self) -> dict[str, Any]:
+        """Those that it was loaded with."""
+        return dict(self._options)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _load_again, (self.files, self._options)
 
     def __repr__(self) -> str:
         return f"Problem({self.name!r}, engine={self.engine!r})"
+
+
+def _written(domain: Any, instance: Any) -> tuple[Any, Any]:
+    """Texts of RDDL become files."""
+    given = {"domain.rddl": domain, "instance.rddl": instance}
+    texts = {name: text for name, text in given.items() if isinstance(text, str) and "{" in text}
+    files = dict(zip(texts, files_of_texts(texts))) if texts else {}
+    return files.get("domain.rddl", domain), files.get("instance.rddl", instance)
+
+
+def files_of_texts(texts: Mapping[str, str]) -> list[str]:
+    """The texts as files, which are written once for each user and content: domain, instance."""
+    content = hashlib.sha256(repr(sorted(texts.items())).encode()).hexdigest()[:16]
+    folder = Path(tempfile.gettempdir()) / f"rddlc-{os.getuid()}" / content
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, text in texts.items():
+        file = folder / name
+        if not file.exists():
+            fresh = folder / f"{name}.{os.getpid()}"
+            fresh.write_text(text)
+            fresh.replace(file)  # other processes write it, too
+        files.append(str(file))
+    return files
 
 
 def _name_of(instance: Any) -> str | bytes | os.PathLike[str]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .model import Fluent, Model
+from .model import Fluent
 
 STORED: dict[str, np.dtype[Any]] = {
     "bool": np.dtype(np.int8),
@@ -98,11 +98,19 @@ def lifted_views(
     return views
 
 
-def action_records(model: Model, values: NDArray[Any]) -> NDArray[np.uint8]:
-    """(n, bytes) of rows of values, of which whole numbers may be floats."""
-    is_real = [column.fluent.scalar == "real" for column in columns_of(model.actions)]
-    records = np.zeros((len(values), model.action_size), np.uint8)
-    view = grounded_view(records, model.actions)
+def records_of(fluents: Sequence[Fluent], size: int, values: NDArray[Any]) -> NDArray[np.uint8]:
+    """(n, size) of rows of values, of which whole numbers may be floats."""
+    is_real = [column.fluent.scalar == "real" for column in columns_of(fluents)]
+    records = np.zeros((len(values), size), np.uint8)
+    view = grounded_view(records, fluents)
     for place, row in enumerate(values.tolist()):
-        view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
+        if row:
+            view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
     return records
+
+
+def values_of(fluents: Sequence[Fluent], records: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """(n, columns)"""
+    view = grounded_view(records, fluents)
+    names = view.dtype.names or ()
+    return np.stack([view[name].astype(np.float64) for name in names], axis=1)

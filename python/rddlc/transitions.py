@@ -16,7 +16,7 @@ from . import _native
 from .arguments import seed_of, shown, whole, whole_or_none
 from .errors import ActionError, Error
 from .problems import Problem, batch_horizon
-from .records import action_records, columns_of
+from .records import columns_of, records_of
 from .states import State
 from .translation.action_plan import ActionPlan, plan_of
 
@@ -74,7 +74,9 @@ class Transitions:
         given = self._options["horizon"]
         self.horizon: int = problem.model.horizon if given is None else given
         self._values = _action_values(problem, self._options["levels"])
-        self._records = action_records(problem.model, self._values)
+        self._records = records_of(
+            problem.model.actions, problem.model.action_size, self._values
+        )
         self._single = self._new_batch(1)
         # Seeds in a row would also be those of the next `seed`.
         self._seeds = np.random.default_rng(self._options["seed"])

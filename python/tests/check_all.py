@@ -10,6 +10,7 @@ about bounds (unbounded fluents are unbounded). `--sb3` asks Stable-Baselines3's
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import traceback
 import warnings
@@ -19,6 +20,8 @@ from collections.abc import Iterator
 from gymnasium.utils.env_checker import check_env
 
 import rddlc
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")  # The checker makes an environment with a window, too.
 
 FORMS = {
     "dict": {},

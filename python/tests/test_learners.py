@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import copy
+import io
 import pickle
+import re
 import tempfile
 import threading
 import time
 import unittest
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
+import gymnasium
+import numpy as np
+from gymnasium.wrappers import TimeLimit
 from support import example
 
 import rddlc
+from rddlc.learner_options import CGPOptions, PPOOptions
 
 
 def played(model: rddlc.Learner, env: rddlc.RDDLEnv, seed: int) -> float:
@@ -351,6 +358,114 @@ class Learners(unittest.TestCase):
             time.sleep(0.001)
             ticks += 1
         self.assertGreater(ticks, 3)
+
+
+class Verbs(unittest.TestCase):
+    """The verbs of Stable-Baselines3."""
+
+    OPTIONS: dict[str, Any] = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
+    FORMS = (
+        {},
+        {"vectorized": True},
+        {"observations": "flat"},
+        {"observations": "flat", "actions": "simplified", "normalize": True},
+        {"observations": "flat", "actions": "box"},
+    )
+
+    def test_observations_of_its_environment_are_where_it_stands(self) -> None:
+        for name in ("mountain_car", "network"):
+            problem = example(name).problem
+            learned = rddlc.PPO(problem, **self.OPTIONS).learn(total_timesteps=128)
+            expected = learned.evaluate(1, seed=3).returns.mean
+            for form in self.FORMS:
+                env = rddlc.make(problem, **form)
+                model = copy.copy(learned)
+                model._env = env
+                observation, _ = env.reset(seed=3)
+                total, over = 0.0, False
+                while not over:
+                    action, _ = model.predict(observation)
+                    self.assertIn(action, env.action_space)
+                    observation, reward, terminated, truncated, _ = env.step(action)
+                    total, over = total + reward, terminated or truncated
+                with self.subTest(name=name, form=form):
+                    self.assertAlmostEqual(total, expected, places=3)  # actions are float32
+
+    def test_observations_of_other_places(self) -> None:
+        problem = example("network").problem
+        for form in self.FORMS:
+            env, other = rddlc.make(problem, **form), rddlc.make(problem, **form)
+            model = rddlc.CGP(env, children=4, nodes=20, seed=1, time=False).learn(3)
+            env.reset(seed=1)
+            other.reset(seed=9)
+            for _ in range(5):
+                observation = other.step(model.predict(other)[0])[0]
+            np.testing.assert_equal(model.predict(observation), model.predict(other))
+
+    def test_rows_of_observations(self) -> None:
+        for form in ({}, {"actions": "dict"}, {"observations": "dict"}):
+            envs = rddlc.make_vec(example("network").problem, num_envs=3, **form)
+            model = rddlc.PPO(envs, **self.OPTIONS).learn(128)
+            observations, _ = envs.reset(seed=1)
+            actions, _ = model.predict(observations)
+            self.assertIn(actions, envs.action_space)
+            np.testing.assert_equal(actions, model.predict(envs)[0])
+        with self.assertRaisesRegex(rddlc.ArgumentError, "an observation is one of"):
+            model.predict({"no": 1})
+        maze = example("t_maze")
+        model = rddlc.PPO(maze, **self.OPTIONS).learn(128)
+        with self.assertRaisesRegex(rddlc.Error, "partially observed"):
+            model.predict({})
+
+    def test_wrapped_environments(self) -> None:
+        env = TimeLimit(example("mountain_car"), 5)
+        model = rddlc.PPO(env, **self.OPTIONS).learn(128)
+        observation, _ = env.reset(seed=1)
+        self.assertEqual(model.predict(env), model.predict(observation))
+        for given in (gymnasium.make("CartPole-v1"), 3, "network"):
+            with self.assertRaisesRegex(rddlc.ArgumentError, "a learner takes an environment of rddlc"):
+                rddlc.PPO(given)
+
+    def test_amounts(self) -> None:
+        problem = example("mountain_car").problem
+        model = rddlc.PPO(problem, **self.OPTIONS)
+        self.assertEqual(model.learn(total_timesteps=64, evaluations=0).steps, 64)
+        for wrong in ({}, {"amount": 1, "total_timesteps": 1}):
+            with self.assertRaisesRegex(rddlc.ArgumentError, "one number of steps"):
+                model.learn(**wrong)
+        with self.assertRaisesRegex(rddlc.ArgumentError, "learn.generations"):
+            rddlc.CGP(problem).learn(total_timesteps=64)
+
+    def test_progress_is_printed(self) -> None:
+        model = rddlc.PPO(example("mountain_car").problem, verbose=1, **self.OPTIONS)
+        told, shown = io.StringIO(), io.StringIO()
+        with redirect_stdout(told), redirect_stderr(shown):
+            model.learn(128, evaluations=2, progress_bar=True)
+        self.assertEqual(len(told.getvalue().splitlines()), 2)
+        self.assertIn("128 steps: return", told.getvalue())
+        self.assertIn("100% 128 of 128", shown.getvalue())
+
+    def test_callbacks(self) -> None:
+        model = rddlc.PPO(example("mountain_car").problem, **self.OPTIONS)
+        with tempfile.TemporaryDirectory() as folder:
+            checkpoints = rddlc.callbacks.CheckpointCallback(128, folder)
+            best = rddlc.callbacks.EvalCallback(
+                64, n_eval_episodes=2, best_model_save_path=folder, reward_threshold=-1e9
+            )
+            model.learn(256, [checkpoints], evaluations=0)
+            names = sorted(each.name for each in Path(folder).iterdir())
+            self.assertEqual(names, ["model_128_steps.json", "model_256_steps.json"])
+            model.learn(256, [checkpoints, best], evaluations=0)
+            self.assertEqual(model.steps, 256 + 64)  # the threshold ends it
+            again = rddlc.PPO.load(Path(folder) / "best_model.json", model.problem)
+            self.assertEqual(again.evaluate(2).returns.mean, best.best_mean_reward)
+
+    def test_options_are_typed_as_they_are(self) -> None:
+        for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):
+            named = re.findall(r"^ +(\w+): ", kind.__doc__ or "", re.MULTILINE)
+            self.assertEqual(sorted(named), sorted(get_type_hints(options)))
+        with self.assertRaisesRegex(rddlc.ArgumentError, "did you mean 'learning_rate'"):
+            rddlc.PPO(example("network"), learnin_rate=1)
 
 
 if __name__ == "__main__":

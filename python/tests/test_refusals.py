@@ -40,11 +40,11 @@ class Refusals(unittest.TestCase):
                 (lambda: vector(num_envs=-1), rddlc.Error, "num_envs is -1"),
                 (lambda: vector(num_envs=1 << 40), rddlc.Error, "GiB|memory"),
                 (lambda: vector(num_envs="4"), TypeError, ""),
-                (lambda: vector(observations="none"), ValueError, "none of 'flat', 'dict'"),
+                (lambda: vector(observations="none"), ValueError, "not one of 'flat', 'dict'"),
                 (lambda: vector(autoreset_mode="none"), ValueError, ""),
-                (lambda: example("mountain_car", observations="none"), ValueError, "none of"),
+                (lambda: example("mountain_car", observations="none"), ValueError, "not one of"),
                 (lambda: example("mountain_car", no_option=1), TypeError, "no_option.*horizon"),
-                (lambda: vector(render_mode="human"), ValueError, "none of None, .rgb_array., .ansi."),
+                (lambda: vector(render_mode="human"), ValueError, "not one of None, .rgb_array., .ansi."),
                 (lambda: vector(no_option=1), TypeError, "no_option.*autoreset_mode"),
                 (lambda: rddlc.make(LOADED, engine="interpreter"), rddlc.Error, "loaded already"),
                 (lambda: rddlc.make(LOADED, 2), rddlc.Error, "loaded already: give instance"),
@@ -63,7 +63,7 @@ class Refusals(unittest.TestCase):
                 (lambda: rddlc.Problem(CAR, 1, instance_name=3), rddlc.ArgumentError, "instance_name is 3"),
                 (lambda: rddlc.Problem(CAR, 1, extended="no"), rddlc.ArgumentError, "extended is 'no'"),
                 (lambda: rddlc.Problem(CAR, 1, details=1), rddlc.ArgumentError, "details is 1"),
-                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "none of"),
+                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "not one of"),
                 (lambda: Transitions(example("mountain_car").problem, levels=-1), rddlc.Error, "2 or more"),
             ]
         )

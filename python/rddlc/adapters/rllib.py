@@ -9,9 +9,7 @@ loads the problem itself, from names, or from the texts of files that it need no
 
 from __future__ import annotations
 
-import hashlib
 import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -20,6 +18,7 @@ from ray.tune.registry import register_env
 
 from .. import _problem_of, make
 from ..environment import RDDLEnv
+from ..problems import files_of_texts
 
 NAME = "rddlc"
 FORMS: dict[str, Any] = {"observations": "flat", "actions": "box", "normalize": True}
@@ -48,23 +47,7 @@ def create_env(config: Mapping[str, Any]) -> RDDLEnv:
     texts = options.pop("texts", None)
     if texts is None:
         return make(options.pop("domain"), options.pop("instance", None), **options)
-    return make(*_files_of(texts), **options)
-
-
-def _files_of(texts: Mapping[str, str]) -> list[str]:
-    """The texts as files, which are written once for each user and content: domain, instance."""
-    content = hashlib.sha256(repr(sorted(texts.items())).encode()).hexdigest()[:16]
-    folder = Path(tempfile.gettempdir()) / f"rddlc-{os.getuid()}" / content
-    folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, text in texts.items():
-        file = folder / name
-        if not file.exists():
-            fresh = folder / f"{name}.{os.getpid()}"
-            fresh.write_text(text)
-            fresh.replace(file)  # other processes also write it
-        files.append(str(file))
-    return files
+    return make(*files_of_texts(texts), **options)
 
 
 register_env(NAME, create_env)

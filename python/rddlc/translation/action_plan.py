@@ -51,6 +51,23 @@ class ActionPlan:
                 f"{self.category_counts[place] - 1}"
             )
 
+    def categories_of(self, values: Array) -> Array:
+        """(n, categories) that write rows of values: the inverse of `write`."""
+        if not self.picks:
+            return values[:, self.columns].astype(np.int64) - self.values.astype(np.int64)
+        nothing = len(self.columns) - 1
+        picks = np.full((len(values), self.picks), nothing)
+        numbers = set(self.number_columns.tolist())
+        category_of = {
+            (column, None if column in numbers else value): category
+            for category, (column, value) in enumerate(zip(self.columns.tolist(), self.values.tolist()))
+        }
+        for row, column in np.argwhere(values != self.defaults):
+            free = int(np.argmax(picks[row] == nothing))
+            value = None if column in numbers else values[row, column].item()
+            picks[row, free] = category_of[int(column), value]
+        return picks
+
     def write(self, categories: Array, numbers: Array, values: Array) -> None:
         """Into rows of action values: (n, columns)."""
         if not self.picks:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .. import _native
 from ..errors import ActionError
 from ..problems import Problem
-from ..records import action_records
+from ..records import records_of, values_of
 from .action_plan import ActionPlan, Squash, plan_of
 
 Array = NDArray[Any]
@@ -98,25 +98,37 @@ class ChoiceActions:
     def records(self, actions: Any) -> NDArray[np.uint8]:
         values = np.empty_like(self._values)
         self._write(actions, values)
-        return action_records(self._model, values)
+        return records_of(self._model.actions, self._model.action_size, values)
 
     def default(self) -> Any:
-        """The action of one environment that changes nothing."""
         plan = self.plan
         categories = (
             np.array(plan.category_counts) - 1
             if plan.picks
             else plan.defaults[plan.columns].astype(np.int64) - plan.values
         )
-        numbers = plan.defaults[plan.number_columns]
+        return self._packed(categories, plan.defaults[plan.number_columns])
+
+    def actions_of(self, records: NDArray[np.uint8]) -> Any:
+        values = values_of(self._model.actions, records)
+        actions = self._packed(self.plan.categories_of(values), values[:, self.plan.number_columns])
+        is_one = len(self.plan.category_counts) == 1 and not self._box
+        if is_one and isinstance(actions, dict):
+            return actions | {"discrete": actions["discrete"][:, 0]}
+        return actions[:, 0] if is_one and not self.plan.numbers else actions
+
+    def _packed(self, categories: Array, numbers: Array) -> Any:
+        """As the space has them, along the last axis; numbers in the problem's own scale."""
+        counts = np.array(self.plan.category_counts, float)
         if self._squash is not None:
             numbers = self._squash.numbers(numbers)
+        numbers = numbers.astype(np.float32)
         if self._box:
-            middles = (categories + 0.5) / np.array(plan.category_counts, float) * 2 - 1
-            return np.concatenate([middles, np.ravel(numbers)])
+            middles = (categories + 0.5) / counts * 2 - 1
+            return np.concatenate([middles, numbers], axis=-1).astype(np.float32)
         if isinstance(self.space, spaces.Dict):
             return {"discrete": categories, "continuous": numbers}
-        return categories if plan.category_counts else numbers
+        return categories if self.plan.category_counts else numbers
 
     def _write(self, actions: Any, values: Array) -> None:
         """(n, columns)"""

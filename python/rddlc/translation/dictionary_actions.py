@@ -31,6 +31,7 @@ class DictionaryActions(ABC):
         self, problem: Problem, batch: _native.EnvPool, counted: list[bool], *, grounded: bool
     ) -> None:
         model = problem.model
+        self._fluents = model.actions
         self._batch, self._written, self._asked = batch, batch.actions, np.zeros_like(batch.actions)
         self._defaults = lifted_defaults(problem)
         for records in (self._written, self._asked):
@@ -56,6 +57,9 @@ class DictionaryActions(ABC):
         if not self._native_asked.write(actions):
             self._write(actions, self._asked)
         return self._asked
+
+    def actions_of(self, records: Records) -> dict[str, Array]:
+        return {name: view.copy() for name, view in lifted_views(records, self._fluents).items()}
 
     @abstractmethod
     def _write(self, actions: Any, records: Records) -> None:
@@ -90,7 +94,7 @@ class SingleActions(DictionaryActions):
         columns = columns_of(model.actions)
         self._counted = [limits_all or column.fluent.scalar == "bool" for column in columns]
         super().__init__(problem, batch, self._counted, grounded=True)
-        self._fluents, self._limit = model.actions, model.limited_actions
+        self._limit = model.limited_actions
         self._default_values = default_values(problem, model.actions)
         self._named = NamedValues(model.actions, self._default_values, "action", ActionError)
         by_name = dict(zip((column.name for column in columns), self._default_values))
@@ -124,7 +128,6 @@ class LiftedActions(DictionaryActions):
         model = problem.model
         counted = [True] * sum(fluent.count for fluent in model.actions)
         super().__init__(problem, batch, counted, grounded=False)
-        self._fluents = model.actions
         self._views = lifted_views(batch.actions, model.actions)
         self.space = action_space(model, self._defaults, lifted=True)
 

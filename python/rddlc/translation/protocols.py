@@ -28,6 +28,10 @@ class ObservationReader(Protocol):
     def rows(self, *, copy: bool) -> Any:
         """A row for each environment. Without a copy they may be the batch's own memory."""
 
+    def values(self, observations: Any) -> NDArray[Any]:
+        """(n, columns) of values that an observation, or rows of them, stand for. Raises KeyError or
+        ValueError for those of another form."""
+
     def final_rows(self) -> Any:
         """Copies of the last observations of episodes; rows of other environments mean nothing."""
 
@@ -54,6 +58,9 @@ class ActionWriter(Protocol):
 
     def records(self, actions: Any) -> NDArray[np.uint8]:
         """(environments, bytes)"""
+
+    def actions_of(self, records: NDArray[np.uint8]) -> Any:
+        """A row of `space` for each record."""
 
     def default(self) -> Any:
         """The action of one environment that changes nothing."""

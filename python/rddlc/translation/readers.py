@@ -72,6 +72,9 @@ class GroundedReader:
     def final_rows(self) -> dict[str, Array]:
         return self._rows(self._final_view.copy())
 
+    def values(self, observations: Any) -> Array:
+        return np.column_stack([np.ravel(observations[name]) for name in self._names])
+
     def _rows(self, view: NDArray[np.void]) -> dict[str, Array]:
         return {name: view[f"f{place}"] for place, name in enumerate(self._names)}
 
@@ -94,6 +97,10 @@ class LiftedReader:
 
     def final_rows(self) -> dict[str, Array]:
         return {name: view.copy() for name, view in self._final_views.items()}
+
+    def values(self, observations: Any) -> Array:
+        counts = {name: view[0].size for name, view in self._views.items()}
+        return np.hstack([np.reshape(observations[name], (-1, counts[name])) for name in counts])
 
 
 class FlatReader:
@@ -151,3 +158,14 @@ class FlatReader:
     def read(self) -> Array:
         """(features,)"""
         return self._first.copy() if self.is_view else self._features(self._values)[0]
+
+    def values(self, observations: Any) -> Array:
+        rows = np.reshape(observations, (-1, len(self._sources)))
+        if self._middle is not None:
+            rows = rows * self._half + self._middle
+        columns: list[Array] = []
+        for column in range(len(self._first)):
+            features = np.flatnonzero(np.array(self._sources) == column)
+            is_object = self._objects[features[0]] >= 0
+            columns.append(rows[:, features].argmax(axis=1) if is_object else rows[:, features[0]])
+        return np.stack(columns, axis=1)
