@@ -55,13 +55,14 @@ class GroundedReader:
         self._view, self._final_view = (
             grounded_view(each, fluents) for each in (records, final_records)
         )
-        self._first = self._view[:1]
+        named = [(column.name, column.offset, column.fluent.scalar) for column in columns]
+        self._native = _native.DictionaryReader(records, named)
         self._boxes = [
             (name, space.dtype) for name, space in self.space.items() if isinstance(space, spaces.Box)
         ]
 
     def read(self) -> dict[str, Any]:
-        values = dict(zip(self._names, self._first.item()))
+        values: dict[str, Any] = self._native.read()
         for name, dtype in self._boxes:
             values[name] = np.array(values[name], dtype)
         return values
