@@ -1,4 +1,5 @@
 // The native part of the Python package; users import python/rddlc/.
+#include "native/dictionary_reader.hpp"
 #include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
 #include "native/env_pool.hpp"
@@ -12,6 +13,7 @@ NB_MODULE(_native, module) {
     rddlc::python::add_problem(module);
     rddlc::python::add_env_pool(module);
     rddlc::python::add_row_writer(module);
+    rddlc::python::add_dictionary_reader(module);
     rddlc::python::add_dictionary_writer(module);
     rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);

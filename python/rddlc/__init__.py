@@ -73,7 +73,7 @@ def make(
     action_mask: info["action_mask"] marks the actions that satisfy the preconditions, in the form
     that action_space.sample(mask) takes.
     horizon: steps, not negative; None: the instance's; 0: no horizon.
-    render_mode: None, "rgb_array", "ansi" or "human" (a window, with pygame).
+    render_mode: None, "rgb_array", "rgb_array_list", "ansi" or "human" (a window, with pygame).
     render_size: width and height in pixels (600, 400). visualizer: see `rddl render`.
 
     Raises CompileError with the compiler's diagnostics, and Error if files are missing.

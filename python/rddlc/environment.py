@@ -43,7 +43,10 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     The same seed gives the same episodes as `rddl run --seed`, bit for bit.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array", "ansi"], "render_fps": 10}
+    metadata: dict[str, Any] = {
+        "render_modes": ["human", "rgb_array", "rgb_array_list", "ansi"],
+        "render_fps": 10,
+    }
 
     def __init__(
         self,
@@ -85,6 +88,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         )
         self._seed: int | None = None
         self._spec: EnvSpec | None = None
+        self._frames: list[NDArray[np.uint8]] = []  # since the last render()
         # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
         self._own: _native.EnvPool | None = None  # a batch that has the episode's own
@@ -226,7 +230,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self._tell(ended, info)
         if self._renderer is not None:
             self._renderer.add_step(self._batch, causes.text_of(ended))
-            self._show()
+            self._show(self._renderer)
         terminated, truncated = (ended & 1) != 0, ended > 1
         return self._reader.read(), self._rewards.item(), terminated, truncated, info
 
@@ -313,7 +317,8 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._batch.read_interm(0, record[0])
         return {name: view[0].copy() for name, view in lifted_views(record, fluents).items()}
 
-    # ---- pictures
+        """Returns (height, width, 3) uint8, a list of these since the last render() or reset(), a text,
+        or None, as `render_mode` says."""
 
     def render(self) -> Any:
         """Returns (height, width, 3) uint8, a text, or None, as `render_mode` says."""
@@ -321,17 +326,23 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             return None
         if self.render_mode == "human":
             return self._renderer.show()
+        if self.render_mode == "rgb_array_list":
+            frames, self._frames = self._frames, []
+            return frames
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
     def _begin_pictures(self) -> None:
         """Starts drawing at the environment's present state."""
         if self._renderer is not None:
             self._renderer.begin(self._batch, self.horizon)
-            self._show()
+            self._frames = []
+            self._show(self._renderer)
 
-    def _show(self) -> None:
-        if self.render_mode == "human" and self._renderer is not None:
-            self._renderer.show()
+    def _show(self, renderer: Renderer) -> None:
+        if self.render_mode == "human":
+            renderer.show()
+        elif self.render_mode == "rgb_array_list":
+            self._frames.append(renderer.pixels())
 
     def _repr_html_(self) -> str:
         """Notebooks show an environment as a picture of its state."""

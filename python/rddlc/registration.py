@@ -52,8 +52,15 @@ def _is_file(given: Any) -> bool:
 
 
 def _register(id: str, arguments: dict[str, Any]) -> None:
+    """gymnasium.make gives the environment itself, which shows itself in notebooks: what Gymnasium's
+    wrappers would check, it refuses by itself."""
     gymnasium.register(
-        id=id, entry_point="rddlc:make", vector_entry_point="rddlc:make_vec", kwargs=arguments
+        id=id,
+        entry_point="rddlc:make",
+        vector_entry_point="rddlc:make_vec",
+        order_enforce=False,
+        disable_env_checker=True,
+        kwargs=arguments,
     )
 
 
@@ -65,6 +72,8 @@ def spec_of(problem: Problem, horizon: int, options: dict[str, Any]) -> EnvSpec:
         id="rddlc/{}-v0".format(re.sub(r"[^\w:.-]", "_", problem.model.instance)),
         entry_point="rddlc:make",
         vector_entry_point="rddlc:make_vec",
+        order_enforce=False,
+        disable_env_checker=True,
         max_episode_steps=horizon or None,
         kwargs={**arguments, **problem.options, **options},
     )

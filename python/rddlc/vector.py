@@ -97,7 +97,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._batch = _native.EnvPool(
             problem.simulator,
             environments=self.num_envs,
-            threads=self._forms["threads"],
+            threads=self._forms["threads"] if self.num_envs > 1 else 1,
             autoreset=AUTORESET[self._forms["autoreset_mode"]],
             horizon=batch_horizon(horizon),
             records=observations == "dict",
@@ -299,14 +299,14 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             raise EpisodeOver("no episode has begun: call reset() before step()")
         if self._enforces:
             check_preconditions(self.problem, self._batch, self._writer, actions)
-        if not self._copies:
-            any_ended = self._writer.step(actions, None)
-            results = (self._rewards, self._terminated, self._truncated)
-            return self._reader.rows(copy=False), *results, self._infos(any_ended)
-        into = self._new_results()
+        into = self._new_results() if self._copies else None
         any_ended = self._writer.step(actions, into)
+        infos = self._infos(any_ended) if any_ended or self._tells_mask else {}
+        if into is None:
+            results = self._rewards, self._terminated, self._truncated
+            return self._reader.rows(copy=False), *results, infos
         rows = self._reader.rows(copy=True) if into[0] is None else into[0]
-        return rows, *into[1:], self._infos(any_ended)
+        return rows, *into[1:], infos
 
     def _new_results(self) -> tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Returns new arrays for a step: observations (None if they are not the engine's values),

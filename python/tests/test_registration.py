@@ -54,6 +54,27 @@ class Registration(unittest.TestCase):
         self.assertEqual(env.render().shape, (400, 600, 3))
 
 
+class Pictures(unittest.TestCase):
+    def test_lists_of_pictures(self) -> None:
+        env = example("mountain_car", render_mode="rgb_array_list", render_size=(60, 40))
+        self.assertIsNone(env.render())
+        env.reset(seed=1)
+        for count in (4, 3):
+            for _ in range(3):
+                env.step({"throttle": 1.0})
+            frames = env.render()
+            self.assertEqual([frame.shape for frame in frames], [(40, 60, 3)] * count)
+        env.step({})
+        env.reset()
+        self.assertEqual(len(env.render()), 1)
+
+    def test_what_gymnasium_makes_shows_itself_in_notebooks(self) -> None:
+        rddlc.register("Climb-v3", CAR, 1, engine="interpreter")
+        env = gymnasium.make("Climb-v3")
+        env.reset(seed=1)
+        self.assertIn("<img", env._repr_html_())
+
+
 class Texts(unittest.TestCase):
     def test_one_text_and_two(self) -> None:
         begin = DOOR.index("non-fluents two")

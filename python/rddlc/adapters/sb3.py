@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Iterable
 from typing import Any
 
@@ -27,14 +28,17 @@ from ..vector import RDDLVectorEnv
 Indices = None | int | Iterable[int]
 
 
-def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
+def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv | MultiInput:
     """`rddlc.make` with flat observations, and actions that Stable-Baselines3 takes: simplified where
     these are Discrete, MultiDiscrete or a Box with bounds, else "box" (it takes no dictionaries of
-    actions, and no numbers without bounds). Options go before that."""
+    actions, and no numbers without bounds). Options go before that: observations="dict" is for
+    "MultiInputPolicy"."""
     problem = _problem_of(domain, instance, options, RDDLEnv)
     options = {"observations": "flat", "actions": "simplified", **options}
     env = RDDLEnv(problem, **options)
-    return env if takes_actions(env.action_space) else RDDLEnv(problem, **options | {"actions": "box"})
+    if not takes_actions(env.action_space):
+        env = RDDLEnv(problem, **options | {"actions": "box"})
+    return MultiInput(env) if isinstance(env.observation_space, spaces.Dict) else env
 
 
 def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecMonitor:
@@ -53,6 +57,41 @@ def takes_actions(space: gymnasium.Space[Any]) -> bool:
     if isinstance(space, spaces.Box):
         return space.is_bounded()
     return isinstance(space, (spaces.Discrete, spaces.MultiDiscrete))
+
+
+class MultiInput(gymnasium.ObservationWrapper[Any, Any, Any]):
+    """Dictionaries of observations as "MultiInputPolicy" takes them: numbers are float32 arrays, of the
+    shape (1,) in place of (), and ints with bounds are counted from 0."""
+
+    def __init__(self, env: gymnasium.Env[Any, Any]) -> None:
+        super().__init__(env)
+        given: Any = env.observation_space
+        self._least = {
+            name: int(space.start) if isinstance(space, spaces.Discrete) else 0
+            for name, space in given.items()
+        }
+        self._entries = {name: _input_space(space) for name, space in given.items()}
+        self.observation_space = spaces.Dict(OrderedDict(self._entries))
+
+    def observation(self, observation: Any) -> dict[str, Any]:
+        return {
+            name: observation[name] - self._least[name]
+            if isinstance(space, spaces.Discrete)
+            else np.reshape(observation[name], space.shape or (1,)).astype(np.float32)
+            for name, space in self._entries.items()
+        }
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """See `RDDLEnv.action_masks`."""
+        masks: NDArray[np.bool_] = self.get_wrapper_attr("action_masks")()
+        return masks
+
+
+def _input_space(space: Any) -> gymnasium.Space[Any]:
+    if isinstance(space, spaces.Discrete):
+        return spaces.Discrete(int(space.n))
+    lower, upper = (np.reshape(each, space.shape or (1,)) for each in (space.low, space.high))
+    return spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
 
 
 class VecEnv(Base):

@@ -55,15 +55,15 @@ class GroundedReader:
         self._view, self._final_view = (
             grounded_view(each, fluents) for each in (records, final_records)
         )
-        self._first = self._view[:1]
-        self._boxes = [
-            (name, space.dtype) for name, space in self.space.items() if isinstance(space, spaces.Box)
-        ]
+        named = [(column.name, column.offset, column.fluent.scalar) for column in columns]
+        self._native = _native.DictionaryReader(records, named)
+        self._boxes = [name for name, space in self.space.items() if isinstance(space, spaces.Box)]
 
     def read(self) -> dict[str, Any]:
-        values = dict(zip(self._names, self._first.item()))
-        for name, dtype in self._boxes:
-            values[name] = np.array(values[name], dtype)
+        values: dict[str, Any] = self._native.read()
+        array = np.array  # without a dtype it takes half the time, and gives the same float64 or int64
+        for name in self._boxes:
+            values[name] = array(values[name])
         return values
 
     def rows(self, *, copy: bool) -> dict[str, Array]:
