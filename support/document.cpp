@@ -14,6 +14,9 @@ namespace document_nodes {
 struct Text {
     std::string text;
 };
+struct Words {
+    std::vector<std::string> words;
+};
 struct Line {
     std::string flat;
 };
@@ -51,7 +54,7 @@ struct OwnLineComment {
 using namespace document_nodes;
 
 struct Document {
-    std::variant<Text, Line, IfBroken, Concat, Nest, Align, Group, Flat, Alternatives,
+    std::variant<Text, Words, Line, IfBroken, Concat, Nest, Align, Group, Flat, Alternatives,
                  TrailingComment, OwnLineComment>
         node;
     std::size_t flat_width;
@@ -95,6 +98,17 @@ class Renderer {
 
   private:
     void print(const Command& command, const Text& node) { add(command, node.text); }
+    void print(const Command& command, const Words& node) {
+        for (std::size_t i = 0; i < node.words.size(); ++i) {
+            const bool fits = current_.size() + 2 + node.words[i].size() < page_width;
+            if (i > 0 && command.mode == Mode::Broken && !fits)
+                new_line(command.indent);
+            else if (i > 0)
+                add(command, " ");
+            add(command, node.words[i]);
+            if (i + 1 < node.words.size()) add(command, ",");
+        }
+    }
     void print(const Command& command, const Line& node) {
         if (command.mode == Mode::Flat && !must_break_)
             add(command, node.flat);
@@ -200,6 +214,14 @@ class Renderer {
             if (!text.empty() && (after_comment || column > width)) decide(false);
         }
         void look_at(Mode, const Text& node, std::vector<Command>&) { advance(node.text); }
+        void look_at(Mode mode, const Words& node, std::vector<Command>&) {
+            for (const std::string& word : node.words) {
+                advance(word);
+                if (done || &word == &node.words.back()) return;
+                if (mode == Mode::Broken) return decide(true);
+                advance(", ");
+            }
+        }
         void look_at(Mode mode, const Line& node, std::vector<Command>&) {
             if (mode == Mode::Broken) return decide(true);
             if (after_comment) return decide(false);
@@ -247,6 +269,12 @@ class Renderer {
 Doc text(std::string text) {
     const std::size_t width = text.size();
     return make(Text{std::move(text)}, width);
+}
+
+Doc words(std::vector<std::string> words) {
+    std::size_t width = 2 * (words.size() - 1);
+    for (const std::string& word : words) width += word.size();
+    return make(Words{std::move(words)}, width);
 }
 
 Doc line(std::string flat) {

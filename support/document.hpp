@@ -20,6 +20,8 @@ struct Document;
 using Doc = std::shared_ptr<const Document>;
 
 Doc text(std::string text);
+// Separated by commas. Where lines may be broken, as many in each as fit.
+Doc words(std::vector<std::string> words);
 // A line break in a group that is broken, `flat` in one that is not.
 Doc line(std::string flat = " ");
 // Nothing in a group that is not broken.

@@ -64,17 +64,17 @@ TAKEN = taken_by_rddl()
 def collect(compilers: list[str]) -> dict[str, list[str]]:
     """Maps the origins of names to the names, as far as RDDL can spell them."""
     skeleton = in_files("templates/*", "runtime/rddl/step/compiled.hpp", "runtime/rddl/simulator*")
-    for emitter in ("names", "functions", "about", "tables", "emit"):
+    for emitter in ("names/names", "lower/functions", "lower/about", "lower/tables", "emit"):
         strings = re.findall(r'"([^"\n]*)"', (ROOT / f"compiler/emit/{emitter}.cpp").read_text())
         skeleton |= identifiers(" ".join(strings))
-    ours = in_files("runtime/rddl/**/*.h*", "compiler/emit/*.cpp", "generated/*.cpp")
+    ours = in_files("runtime/rddl/**/*.h*", "compiler/emit/**/*.cpp", "generated/*.cpp")
     libraries, macros = set(), set()
     for compiler in compilers:
         for standard in ("-std=c++20", "-std=gnu++20"):
             libraries |= identifiers(preprocessed(compiler, standard, "-P"))
             for line in preprocessed(compiler, standard, "-dM").splitlines():
                 macros |= set(re.findall(r"^#define (\w+)", line))
-    words = identifiers((ROOT / "compiler/emit/reserved_words.cpp").read_text())
+    words = identifiers((ROOT / "compiler/emit/names/reserved_words.cpp").read_text())
     sources = {"skeleton": skeleton, "ours": ours, "macros": macros, "words": words, "libraries": libraries}
     result = {}
     for source, names in sources.items():
