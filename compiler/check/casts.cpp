@@ -107,25 +107,6 @@ class Narrowing {
         return model::Expr{to, span, std::move(n)};
     }
 
-    // Operators that give an int for ints.
-    static std::optional<Operator> on_ints(Operator op) {
-        switch (op) {
-            case Operator::Add:
-            case Operator::Subtract:
-            case Operator::Multiply:
-            case Operator::Negate:
-            case Operator::Abs:
-            case Operator::Minimum:
-            case Operator::Maximum:
-            case Operator::Power:
-                return op;
-            case Operator::FloorModuloReal:
-                return Operator::FloorModulo;
-            default:
-                return std::nullopt;
-        }
-    }
-
     Typed apply(model::Apply&& n, Span span, model::ValueType to) {
         const std::optional<Operator> op = on_ints(n.op);
         if (!op || to != model::int_type) return std::nullopt;
@@ -148,7 +129,7 @@ class Narrowing {
     }
 
     Typed delta(model::Sample&& n, Span span, model::ValueType to) {
-        if (n.distribution != Distribution::KronDelta && n.distribution != Distribution::DiracDelta)
+        if (!is_delta(n.distribution))
             return std::nullopt;
         Typed value = at(std::move(n.parameters[0]), to);
         if (!value) return std::nullopt;

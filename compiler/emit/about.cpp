@@ -61,9 +61,12 @@ std::string record_of(Role role) {
             return "Action";
         case Role::Observ:
             return "Observation";
-        default:
-            return "";
+        case Role::NonFluent:
+        case Role::Interm:
+        case Role::Derived:
+            break;
     }
+    return "";
 }
 
 // A string literal inside a row; in pieces under each other if it is long.

@@ -43,24 +43,13 @@ bool is_leaf(const Unit& unit, ir::NodeId id) {
 std::vector<std::string_view> chain_operators(const ir::Node& node) {
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     if (!apply || apply->operands.size() != 2 || node.type == ir::Scalar::Int) return {};
-    switch (apply->op) {
-        case Operator::Add:
-        case Operator::Subtract:
-            return {"+", "-"};
-        case Operator::Multiply:
-        case Operator::Divide:
-            return {"*", "/"};
-        case Operator::And:
-            return {"&&"};
-        case Operator::Or:
-            return {"||"};
-        case Operator::Equal:
-            return {"=="};
-        case Operator::NotEqual:
-            return {"!="};
-        default:
-            return {};
-    }
+    if (is_one_of(apply->op, {Operator::Add, Operator::Subtract})) return {"+", "-"};
+    if (is_one_of(apply->op, {Operator::Multiply, Operator::Divide})) return {"*", "/"};
+    if (apply->op == Operator::And) return {"&&"};
+    if (apply->op == Operator::Or) return {"||"};
+    if (apply->op == Operator::Equal) return {"=="};
+    if (apply->op == Operator::NotEqual) return {"!="};
+    return {};
 }
 
 // What to call a value that needs a name.
@@ -79,7 +68,9 @@ std::string_view wish_for(const ir::Node& node) {
                 return "all";
             case Reduction::Exists:
                 return "any";
-            default:
+            case Reduction::Average:
+            case Reduction::ArgMin:
+            case Reduction::ArgMax:
                 return "best";
         }
     }

@@ -3,6 +3,8 @@
 #include "emit/identifiers.hpp"
 #include "support/match.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace rddlc::cpp {
@@ -53,48 +55,40 @@ std::string_view function_name(MatrixOperator op) {
 
 }  // namespace
 
+// What is written otherwise than as a call of the runtime's function of the operator's name.
 OperatorSpelling spelling_of(Operator op, bool on_ints) {
-    switch (op) {
-        case Operator::Add:
-            if (on_ints) return call_of("wrap_add");
-            return infix("+", Level::Additive, Level::Additive, Level::Multiplicative);
-        case Operator::Subtract:
-            if (on_ints) return call_of("wrap_sub");
-            return infix("-", Level::Additive, Level::Additive, Level::Multiplicative);
-        case Operator::Multiply:
-            if (on_ints) return call_of("wrap_mul");
-            return infix("*", Level::Multiplicative, Level::Multiplicative, Level::Unary);
-        case Operator::Divide:
-            return infix("/", Level::Multiplicative, Level::Multiplicative, Level::Unary);
-        case Operator::Negate:
-            if (on_ints) return call_of("wrap_neg");
-            return infix("-", Level::Unary, Level::Primary, Level::Primary);
-        case Operator::Equal:
-        case Operator::Equivalent:
-            return comparison("==");
-        case Operator::NotEqual:
-            return comparison("!=");
-        case Operator::Less:
-            return comparison("<");
-        case Operator::LessEqual:
-            return comparison("<=");
-        case Operator::Greater:
-            return comparison(">");
-        case Operator::GreaterEqual:
-            return comparison(">=");
-        case Operator::And:
-            return connective("&&", Level::And);
-        case Operator::Or:
-            return connective("||", Level::Or);
-        case Operator::Not:
-            return infix("!", Level::Not, Level::Primary, Level::Primary);
-        case Operator::Implies:
-            return infix("||", Level::Or, Level::Primary, Level::Comparison);
-        case Operator::FloorModuloReal:
-            return call_of("floor_mod");
-        default:
-            return call_of(std::string(name_of(op)));
+    if (on_ints) {
+        if (op == Operator::Add) return call_of("wrap_add");
+        if (op == Operator::Subtract) return call_of("wrap_sub");
+        if (op == Operator::Multiply) return call_of("wrap_mul");
+        if (op == Operator::Negate) return call_of("wrap_neg");
     }
+    struct Row {
+        Operator op;
+        OperatorSpelling spelling;
+    };
+    static const Row rows[] = {
+        {Operator::Add, infix("+", Level::Additive, Level::Additive, Level::Multiplicative)},
+        {Operator::Subtract, infix("-", Level::Additive, Level::Additive, Level::Multiplicative)},
+        {Operator::Multiply,
+         infix("*", Level::Multiplicative, Level::Multiplicative, Level::Unary)},
+        {Operator::Divide, infix("/", Level::Multiplicative, Level::Multiplicative, Level::Unary)},
+        {Operator::Negate, infix("-", Level::Unary, Level::Primary, Level::Primary)},
+        {Operator::Equal, comparison("==")},
+        {Operator::Equivalent, comparison("==")},
+        {Operator::NotEqual, comparison("!=")},
+        {Operator::Less, comparison("<")},
+        {Operator::LessEqual, comparison("<=")},
+        {Operator::Greater, comparison(">")},
+        {Operator::GreaterEqual, comparison(">=")},
+        {Operator::And, connective("&&", Level::And)},
+        {Operator::Or, connective("||", Level::Or)},
+        {Operator::Not, infix("!", Level::Not, Level::Primary, Level::Primary)},
+        {Operator::Implies, infix("||", Level::Or, Level::Primary, Level::Comparison)},
+        {Operator::FloorModuloReal, call_of("floor_mod")},
+    };
+    const auto* row = std::ranges::find(rows, op, &Row::op);
+    return row == std::end(rows) ? call_of(std::string(name_of(op))) : row->spelling;
 }
 
 std::string function_of(Reduction reduction) {

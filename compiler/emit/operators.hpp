@@ -2,7 +2,7 @@
 #pragma once
 
 #include "emit/expressions.hpp"
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <string>
 

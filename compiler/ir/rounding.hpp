@@ -5,7 +5,7 @@
 // rounds, and sums that are exact, stay as they are, so that comparisons of exact values do, too.
 #pragma once
 
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <cstdint>
 #include <random>

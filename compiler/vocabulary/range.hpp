@@ -2,12 +2,13 @@
 // numbers are finite.
 #pragma once
 
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 
-namespace rddlc::ir {
+namespace rddlc {
 
 // Closed, without nan; bounds may be infinite. Rounding is monotone, so the bounds of a sum are
 // the rounded sums of the bounds.
@@ -42,4 +43,18 @@ Range range_of_product(const Range& factor, double count);
 // True if parameters from these ranges are always in the distribution's domain: it cannot fault.
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters);
 
-}  // namespace rddlc::ir
+// ---------------------------------------------------------------------------- for the tables
+
+// Of what a row of a table says about the ranges of one or two operands or parameters, all finite.
+using RangeRule = std::optional<Range> (*)(Range first, Range last);
+
+// The smallest range that holds all corners; none if one of them is nan.
+std::optional<Range> hull(std::initializer_list<double> corners);
+double magnitude(Range range);
+Range symmetric(double magnitude);
+// With a margin for what functions and long sums round.
+Range padded(Range range);
+// None if there is no rule, or an operand's range is unknown or not finite.
+std::optional<Range> apply(RangeRule rule, std::span<const std::optional<Range>> operands);
+
+}  // namespace rddlc
