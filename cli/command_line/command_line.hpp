@@ -72,7 +72,7 @@ std::vector<Option> common_options(bool is_program);
 // "-o" and "--output" of "-o,--output".
 std::vector<std::string> names_of(const Option& option);
 
-// Adders of the usual kinds. What they return may be adjusted until the next one is added.
+// Adders of the usual kinds. The returned option may be adjusted until the next one is added.
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
                      std::function<void(const std::string&)> take);
 Option& add_option(Command& command, const std::string& names, const std::string& value_name,

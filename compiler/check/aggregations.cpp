@@ -1,4 +1,4 @@
-// What binds variables: aggregations, distributions over objects, determinants.
+// Constructs that bind variables: aggregations, distributions over objects, determinants.
 #include "check/expressions.hpp"
 #include "check/open_ends.hpp"
 #include "check/types.hpp"
@@ -19,7 +19,7 @@ bool is_arg_reduction(Reduction op) {
     return op == Reduction::ArgMin || op == Reduction::ArgMax;
 }
 
-// Those without a value over an empty type.
+// Reductions without a value over an empty type.
 bool needs_objects(Reduction op) {
     return is_arg_reduction(op) || op == Reduction::Minimum || op == Reduction::Maximum;
 }

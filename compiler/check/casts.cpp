@@ -59,7 +59,8 @@ class Narrowing {
             [&](model::Aggregate&& n) { return aggregate(std::move(n), span, to); },
             [&](model::Sample&& n) { return delta(std::move(n), span, to); },
             [&](model::External&& n) -> Typed {
-                // An external function gives what it gives, but nobody knows that it is an object.
+                // The type of an external function's result is not checked, but it is never known
+                // to be an object.
                 if (is_object(to)) return std::nullopt;
                 return model::Expr{to, span, std::move(n)};
             },
@@ -82,7 +83,7 @@ class Narrowing {
         return fault_at(span, found, need_, context_);
     }
 
-    // Before it was promoted to match the other branches.
+    // The type before it was promoted to match the other branches.
     static model::ValueType natural_type(const model::Expr& e) {
         const auto* cast = std::get_if<model::Convert>(&e.node);
         return cast ? cast->operand->type : e.type;

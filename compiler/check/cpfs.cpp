@@ -39,7 +39,7 @@ std::string name_of_cpf(const ast::Cpf& cpf) {
     return cpf.name.text + (cpf.primed ? "'" : "");
 }
 
-// Of the domain's cpfs, or of the policy's.
+// Checks the CPFs of the domain, or of the policy.
 class CpfChecker {
   public:
     CpfChecker(Context& context, std::vector<model::Cpf>& cpfs, bool of_policy)

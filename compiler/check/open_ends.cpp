@@ -239,7 +239,7 @@ void warn_of_long_body(std::optional<Reduction> op, const std::vector<model::Var
     scope.context.report(
         diagnose(
             long_body, rest,
-            fmt::format("this belongs to the body of '{}', which goes on to the end", parts.name))
+            fmt::format("this belongs to the body of '{}', which extends to the end", parts.name))
             .note(tail.front()->left->span, "the body does not end with these brackets")
             .with_hint(both_readings(construct, parts, tail, left, scope)));
 }
@@ -256,7 +256,7 @@ std::string hint_for_bound_again(const std::string& name, const Scope& scope) {
         const std::string body =
             shortened(scope.context.sources.text_on_one_line(binary->left->span), longest, "[...]");
         return fmt::format(
-            "the body of '{}' goes on to the end and takes this in; to end it before, put brackets "
+            "the body of '{}' extends to the end and includes this; to end it before, put brackets "
             "around the whole of it: '[{}{}]'",
             parts.name, head_of(*outer, parts, scope), body);
     }

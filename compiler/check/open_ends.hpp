@@ -10,14 +10,14 @@
 
 namespace rddlc::checking {
 
-// Warns where the body of the aggregation or determinant that is being checked goes on behind its
-// brackets, though it has nothing to do with `variables` there, and where the value would differ if
+// Warns if the body of the aggregation or determinant that is being checked continues behind its
+// brackets, though it has nothing to do with `variables` there, and if the value would differ if
 // the brackets ended it. `op` is absent for a determinant.
 void warn_of_long_body(std::optional<Reduction> op, const std::vector<model::VariableId>& variables,
                        const Scope& scope);
 
-// What to do where the construct that is being checked binds `name` once more: it may stand behind
-// another one, and be in the body of that one only because nothing ends it.
+// The hint if the construct that is being checked binds `name` again: it may stand behind another
+// one, and be in the body of that one only because nothing ends it.
 std::string hint_for_bound_again(const std::string& name, const Scope& scope);
 
 bool uses_any(Span span, const std::vector<model::VariableId>& variables, const Scope& scope);

@@ -81,7 +81,8 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         program.terminations = lower_all(model.terminations, lowering);
         for (const model::InitialDraw& draw : model.initial_draws)
             program.reset.push_back(lowering.definition_of(draw));
-        // At the end, so that neither sites nor nodes of the simulator change with the policy.
+        // The policy comes at the end, so that neither sites nor nodes of the simulator change with
+        // it.
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
         if (diagnostics.error_count() == errors_before)
             grounding::warn_of_certain_faults(builder, diagnostics);

@@ -1,3 +1,4 @@
+// Over 400 lines: one traversal and the questions about its results.
 #include "ir/analysis.hpp"
 
 #include "support/match.hpp"
@@ -14,7 +15,7 @@ namespace {
 constexpr double cheap_cost = 6;
 constexpr double elementary_cost = 20;
 
-// In units of an addition.
+// The cost in units of an addition.
 double cost_of(Operator op) {
     if (is_elementary(op)) return elementary_cost;
     return is_one_of(
@@ -79,7 +80,7 @@ class Collector {
                                                        : object_range(buffer);
     }
 
-    // Of a fluent whose values are objects.
+    // The range of a fluent whose values are objects.
     std::optional<Range> object_range(const Buffer& buffer) const {
         if (!buffer.fluent) return std::nullopt;
         const auto type = program_.fluents[*buffer.fluent].object_type;
@@ -197,7 +198,7 @@ class Collector {
                    : std::numeric_limits<double>::infinity();
     }
 
-    // On average, where the bounds are neighbours in a table of where rows begin.
+    // The average length, if the bounds are neighbours in a table of where rows begin.
     double length_of(const Bounds& bounds, std::int64_t size) const {
         const auto* end = std::get_if<Load>(&program_[bounds.end].form);
         const std::int64_t rows = end ? program_[end->buffer].count() - 1 : 1;
@@ -246,7 +247,8 @@ class Collector {
 
     // ------------------------------------------------------------------- zeros and their signs
 
-    // Of reals. What underflows is a zero, whose sign is that of what was rounded.
+    // The sign of real zeros: an underflow gives a zero with the sign of the number that was
+    // rounded.
     bool is_never_negative_zero(const Constant& constant) const {
         return !is_negative_zero(constant.value);
     }
@@ -273,7 +275,7 @@ class Collector {
         if (op == Operator::Divide) return has_no_sign(a) && has_no_sign(b);
         if (op == Operator::Power) return has_no_sign(a);
         if (op == Operator::Sqrt) return never_negative_zero(a);
-        // Of equal numbers they take the first.
+        // Equal operands give the first one.
         if (op == Operator::Minimum)
             return never_negative_zero(a) &&
                    (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
@@ -295,7 +297,7 @@ class Collector {
         return range && range->lower >= 0;
     }
 
-    // Of the operators that may fault.
+    // Whether an operator that may fault is defined for these operands.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();

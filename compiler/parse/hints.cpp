@@ -21,7 +21,7 @@ std::string in_small_letters(std::string_view word) {
     return small;
 }
 
-// As other languages call it.
+// The distribution that another language calls by this name.
 std::string distribution_meant_by(std::string_view name) {
     const std::string small = in_small_letters(name);
     if (small == "gaussian" || small == "gauss") return "Normal";
@@ -219,7 +219,7 @@ struct SectionMeant {
     std::string_view word, section;
 };
 
-// What other readers or people call the sections of a domain.
+// Names of a domain's sections in other readers and common language.
 constexpr std::array sections_meant = {
     SectionMeant{"terminal", "termination"},
     SectionMeant{"terminals", "termination"},

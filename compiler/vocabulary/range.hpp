@@ -45,16 +45,16 @@ bool always_in_domain(Distribution distribution, std::span<const std::optional<R
 
 // ---------------------------------------------------------------------------- for the tables
 
-// Of what a row of a table says about the ranges of one or two operands or parameters, all finite.
+// A row's range for one or two operands or parameters, whose ranges are finite.
 using RangeRule = std::optional<Range> (*)(Range first, Range last);
 
-// The smallest range that holds all corners; none if one of them is nan.
+// The smallest range that holds all corners; nothing if one of them is nan.
 std::optional<Range> hull(std::initializer_list<double> corners);
 double magnitude(Range range);
 Range symmetric(double magnitude);
-// With a margin for what functions and long sums round.
+// The range with a margin for the rounding of functions and long sums.
 Range padded(Range range);
-// None if there is no rule, or an operand's range is unknown or not finite.
+// Nothing if there is no rule, or an operand's range is unknown or not finite.
 std::optional<Range> apply(RangeRule rule, std::span<const std::optional<Range>> operands);
 
 }  // namespace rddlc

@@ -115,7 +115,7 @@ bool may_fault(Operator op, bool on_integers);
 bool is_comparison(Operator op);
 // Less to GreaterEqual.
 bool is_order(Operator op);
-// For a comparison: `a op b` is `b mirrored(op) a`.
+// The mirrored comparison: `a op b` is `b mirrored(op) a`.
 Operator mirrored(Operator op);
 
 std::size_t arity_of(Distribution distribution);

@@ -1,10 +1,10 @@
 #include "native/learners.hpp"
 
 #include "learning/learned_policy.hpp"
-#include "native/batch.hpp"
 #include "native/long_calls.hpp"
 #include "native/options.hpp"
 #include "native/paths.hpp"
+#include "native/vector_env.hpp"
 #include "solvers/cgp/formula.hpp"
 #include "solvers/cgp/option_table.hpp"
 #include "solvers/cgp/policy_file.hpp"
@@ -49,7 +49,7 @@ class Policy {
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
-    void act(Batch& batch, bool begins) {
+    void act(VectorEnv& batch, bool begins) {
         const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
         if (begins || is_bound || !actor_ || running_.size() != count) {
@@ -91,9 +91,9 @@ class Policy {
     }
 
   private:
-    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
-    bool bind(const Batch& batch) {
+    bool bind(const VectorEnv& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
         const Simulator simulator = batch.shared_simulator();
         solvers::Policy policy = make_(*simulator);
@@ -114,7 +114,7 @@ class Policy {
     std::vector<std::int32_t> violated_;
 };
 
-// Whether an update shall end early: what a learner's options ask.
+// Whether an update has to end early: the `stops` of a learner's options.
 using Stop = std::shared_ptr<std::atomic<bool>>;
 
 std::function<bool()> asks(const Stop& stop) {
@@ -241,7 +241,7 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 }  // namespace
 
 void add_learners(nb::module_& module) {
-    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+    nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
         .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",

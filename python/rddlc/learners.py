@@ -260,7 +260,7 @@ class Learner:
 
     @classmethod
     def load(cls: type[L], path: str | os.PathLike[str], env_or_problem: Solvable) -> L:
-        """From a policy file, to predict and evaluate."""
+        """Loads a policy file, to predict and evaluate."""
         return cls._of_text(Path(os.fsdecode(path)).read_bytes(), env_or_problem)
 
     @classmethod
@@ -335,5 +335,5 @@ class CGP(Learner):
         return self.formula
 
     def _repr_html_(self) -> str:
-        """In a notebook it is its formula."""
+        """Notebooks show its formula."""
         return f"<pre>{html.escape(self.formula)}</pre>"

@@ -1,4 +1,4 @@
-"""From files, or a name of rddlrepository, to a simulator."""
+"""Loads simulators from files, or from a name of rddlrepository."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ enum class Function : std::uint8_t {
     Floor,
     Ceiling,
     Round,
-    // From [-1, 1] to [-1, 1], as scikit-decide has them.
+    // The functions of scikit-decide, from [-1, 1] to [-1, 1].
     HalfSum,
     HalfDistance,
     ScaledExponential,  // (e^a - 1) / (e - 1)

@@ -15,7 +15,7 @@ Option preset_option() {
     Option option{{"--preset",
                    "preset",
                    "PRESET",
-                   "fast (default), sb3 (as Stable-Baselines3), rllib; options behind it change it",
+                   "fast (default), sb3 (as Stable-Baselines3), rllib; later options override it",
                    true,
                    false,
                    {"fast", "sb3", "rllib"}},
@@ -188,7 +188,8 @@ OptionTable<O> make_table() {
             {{"auto", Time::Auto}, {"on", Time::On}, {"off", Time::Off}}),
         choice_option<O, std::optional<bool>>(
             {"--bootstrap", "bootstrap", "WHEN",
-             "Whether what follows the horizon is estimated: auto (default: unless the policy sees "
+             "Whether the value after the horizon is estimated: auto (default: unless the policy "
+             "sees "
              "the time), on, off"},
             [](auto& o) -> auto& { return o.bootstraps; },
             {{"auto", std::nullopt}, {"on", true}, {"off", false}}),

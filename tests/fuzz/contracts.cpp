@@ -55,7 +55,7 @@ bool same_program(const Made& a, const Made& b) {
            std::ranges::equal(a.program.buffers, b.program.buffers, same_buffer);
 }
 
-// Only what the pass may change where it had what it may change.
+// The pass may only change results that depend on the parts it may change.
 Tolerance tolerance_between(std::string_view pass, const ir::Program& before) {
     Tolerance tolerance = tolerance_of(pass);
     if (pass == "make_aggregations_sparse" && !has_nested_sums(before)) tolerance.relative = 0;
@@ -132,7 +132,7 @@ Contracts check_alone(const ir::Program& program, const PassOptions& options, Va
     return result;
 }
 
-// In moderate situations both programs must show the same.
+// Both programs must show the same in moderate situations.
 std::optional<std::string> difference_of_moderate(const ir::Program& any,
                                                   const ir::Program& moderate, Values values,
                                                   std::uint64_t seed, int steps) {

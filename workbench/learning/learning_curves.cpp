@@ -45,7 +45,7 @@ struct Points {
     std::vector<double> x, y;
 };
 
-// Without the rows that have no number, and in the order of x.
+// The points without the rows that have no number, in the order of x.
 Points points_of(const RunProgress& run, const std::string& x, const std::string& y) {
     const std::vector<double>& xs = column_of(run, x);
     const std::vector<double>& ys = column_of(run, y);

@@ -41,7 +41,7 @@ render::Visualizer choose_visualizer(const PictureOptions& options, const Proble
     }
     if (const auto missing = render::missing_fluent(*found, world); !missing.empty()) {
         tell(
-            "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem has not; "
+            "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem lacks; "
             "it is drawn by 'auto'\n",
             name, missing.substr(0, missing.find('|')));
         return *render::find_visualizer("auto");

@@ -122,7 +122,7 @@ class SceneReader {
     SceneNumber read_number(const Json& value) {
         if (value.is_number()) return value.get<double>();
         if (value.is_string()) return add_expression(value, place_of(value), SceneRange::Real);
-        fail(place_of(value), "here stands a number, or a text that is an RDDL expression");
+        fail(place_of(value), "expected a number, or a text with an RDDL expression");
     }
     // A length or a size.
     SceneNumber read_length(const Json& value) {

@@ -48,7 +48,7 @@ std::string when(const auto& event) {
     return fmt::format("episode {}, step {}", event.episode, event.step);
 }
 
-// In the form of the compiler's messages; `count` illegal actions there were in all.
+// Reports in the form of the compiler's messages; `count` is the number of all illegal actions.
 void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
                            Preconditions preconditions, ViolationExplainer& explainer) {
     const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
@@ -89,11 +89,11 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
           name_of(options.rollouts.policy), options.rollouts.seed, name_of(options.load.engine));
-    Table table({{""},
-                 {"mean", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right}});
+    TextTable table({{""},
+                     {"mean", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right}});
     const auto add = [&](std::string what, const solvers::Estimate& s) {
         table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
                        number_text(s.minimum), number_text(s.maximum)});
@@ -199,7 +199,7 @@ void draw_initial_states(const Rollouts& rollouts, PictureWriter& pictures) {
     }
 }
 
-// The name of the episode for people.
+// The name of the episode in titles.
 std::string course_name(const RunOptions& options) {
     return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
                        options.rollouts.seed);

@@ -27,7 +27,7 @@ RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, Place place, t
     return uniform_at(context, place) < p;
 }
 
-// Trials up to the first success: 1, 2, ...; what int cannot hold becomes the greatest int.
+// Trials up to the first success: 1, 2, ...; counts beyond int become the greatest int.
 template <class L>
 typename L::Int geometric(Context<L>& context, Place place, typename L::Real p) {
     using Int = typename L::Int;
