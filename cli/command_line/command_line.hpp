@@ -34,6 +34,7 @@ struct Option {
     std::function<void(const std::string& value)> take;
     std::vector<std::string> choices;      // the only values; empty: any
     std::vector<std::string> suggestions;  // some of any, which shells offer
+    std::vector<std::string> elsewhere;    // what other faces and programs call it
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left
     bool has_commas = false;  // between values of a list

@@ -1,5 +1,6 @@
 // Unary and binary operators.
 #include "check/expressions.hpp"
+#include "check/open_ends.hpp"
 #include "check/types.hpp"
 
 #include <fmt/format.h>
@@ -104,9 +105,10 @@ Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope&
     const bool objects = is_object(left->type) || is_object(right->type);
     if (objects && left->type != right->type) {
         scope.context.report(
-            {not_comparable, place.op_span,
-             fmt::format("cannot compare {} with {}", describe(scope.context, left->type),
-                         describe(scope.context, right->type))});
+            diagnose(not_comparable, place.op_span,
+                     fmt::format("cannot compare {} with {}", describe(scope.context, left->type),
+                                 describe(scope.context, right->type)))
+                .with_hint(hint_for_compared_object(scope)));
         return std::nullopt;
     }
     if (objects && is_order(place.op)) {

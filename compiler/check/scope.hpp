@@ -31,6 +31,12 @@ struct VariableUse {
     model::VariableId variable;
     Span span;
 };
+// An aggregation with the operators that end in it, from the innermost on.
+struct CheckedAggregation {
+    const ast::Expr* whole;
+    std::vector<const ast::Expr*> left;
+    std::vector<model::VariableId> variables;
+};
 
 // One for each CPF, condition and reward.
 struct Scope {
@@ -40,6 +46,7 @@ struct Scope {
     std::vector<FluentUse> fluent_uses = {};
     std::vector<VariableUse> variable_uses = {};
     std::vector<Span> draws = {};
+    std::vector<CheckedAggregation> aggregations = {};
     // The expression that is being checked, with everything around it, outermost first.
     std::vector<const ast::Expr*> path = {};
     std::optional<model::TypeId> range = {};  // an enumerated type that the whole is of

@@ -10,6 +10,7 @@
 #include "ir/builder.hpp"
 #include "ir/layout.hpp"
 #include "ir/verify.hpp"
+#include "model/fingerprint.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -111,7 +112,9 @@ bool reads_reals(const ir::Program& program) {
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
                                   std::int64_t memory_limit) {
     auto program = ground(model, diagnostics, memory_limit, false);
-    if (!program || program->policy || !reads_reals(*program)) return program;
+    if (!program) return program;
+    program->fingerprint = model::fingerprint(model);
+    if (program->policy || !reads_reals(*program)) return program;
     Diagnostics already_reported;
     auto moderate = ground(model, already_reported, memory_limit, true);
     if (moderate) program->moderate = *std::move(moderate);

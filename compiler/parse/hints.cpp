@@ -2,6 +2,7 @@
 
 #include "parse/distribution_names.hpp"
 #include "support/standard.hpp"
+#include "support/suggestion.hpp"
 #include "vocabulary/vocabulary.hpp"
 
 #include <fmt/format.h>
@@ -190,8 +191,7 @@ std::vector<std::string> expected_words(const SyntaxError& error) {
 
 std::string misspelt_word(const SyntaxError& error) {
     if (!is(&error.found(), Parser::ID) && !is(&error.found(), Parser::FLUENT_KIND)) return "";
-    const auto meant = did_you_mean(error.found().getText(), expected_words(error));
-    return meant ? fmt::format("did you mean '{}'?", *meant) : "";
+    return hint_of_name(did_you_mean(error.found().getText(), expected_words(error)));
 }
 
 // rddlsim writes "$s1" for an object; in RDDL of pyRDDLGym '$' calls an external function.

@@ -18,7 +18,6 @@ struct PassDescription {
     std::string_view name;
     std::string_view summary;
     bool only_fast_math;  // runs only with PassOptions::fast_math
-    bool rounds_sums;     // sums and products of reals may be rounded in another order
 };
 // In the order in which they run first; each once.
 std::vector<PassDescription> all_passes();

@@ -230,7 +230,7 @@ bool always_in(Domain domain, Range range) {
         case Domain::Any:
             return true;
         case Domain::Positive:
-            return range.lower > 0;
+            return excludes_zero(range) && range.lower > 0;
         case Domain::NotNegative:
             return range.lower >= 0;
         case Domain::Probability:

@@ -53,7 +53,7 @@ std::optional<Range> product(Range a, Range b) {
 
 // A zero in the divisor makes nan possible.
 std::optional<Range> quotient(Range a, Range b) {
-    if (b.lower <= 0 && b.upper >= 0) return std::nullopt;
+    if (!excludes_zero(b)) return std::nullopt;
     return hull({a.lower / b.lower, a.lower / b.upper, a.upper / b.lower, a.upper / b.upper});
 }
 

@@ -43,7 +43,8 @@ bool is_finite(const Range& range) {
 }
 
 bool excludes_zero(const std::optional<Range>& range) {
-    return range && (range->lower > 0 || range->upper < 0);
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    return range && (range->lower >= least || range->upper <= -least);
 }
 
 Range range_of_sum(const Range& term, double count) {

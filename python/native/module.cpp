@@ -1,16 +1,16 @@
 // The native part of the Python package; users import python/rddlc/.
 #include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
+#include "native/env_pool.hpp"
 #include "native/learners.hpp"
 #include "native/painter.hpp"
 #include "native/problem.hpp"
 #include "native/row_writer.hpp"
-#include "native/vector_env.hpp"
 
 NB_MODULE(_native, module) {
     module.doc() = "Simulators of RDDL problems, for the package rddlc.";
     rddlc::python::add_problem(module);
-    rddlc::python::add_vector_env(module);
+    rddlc::python::add_env_pool(module);
     rddlc::python::add_row_writer(module);
     rddlc::python::add_dictionary_writer(module);
     rddlc::python::add_enumeration(module);

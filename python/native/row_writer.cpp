@@ -73,7 +73,7 @@ std::optional<std::int64_t> whole_of(nb::handle given) {
 
 }  // namespace
 
-RowWriter::RowWriter(VectorEnv& batch, std::int64_t first, std::vector<RowLimits> limits,
+RowWriter::RowWriter(EnvPool& batch, std::int64_t first, std::vector<RowLimits> limits,
                      bool categories, RowChanges changes)
     : batch_(batch),
       first_(first),
@@ -163,7 +163,7 @@ void add_row_writer(nb::module_& module) {
                           "does not take.")
         .def(
             "__init__",
-            [](RowWriter* self, VectorEnv& batch, std::int64_t first,
+            [](RowWriter* self, EnvPool& batch, std::int64_t first,
                const std::vector<std::tuple<float, float, float>>& limits, bool categories,
                std::tuple<std::vector<std::int64_t>, std::vector<float>, std::vector<float>>
                    changes) {

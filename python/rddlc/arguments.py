@@ -71,6 +71,18 @@ def finite(name: str, given: Any) -> float:
     return number
 
 
+def text(name: str, given: Any) -> str:
+    if not isinstance(given, str):
+        raise ArgumentError(f"{name} is {shown(given)}, which is not a str")
+    return given
+
+
+def flag(name: str, given: Any) -> bool:
+    if not isinstance(given, (bool, np.bool_)):
+        raise ArgumentError(f"{name} is {shown(given)}, which is neither True nor False")
+    return bool(given)
+
+
 def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
     if not any(given is each or (isinstance(given, str) and given == each) for each in known):
         raise ArgumentError(f"{name} is {shown(given)}, which is not one of {_listed(map(repr, known))}")

@@ -75,7 +75,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         }
         self.problem = problem
         self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self._batch = _native.VectorEnv(
+        self._batch = _native.EnvPool(
             problem.simulator,
             horizon=batch_horizon(horizon),
             records=observations == "dict",
@@ -84,7 +84,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._seed: int | None = None
         # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
-        self._own: _native.VectorEnv | None = None  # a batch that has the episode's own
+        self._own: _native.EnvPool | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
@@ -374,7 +374,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self.spec,
         )
 
-    def _take(self, other: RDDLEnv, batch: _native.VectorEnv) -> None:
+    def _take(self, other: RDDLEnv, batch: _native.EnvPool) -> None:
         self._batch = batch
         self._connect()
         self._seed, self._ended, self._luck = other._seed, other._ended, other._luck

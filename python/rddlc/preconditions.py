@@ -13,7 +13,7 @@ from .translation.protocols import ActionWriter
 
 
 def check_preconditions(
-    problem: Problem, batch: _native.Batch, writer: ActionWriter, actions: Any
+    problem: Problem, batch: _native.EnvPool, writer: ActionWriter, actions: Any
 ) -> None:
     """Raises ActionError, which tells the first environment, where there are several, and objects."""
     records = writer.records(actions)
@@ -25,11 +25,11 @@ def check_preconditions(
     raise ActionError(reason if len(records) == 1 else f"environment {place}: {reason}")
 
 
-def _reason(problem: Problem, batch: _native.Batch, place: int, records: Any) -> str:
+def _reason(problem: Problem, batch: _native.EnvPool, place: int, records: Any) -> str:
     if problem.has_details:
         batch.actions[:] = records
         return batch.explain_violation(place)
-    single = _native.VectorEnv(problem.detailed, values=False)
+    single = _native.EnvPool(problem.detailed, values=False)
     single.reset()
     state = np.zeros(problem.model.state_size, np.uint8)
     batch.read_state(place, state)

@@ -27,10 +27,10 @@ class Renderer:
         self._window: Any = None
         self._clock: Any = None
 
-    def begin(self, batch: _native.VectorEnv, horizon: int) -> None:
+    def begin(self, batch: _native.EnvPool, horizon: int) -> None:
         self._painter.begin(batch, horizon)
 
-    def add_step(self, batch: _native.VectorEnv, end: str) -> None:
+    def add_step(self, batch: _native.EnvPool, end: str) -> None:
         self._painter.add_step(batch, end)
 
     def pixels(self) -> NDArray[np.uint8]:

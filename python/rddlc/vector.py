@@ -1,4 +1,7 @@
-"""Many environments of a problem, stepped together."""
+"""Many environments of a problem, stepped together.
+
+Over 400 lines: one class with the whole interface of gymnasium's vector environments.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +94,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.problem, self.num_envs = problem, whole("num_envs", num_envs, 1)
         self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "autoreset_mode": self._forms["autoreset_mode"]}
-        self._batch = _native.VectorEnv(
+        self._batch = _native.EnvPool(
             problem.simulator,
             environments=self.num_envs,
             threads=self._forms["threads"],
@@ -400,7 +403,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         renderer = self._renderer
         if renderer is None or not self._has_begun:
             return None
-        single = _native.VectorEnv(self.problem.simulator)
+        single = _native.EnvPool(self.problem.simulator)
         single.reset()
         pictures = []
         for state in self.get_states():

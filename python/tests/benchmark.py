@@ -80,7 +80,7 @@ def of_batch(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
 
 def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
     """The batch engine without Python's spaces: records that stay as they are."""
-    batch = rddlc._native.VectorEnv(
+    batch = rddlc._native.EnvPool(
         problem.simulator, environments=ENVIRONMENTS, threads=1, autoreset=1, values=False
     )
 

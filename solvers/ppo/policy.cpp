@@ -2,6 +2,7 @@
 
 #include "solvers/batches/batch.hpp"
 #include "solvers/choosing/choosing.hpp"
+#include "solvers/files/fingerprint.hpp"
 #include "solvers/ppo/memories.hpp"
 #include "solvers/ppo/state_noise.hpp"
 

@@ -137,11 +137,28 @@ TEST_F(PolicyFiles, OfTwoInAFolderRunJsonSaysWhich) {
     std::filesystem::copy(folder_ / "p/run.json", folder_ / "r/run.json",
                           std::filesystem::copy_options::overwrite_existing);
     EXPECT_EQ(mean_of("r"), mean_of("r/policy.json"));
-    for (const char* const run_json : {"", "[]", "{\"solver\":1}", "{\"solver\":\"x\"}", "1e999"}) {
+    std::filesystem::remove(folder_ / "r/run.json");
+    refuses(run("evaluate" + on("instance.rddl", "--policy r")),
+            "holds policy.cgp and policy.json, and no run.json that says which");
+}
+
+TEST_F(PolicyFiles, OfAFolderWhoseRunJsonMakesNoSenseAreRefused) {
+    ASSERT_EQ(train("cgp", "--gens 4 --out r").status, 0);
+    const std::pair<std::string, const char*> wrong[] = {
+        {"", "is no JSON of a run"},
+        {"[]", "is no JSON of a run: it is not an object"},
+        {"{\"solver\":1}", "'solver' is a text, not 1"},
+        {"{\"solver\":\"cgp\",\"domain\":[2]}", "'domain' is a text, not [2]"},
+        {"{\"solver\":\"x\"}", "'x' is neither ppo nor cgp"},
+        {"{\"seed\":1}", "does not tell the solver of a run"},
+        {"1e999", "is no JSON of a run"},
+        {"{\"solver\":\"ppo\"}", "there is no policy.json in the folder 'r'"}};
+    for (const auto& [run_json, message] : wrong) {
         write_file(folder_ / "r/run.json", run_json);
-        refuses(run("evaluate" + on("instance.rddl", "--policy r")),
-                "holds policy.cgp and policy.json, and no run.json that says which");
+        refuses(run("evaluate" + on("instance.rddl", "--policy r")), message);
     }
+    std::filesystem::remove(folder_ / "r/run.json");
+    EXPECT_EQ(run("evaluate" + on("instance.rddl", "--policy r")).status, 0);
 }
 
 TEST_F(PolicyFiles, OfAnEarlierRunAreRemovedOnceThereAreNewOnes) {

@@ -5,6 +5,7 @@
 #include "formats/trace.hpp"
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
+#include "support/suggestion.hpp"
 
 #include <rddl/random/random.hpp>
 
@@ -51,8 +52,7 @@ void check_members(const json& line) {
     for (const auto& [name, value] : line.items()) {
         if (contains(understood, name) || contains(ignored_members, name)) continue;
         const auto near = did_you_mean(name, {understood.begin(), understood.end()});
-        throw Refusal{fmt::format("unknown member '{}'{}", name,
-                                  near ? fmt::format("; did you mean '{}'?", *near) : "")};
+        throw Refusal{fmt::format("unknown member '{}'{}", name, ending_with_name(near))};
     }
 }
 

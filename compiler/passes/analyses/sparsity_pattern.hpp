@@ -27,6 +27,13 @@ class SparsityPattern {
     // either sign. None where nothing useful is known.
     std::optional<Relation> of(ir::NodeId id, const ir::Value& value);
 
+    // For all other assignments a term of a sum is a zero if each of the factors is finite that are
+    // added to `doubtful`, and nan if one is not. None where nothing useful is known.
+    std::optional<Relation> of_term(ir::NodeId id, std::vector<ir::NodeId>& doubtful);
+
+    // Whether any of the nodes depends on the variable.
+    bool depend(std::span<const ir::NodeId> nodes, ir::VariableId variable) const;
+
     // The value of a uniform node for a tuple of axes that hold all its variables; none if it
     // faults.
     std::optional<ir::Value> evaluate(ir::NodeId id, std::span<const Axis> axes,
@@ -41,6 +48,7 @@ class SparsityPattern {
     Found of(const ir::Select& select, const ir::Value& value);
     Found of(const ir::Reduce& reduce, const ir::Value& value);
     Found of(const ir::Sample& sample, const ir::Value& value);
+    Found of_doubtful_product(ir::NodeId a, ir::NodeId b, std::vector<ir::NodeId>& doubtful);
     Found of_common_elements(ir::NodeId id, const ir::Value& value);
     Found entries_of_tables(ir::NodeId id);
     Found of_equality(ir::NodeId a, ir::NodeId b);

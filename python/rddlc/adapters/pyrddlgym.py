@@ -48,7 +48,7 @@ class RDDLSimulator(Interpreted):
         super().__init__(*arguments, **options)
         self.problem = problem
         model = problem.model
-        self._batch = _native.VectorEnv(problem.simulator, horizon=NO_HORIZON, values=False)
+        self._batch = _native.EnvPool(problem.simulator, horizon=NO_HORIZON, values=False)
         self._causes = 0
         self._record = np.zeros((1, model.state_size), np.uint8)
         self._actions = lifted_views(self._batch.actions, model.actions)

@@ -27,7 +27,7 @@ class ChoiceActions:
     """
 
     def __init__(
-        self, problem: Problem, batch: _native.VectorEnv, *, box: bool, normalize: bool
+        self, problem: Problem, batch: _native.EnvPool, *, box: bool, normalize: bool
     ) -> None:
         self.plan: ActionPlan = plan_of(problem)
         self._batch, self._values = batch, batch.action_values

@@ -28,7 +28,7 @@ class DictionaryActions(ABC):
     plan = None
 
     def __init__(
-        self, problem: Problem, batch: _native.VectorEnv, counted: list[bool], *, grounded: bool
+        self, problem: Problem, batch: _native.EnvPool, counted: list[bool], *, grounded: bool
     ) -> None:
         model = problem.model
         self._batch, self._written, self._asked = batch, batch.actions, np.zeros_like(batch.actions)
@@ -84,7 +84,7 @@ class SingleActions(DictionaryActions):
     max-nondef-actions also counts ints, objects and reals."""
 
     def __init__(
-        self, problem: Problem, batch: _native.VectorEnv, *, lifted: bool, limits_all: bool
+        self, problem: Problem, batch: _native.EnvPool, *, lifted: bool, limits_all: bool
     ) -> None:
         model = problem.model
         columns = columns_of(model.actions)
@@ -120,7 +120,7 @@ class SingleActions(DictionaryActions):
 class LiftedActions(DictionaryActions):
     """The actions {"push": (n, *shape), ...} of a batch."""
 
-    def __init__(self, problem: Problem, batch: _native.VectorEnv) -> None:
+    def __init__(self, problem: Problem, batch: _native.EnvPool) -> None:
         model = problem.model
         counted = [True] * sum(fluent.count for fluent in model.actions)
         super().__init__(problem, batch, counted, grounded=False)

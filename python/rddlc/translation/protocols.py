@@ -47,7 +47,7 @@ class ActionWriter(Protocol):
         """How categories and numbers set action values; None: actions are dictionaries of values."""
 
     def step(self, actions: Any, into: Any = None) -> bool:
-        """A step by these actions; `into`: see `_native.VectorEnv.step`. Whether an episode has ended."""
+        """A step by these actions; `into`: see `_native.EnvPool.step`. Whether an episode has ended."""
 
     def violated(self, actions: Any) -> NDArray[np.bool_]:
         """(environments,): whether an action violates a precondition; nothing is changed."""

@@ -1,5 +1,5 @@
 // The batch as Python sees it.
-#include "native/vector_env.hpp"
+#include "native/env_pool.hpp"
 
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
@@ -38,33 +38,33 @@ Array column(nb::handle owner, void* data, std::int64_t count, nb::dlpack::dtype
     return Array(data, 1, shape, owner, nullptr, type);
 }
 
-VectorEnv& vector_env_of(nb::handle self) {
-    return nb::cast<VectorEnv&>(self);
+EnvPool& env_pool_of(nb::handle self) {
+    return nb::cast<EnvPool&>(self);
 }
 
 template <auto member>
 Array records(nb::handle self, std::int64_t size) {
-    VectorEnv& batch = vector_env_of(self);
+    EnvPool& batch = env_pool_of(self);
     return rows(self, (batch.arrays().*member).data(), batch.settings().environments, size,
                 nb::dtype<std::uint8_t>());
 }
 
 template <auto member>
 Array matrix(nb::handle self, std::int64_t columns) {
-    VectorEnv& batch = vector_env_of(self);
+    EnvPool& batch = env_pool_of(self);
     return rows(self, (batch.arrays().*member).data(), batch.settings().environments, columns,
                 batch.settings().doubles ? nb::dtype<double>() : nb::dtype<float>());
 }
 
 template <auto member, class T>
 Array numbers(nb::handle self) {
-    VectorEnv& batch = vector_env_of(self);
+    EnvPool& batch = env_pool_of(self);
     return column(self, (batch.arrays().*member).data(), batch.settings().environments,
                   nb::dtype<T>());
 }
 
 const rddl_problem& problem_of(nb::handle self) {
-    return *vector_env_of(self).simulator().problem;
+    return *env_pool_of(self).simulator().problem;
 }
 
 std::byte* bytes_of(const Bytes& array, std::int64_t size) {
@@ -73,8 +73,8 @@ std::byte* bytes_of(const Bytes& array, std::int64_t size) {
     return reinterpret_cast<std::byte*>(array.data());
 }
 
-void add_arrays(nb::class_<VectorEnv>& batch) {
-    using Arrays = VectorEnv::Arrays;
+void add_arrays(nb::class_<EnvPool>& batch) {
+    using Arrays = EnvPool::Arrays;
     batch
         .def_prop_ro("actions",
                      [](nb::handle self) {
@@ -92,18 +92,18 @@ void add_arrays(nb::class_<VectorEnv>& batch) {
                      })
         .def_prop_ro("action_values",
                      [](nb::handle self) {
-                         return matrix<&Arrays::action_values>(
-                             self, vector_env_of(self).action_columns());
+                         return matrix<&Arrays::action_values>(self,
+                                                               env_pool_of(self).action_columns());
                      })
         .def_prop_ro("observation_values",
                      [](nb::handle self) {
                          return matrix<&Arrays::observation_values>(
-                             self, vector_env_of(self).observation_columns());
+                             self, env_pool_of(self).observation_columns());
                      })
         .def_prop_ro("final_values",
                      [](nb::handle self) {
                          return matrix<&Arrays::final_values>(
-                             self, vector_env_of(self).observation_columns());
+                             self, env_pool_of(self).observation_columns());
                      })
         .def_prop_ro("rewards", numbers<&Arrays::rewards, double>)
         .def_prop_ro("terminated", numbers<&Arrays::terminated, bool>)
@@ -111,16 +111,16 @@ void add_arrays(nb::class_<VectorEnv>& batch) {
         .def_prop_ro("causes", numbers<&Arrays::causes, std::uint8_t>);
 }
 
-void add_states(nb::class_<VectorEnv>& batch) {
+void add_states(nb::class_<EnvPool>& batch) {
     batch
         .def("read_state",
-             [](VectorEnv& self, std::int64_t environment, const Bytes& record) {
+             [](EnvPool& self, std::int64_t environment, const Bytes& record) {
                  self.read_state(environment,
                                  bytes_of(record, self.simulator().problem->state_size));
              })
         .def(
             "write_state",
-            [](VectorEnv& self, std::int64_t environment, const ConstBytes& record,
+            [](EnvPool& self, std::int64_t environment, const ConstBytes& record,
                std::int64_t steps) {
                 const std::int64_t size = self.simulator().problem->state_size;
                 if (static_cast<std::int64_t>(record.size()) != size)
@@ -130,7 +130,7 @@ void add_states(nb::class_<VectorEnv>& batch) {
             })
         .def(
             "write_states",
-            [](VectorEnv& self, const Integers& places, const Records& records,
+            [](EnvPool& self, const Integers& places, const Records& records,
                const Integers& steps) {
                 const std::size_t count = places.size();
                 const auto size = static_cast<std::size_t>(self.simulator().problem->state_size);
@@ -144,7 +144,7 @@ void add_states(nb::class_<VectorEnv>& batch) {
             nb::arg("places"), nb::arg("records"), nb::arg("steps"))
         .def(
             "read_states",
-            [](VectorEnv& self, const Matrix& records, const Counts& steps, const Counts& episodes,
+            [](EnvPool& self, const Matrix& records, const Counts& steps, const Counts& episodes,
                const Bytes& causes) {
                 const auto count = static_cast<std::size_t>(self.settings().environments);
                 const auto size = static_cast<std::size_t>(self.simulator().problem->state_size);
@@ -156,43 +156,41 @@ void add_states(nb::class_<VectorEnv>& batch) {
                                  episodes.data(), causes.data());
             },
             nb::arg("records"), nb::arg("steps"), nb::arg("episodes"), nb::arg("causes"))
-        .def("become", &VectorEnv::become, nb::arg("other"))
+        .def("become", &EnvPool::become, nb::arg("other"))
         .def("read_interm",
-             [](VectorEnv& self, std::int64_t environment, const Bytes& record) {
+             [](EnvPool& self, std::int64_t environment, const Bytes& record) {
                  self.read_interm(environment,
                                   bytes_of(record, self.simulator().problem->interm_size));
              })
-        .def("progress", &VectorEnv::progress,
-             "Steps of the episode, and episodes ended before it.")
-        .def("causes_of", &VectorEnv::causes)
-        .def("fault", &VectorEnv::fault);
+        .def("progress", &EnvPool::progress, "Steps of the episode, and episodes ended before it.")
+        .def("causes_of", &EnvPool::causes)
+        .def("fault", &EnvPool::fault);
 }
 
 }  // namespace
 
-void add_vector_env(nb::module_& module) {
-    nb::class_<VectorEnv> batch(
-        module, "VectorEnv", "Environments, and the arrays that they read and fill: a row each.");
+void add_env_pool(nb::module_& module) {
+    nb::class_<EnvPool> batch(module, "EnvPool",
+                              "Environments, and the arrays that they read and fill: a row each.");
     batch.def(
         "__init__",
-        [](VectorEnv* self, const workbench::LoadedProblem& problem, std::int64_t environments,
+        [](EnvPool* self, const workbench::LoadedProblem& problem, std::int64_t environments,
            int threads, int autoreset, std::int64_t horizon, bool doubles, bool records,
            bool values) {
-            new (self) VectorEnv(problem.simulator,
-                                 {environments, threads, static_cast<rddl_autoreset>(autoreset),
-                                  horizon, doubles, records, values});
+            new (self) EnvPool(problem.simulator,
+                               {environments, threads, static_cast<rddl_autoreset>(autoreset),
+                                horizon, doubles, records, values});
         },
         nb::arg("simulator"), nb::arg("environments") = 1, nb::arg("threads") = 1,
         nb::arg("autoreset") = 0, nb::arg("horizon") = 0, nb::arg("doubles") = false,
         nb::arg("records") = true, nb::arg("values") = true);
-    batch.def("copy", [](VectorEnv& self) {
+    batch.def("copy", [](EnvPool& self) {
         self.finish();
-        return new VectorEnv(self);
+        return new EnvPool(self);
     });
     batch.def(
         "reset",
-        [](VectorEnv& self,
-           std::optional<nb::ndarray<const bool, nb::ndim<1>, nb::c_contig>> mask) {
+        [](EnvPool& self, std::optional<nb::ndarray<const bool, nb::ndim<1>, nb::c_contig>> mask) {
             if (mask && static_cast<std::int64_t>(mask->size()) != self.settings().environments)
                 throw Refused(fmt::format("the mask has {} entries for {} environments",
                                           mask->size(), self.settings().environments));
@@ -201,44 +199,44 @@ void add_vector_env(nb::module_& module) {
         nb::arg("mask") = nb::none());
     batch.def(
         "step",
-        [](VectorEnv& self, const nb::object& into) { return self.step(self.outputs_in(into)); },
+        [](EnvPool& self, const nb::object& into) { return self.step(self.outputs_in(into)); },
         nb::arg("into") = nb::none());
     batch.def(
         "step_values",
-        [](VectorEnv& self, const nb::object& into) {
+        [](EnvPool& self, const nb::object& into) {
             return self.step_values(self.outputs_in(into));
         },
         nb::arg("into") = nb::none());
-    batch.def("finish", &VectorEnv::finish, "Waits for a step that Ctrl-C has left.");
-    batch.def("set_seed", &VectorEnv::set_seed);
+    batch.def("finish", &EnvPool::finish, "Waits for a step that Ctrl-C has left.");
+    batch.def("set_seed", &EnvPool::set_seed);
     batch.def("set_seeds",
-              [](VectorEnv& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
+              [](EnvPool& self, std::int64_t begin, const std::vector<std::uint64_t>& seeds) {
                   self.set_seeds(begin, seeds);
               });
-    batch.def("violated_preconditions", [](VectorEnv& self, const Records& records) {
+    batch.def("violated_preconditions", [](EnvPool& self, const Records& records) {
         return self.violated_preconditions(
             std::as_bytes(std::span(records.data(), records.size())));
     });
-    batch.def("violated_preconditions", [](VectorEnv& self, const Values& values) {
+    batch.def("violated_preconditions", [](EnvPool& self, const Values& values) {
         return self.violated_preconditions(std::span(values.data(), values.size()));
     });
-    batch.def("explain_violation", &VectorEnv::explain_violation);
-    batch.def("choice_count", [](const VectorEnv& self) {
+    batch.def("explain_violation", &EnvPool::explain_violation);
+    batch.def("choice_count", [](const EnvPool& self) {
         return self.simulator().action_choice_count(&self.simulator());
     });
-    batch.def("choice", [](const VectorEnv& self, std::int64_t choice) {
+    batch.def("choice", [](const EnvPool& self, std::int64_t choice) {
         rddl_choice out{};
         out.struct_size = sizeof out;
         check(self.simulator(),
               self.simulator().action_choice(&self.simulator(), choice, nullptr, &out));
         return nb::make_tuple(out.fluent, out.grounding, out.value);
     });
-    batch.def("action_masks", [](VectorEnv& self, const Bytes& masks) {
+    batch.def("action_masks", [](EnvPool& self, const Bytes& masks) {
         const std::int64_t choices = self.simulator().action_choice_count(&self.simulator());
         self.action_masks(reinterpret_cast<std::uint8_t*>(
             bytes_of(masks, self.settings().environments * choices)));
     });
-    batch.def("act", &VectorEnv::act, "The policy block's actions, into `actions`.");
+    batch.def("act", &EnvPool::act, "The policy block's actions, into `actions`.");
     add_arrays(batch);
     add_states(batch);
 }

@@ -20,7 +20,7 @@
 
 namespace rddlc::python {
 
-struct VectorEnvSettings {
+struct EnvPoolSettings {
     std::int64_t environments = 1;
     int threads = 0;  // 0: one per core
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
@@ -41,15 +41,15 @@ struct Outputs {
 // Its arrays stay where they are, so that Python reads them without copies. Values are the same
 // numbers as records, a column each. Functions that step release Python's lock. A step that Ctrl-C
 // interrupts still completes; the next call waits for it.
-class VectorEnv {
+class EnvPool {
   public:
-    VectorEnv(workbench::Simulator simulator, const VectorEnvSettings& settings);
-    VectorEnv(const VectorEnv& other);
-    VectorEnv& operator=(const VectorEnv&) = delete;
+    EnvPool(workbench::Simulator simulator, const EnvPoolSettings& settings);
+    EnvPool(const EnvPool& other);
+    EnvPool& operator=(const EnvPool&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
     const workbench::Simulator& shared_simulator() const { return simulator_; }
-    const VectorEnvSettings& settings() const { return settings_; }
+    const EnvPoolSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
@@ -77,7 +77,7 @@ class VectorEnv {
                       std::span<const std::int64_t> steps);
     // Its environments, and what they will draw, are those of the other, which has as many of the
     // same simulator.
-    void become(VectorEnv& other);
+    void become(EnvPool& other);
     void read_interm(std::int64_t environment, std::byte* record);
     std::pair<std::int64_t, std::int64_t> progress(std::int64_t environment);  // steps, episodes
     std::uint8_t causes(std::int64_t environment);
@@ -112,7 +112,7 @@ class VectorEnv {
     bool has_ended() const;
 
     workbench::Simulator simulator_;  // outlives the batch
-    VectorEnvSettings settings_;
+    EnvPoolSettings settings_;
     solvers::BatchHandle batch_;
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
@@ -121,6 +121,6 @@ class VectorEnv {
     LongCalls calls_;  // the last one: a step that still runs writes into the others
 };
 
-void add_vector_env(nanobind::module_& module);
+void add_env_pool(nanobind::module_& module);
 
 }  // namespace rddlc::python
