@@ -6,7 +6,7 @@
 
 namespace rddlc {
 
-// As a hint: "did you mean 'x'?", or "".
+// The hint "did you mean 'x'?", or "".
 inline std::string hint_of_name(const std::optional<std::string>& near) {
     return near ? "did you mean '" + *near + "'?" : "";
 }

@@ -109,7 +109,7 @@ std::vector<NodeId> roots_of(const Computation& computation);
 // All of the program: the step, the reward, the conditions and the policy.
 std::vector<NodeId> roots_of(const Program& program);
 
-// By NodeId::index: whether the node is part of something that the program evaluates.
+// Whether each node, by NodeId::index, is part of something that the program evaluates.
 std::vector<bool> reachable_nodes(const Program& program);
 
 // The buffers of the state and the action whose reals have a range, so that a step relies on it.

@@ -214,7 +214,7 @@ std::string formula_of_text(const LoadedProblem& problem, const std::string& tex
 }
 
 nb::bytes policy_of_file(const nb::object& path) {
-    const std::string text = cli::policy_text(path_of(path));
+    const std::string text = workbench::policy_text(path_of(path));
     return nb::bytes(text.data(), text.size());
 }
 

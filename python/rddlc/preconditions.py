@@ -15,7 +15,7 @@ from .translation.protocols import ActionWriter
 def check_preconditions(
     problem: Problem, batch: _native.EnvPool, writer: ActionWriter, actions: Any
 ) -> None:
-    """Raises ActionError, which tells the first environment, where there are several, and objects."""
+    """Raises ActionError, which names the first environment, if there are several, and objects."""
     records = writer.records(actions)
     violated = np.flatnonzero(np.array(batch.violated_preconditions(records)) >= 0)
     if not len(violated):

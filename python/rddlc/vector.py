@@ -112,7 +112,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._connect()
 
     def _connect(self) -> None:
-        """All that looks at the batch's arrays."""
+        """Binds everything that reads the batch's arrays."""
         batch, forms = self._batch, self._forms
         self._reader = observation_reader(
             self.model.observed,
@@ -199,7 +199,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return (shared,) * self.num_envs
 
     def get_attr(self, name: str) -> tuple[Any, ...]:
-        """As `call` without arguments."""
+        """Does the same as `call` without arguments."""
         return self.call(name)
 
     def _state_rows(self) -> list[dict[str, Any]]:
@@ -374,8 +374,8 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         replay: bool = False,
     ) -> Any:
-        """Episodes go on from there: all from one state, or each from its own; None: it stays as it is.
-        Environments draw independently of each other. Returns observations.
+        """Episodes continue from there: all from one state, or each from its own; None: it stays as it
+        is. Environments draw independently of each other. Returns observations.
 
         seed: of the random numbers that follow, also of later episodes: seed + i, or one for each;
             None: they are drawn from `np_random`.
@@ -418,7 +418,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     # ---- copies
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RDDLVectorEnv:
-        """What follows is the same in both as long as the actions are."""
+        """Returns a copy. The future is the same in both as long as the actions are."""
         copy = type(self)(self.problem, self.num_envs, **self._forms)
         copy._batch = self._batch.copy()
         copy._connect()
@@ -442,7 +442,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         go_on_from(self.single_action_space, spaces[1])
 
     def _go_to(self, seeds: list[int], records: Any, steps: Any, episodes: Any, ended: Any) -> None:
-        """As after these episodes of the seeds."""
+        """Goes to the state after these episodes of the seeds."""
         self._seeds = list(seeds)
         self._batch.set_seeds(0, seeds)
         self._batch.reset()

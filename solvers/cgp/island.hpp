@@ -287,7 +287,7 @@ class Island {
             }
         }
         mean_of_children_ = count > 0 ? sum / count : 0;
-        // As long as no program beats the first one, programs grow and shrink freely.
+        // Programs grow and shrink freely as long as no program beats the first one.
         replaced_ = explores             ? !sees_more(fitness_, all[best])
                     : options_.parsimony ? !is_better(fitness_, all[best])
                                          : !beats(fitness_, all[best]);

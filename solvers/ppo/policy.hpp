@@ -1,4 +1,4 @@
-// What PPO has learned, as a policy.
+// The policy that PPO has learned.
 #pragma once
 
 #include "solvers/policies/policy.hpp"

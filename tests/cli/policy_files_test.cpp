@@ -145,13 +145,13 @@ TEST_F(PolicyFiles, OfTwoInAFolderRunJsonSaysWhich) {
 TEST_F(PolicyFiles, OfAFolderWhoseRunJsonMakesNoSenseAreRefused) {
     ASSERT_EQ(train("cgp", "--gens 4 --out r").status, 0);
     const std::pair<std::string, const char*> wrong[] = {
-        {"", "is no JSON of a run"},
-        {"[]", "is no JSON of a run: it is not an object"},
+        {"", "is not the JSON of a run"},
+        {"[]", "is not the JSON of a run: it is not an object"},
         {"{\"solver\":1}", "'solver' is a text, not 1"},
         {"{\"solver\":\"cgp\",\"domain\":[2]}", "'domain' is a text, not [2]"},
         {"{\"solver\":\"x\"}", "'x' is neither ppo nor cgp"},
-        {"{\"seed\":1}", "does not tell the solver of a run"},
-        {"1e999", "is no JSON of a run"},
+        {"{\"seed\":1}", "does not state the solver of a run"},
+        {"1e999", "is not the JSON of a run"},
         {"{\"solver\":\"ppo\"}", "there is no policy.json in the folder 'r'"}};
     for (const auto& [run_json, message] : wrong) {
         write_file(folder_ / "r/run.json", run_json);

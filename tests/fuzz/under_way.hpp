@@ -17,7 +17,7 @@ inline void limit_processor_time(time_t seconds) {
     setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
-// What `exercise()` gives. The input is in `file` meanwhile.
+// The result of `exercise()`. The input is in `file` meanwhile.
 template <class Exercise>
 auto guarded(const char* file, const std::string& input, Exercise&& exercise) {
     constexpr time_t longest = 20;  // seconds of the processor

@@ -1,4 +1,4 @@
-// Which problem a trace is of.
+// Finds the problem of a trace.
 #pragma once
 
 #include "problems/problem_lookup.hpp"

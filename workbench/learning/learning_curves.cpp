@@ -178,7 +178,7 @@ std::optional<nlohmann::json> run_in(const fs::path& folder) {
     const fs::path file = run_file(folder);
     if (!is_there(file)) return std::nullopt;
     const auto fail = [&](const std::string& why) {
-        throw Failure(fmt::format("'{}' is no JSON of a run: {}", file.string(), why));
+        throw Failure(fmt::format("'{}' is not the JSON of a run: {}", file.string(), why));
     };
     nlohmann::json run;
     try {

@@ -1,4 +1,4 @@
-// Which runs make one learning curve.
+// Groups the runs that make one learning curve.
 #pragma once
 
 #include "learning/learning_curves.hpp"
@@ -19,8 +19,8 @@ struct RunGroup {
 // each run is one.
 std::vector<RunGroup> run_groups(const std::vector<std::string>& paths, bool each_alone);
 
-// "steps" or "generations"; empty where solvers differ: a step of one is a generation of another, so
-// side by side, they have only time in common.
+// "steps" or "generations"; empty where solvers differ: a step of one is a generation of another,
+// so side by side, they have only time in common.
 std::string steps_title(const std::vector<RunGroup>& groups);
 
 }  // namespace rddlc::workbench

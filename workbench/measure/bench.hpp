@@ -1,4 +1,4 @@
-// What a problem costs to compile, how fast it steps, and how fast others step it.
+// Measures the cost of compiling a problem, its speed, and the speed of other simulators.
 #pragma once
 
 #include "engines/load_simulator.hpp"

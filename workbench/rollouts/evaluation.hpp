@@ -1,4 +1,4 @@
-// What a policy reaches in many episodes.
+// The returns of a policy in many episodes.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"
@@ -25,8 +25,8 @@ struct Evaluation {
 Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
                     const solvers::EpisodeOptions& options, bool random, bool quiet);
 
-// The mean return of the last episodes while PPO learned, with random actions; nothing if the policy
-// is not a run that reports it.
+// The mean return of the last episodes while PPO learned, with random actions; nothing if the
+// policy is not a run that reports it.
 std::optional<double> learned_return(const std::string& policy);
 
 }  // namespace rddlc::workbench

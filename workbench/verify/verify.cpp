@@ -67,11 +67,10 @@ std::optional<PyRddlGymComparison> ask_pyrddlgym(const VerifySettings& options,
 
 }  // namespace
 
-VerifyReport verify_problem(const VerifiedProblem& problem, const std::string& words,
-                            const VerifySettings& options,
+VerifyReport verify_problem(const VerifiedProblem& problem, const OutcomeComparison& comparison,
+                            const std::string& words, const VerifySettings& options,
                             std::chrono::steady_clock::time_point begin) {
     if (options.policy == Policy::Rddl) require_policy(problem);
-    const OutcomeComparison comparison(problem.description());
     VerifyReport report{
         problem, comparison, words, options.seed, walk(problem, comparison, options, begin),
         {},      {}};

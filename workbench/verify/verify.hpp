@@ -22,10 +22,10 @@ struct VerifySettings {
     bool quiet = false;                  // no progress bar
 };
 
-// The problem has engines, and must outlive the report. `words` are those by which the user named
-// it; the time counts from `begin` on.
-VerifyReport verify_problem(const VerifiedProblem& problem, const std::string& words,
-                            const VerifySettings& options,
+// The problem has engines; it and the comparison, which is of the problem, must outlive the report.
+// `words` are those by which the user named it; the time counts from `begin` on.
+VerifyReport verify_problem(const VerifiedProblem& problem, const OutcomeComparison& comparison,
+                            const std::string& words, const VerifySettings& options,
                             std::chrono::steady_clock::time_point begin);
 
 }  // namespace rddlc::workbench

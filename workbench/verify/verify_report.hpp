@@ -15,7 +15,7 @@ namespace rddlc::workbench {
 
 struct VerifyReport {
     const VerifiedProblem& problem;
-    OutcomeComparison comparison;
+    const OutcomeComparison& comparison;
     std::string words;  // the problem as the user named it, for commands
     std::uint64_t seed = 0;
     Walk walk;

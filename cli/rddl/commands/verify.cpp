@@ -37,7 +37,8 @@ ExitStatus verify(const VerifyOptions& options) {
                                  : invalid_program_text(problem, words));
         return diagnosed;
     }
-    const VerifyReport report = verify_problem(problem, words, options.settings, begin);
+    const OutcomeComparison comparison(problem.description());
+    const VerifyReport report = verify_problem(problem, comparison, words, options.settings, begin);
     if (options.json)
         print("{}", json_document(report_json(report)));
     else if (!report.agrees())
@@ -78,8 +79,7 @@ void add_compared_options(Command& command, VerifyOptions& options) {
     add_list_option(command, "--lanes", "N,...",
                     "Environments in a pack; each number is compiled by itself (16)", add_lanes)
         .choices = {"1", "8", "16", "32", "64"};
-    add_flag(command, "--no-pyrddlgym",
-             "Leave out pyRDDLGym, which is compared if it is installed",
+    add_flag(command, "--no-pyrddlgym", "Leave out pyRDDLGym, which is compared if it is installed",
              [&options](const std::string&) { options.settings.pyrddlgym = false; });
     add_number_option<std::int64_t>(command, "--pyrddlgym-steps", "N",
                                     "Steps of pyRDDLGym, at most (200)",

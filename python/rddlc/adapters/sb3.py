@@ -130,7 +130,7 @@ class VecEnv(Base):
     def env_method(
         self, method_name: str, *method_args: Any, indices: Indices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """As `RDDLVectorEnv.call`: MaskablePPO asks for "action_masks" in this way."""
+        """Does the same as `RDDLVectorEnv.call`: MaskablePPO asks for "action_masks" in this way."""
         rows = self.env.call(method_name, *method_args, **method_kwargs)
         return [rows[place] for place in self._get_indices(indices)]
 

@@ -32,7 +32,7 @@ class NamedValues:
             begin += fluent.count
 
     def values(self, given: Mapping[str, Any]) -> list[Any]:
-        """Of all columns, as Python numbers; names that are absent get their default."""
+        """Returns the values of all columns, as Python numbers; missing names get their default."""
         values = list(self._defaults)
         try:
             items = given.items()
@@ -65,7 +65,7 @@ class NamedValues:
 
 
 class _Entry:
-    """What a value may be."""
+    """The type and bounds of a value."""
 
     def __init__(self, column: Column, what: str, error: type[Error]) -> None:
         self._name, self._error = f"{what} '{column.name}'", error
@@ -75,7 +75,7 @@ class _Entry:
         self._lower, self._upper = column.bounds
 
     def value(self, given: Any) -> Any:
-        """As a Python number. Arrays of one element are that element."""
+        """Returns a Python number. Arrays of one element are that element."""
         if isinstance(given, str):
             return self._index_of(given)
         if isinstance(given, np.ndarray):

@@ -108,7 +108,7 @@ std::string exactly_sparse(const Problem& problem) {
     return value_of_x(made_sparse(grounded(problem)));
 }
 
-// Where x is inf or nan, `0.0 * x` is nan, as is each term that is left out.
+// `0.0 * x` is nan if x is inf or nan, as is each omitted term.
 TEST(MakeAggregationsSparse, HasOneTermForAllThatMayNotBeFinite) {
     const std::string terms =
         "(if (p(?u)) then 1.5 else 2.5) * (if (q(?u)) then 0.5 else 4.0) * LINK(?o, ?u)";
@@ -123,7 +123,7 @@ TEST(MakeAggregationsSparse, HasOneTermForAllThatMayNotBeFinite) {
     EXPECT_EQ(exactly_sparse(with_links(other)), value_of_x(grounded(with_links(other))));
 }
 
-// Where x is zero, the product is, whatever the exponential is.
+// The product is zero if x is zero, whatever the exponential is.
 TEST(MakeAggregationsSparse, LeavesOtherFactorsOfGuardedProducts) {
     const Problem problem = with_links("sum_{?o : obj} [COST(?o) * exp[exp[n]] * x]");
     EXPECT_EQ(exactly_sparse(problem), value_of_x(grounded(problem)));

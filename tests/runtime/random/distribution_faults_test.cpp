@@ -81,8 +81,8 @@ TEST(DistributionFaults, WeightsAreComparedWithTheirSum) {
     });
 }
 
-// Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1, in packs and in
-// floats, too, which round more.
+// Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1. This also holds in
+// packs, and in floats, which round more.
 template <class L>
 void expect_rounding_is_no_fault(Context<L> context, double rounding) {
     using Real = typename L::Real;
