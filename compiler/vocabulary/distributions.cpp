@@ -1,5 +1,6 @@
 // The distributions with plain parameters, and all that is particular to each. Laws, methods and
 // sources: docs/distributions.md.
+#include "support/failure.hpp"
 #include "vocabulary/kernels.hpp"
 #include "vocabulary/range.hpp"
 
@@ -217,6 +218,8 @@ consteval bool has_all_kernels() {
 static_assert(has_all_kernels());
 
 const DistributionRow& row(Distribution distribution) {
+    if (static_cast<std::size_t>(distribution) >= std::size(distributions))
+        own_mistake("a distribution without a row");
     return distributions[static_cast<std::size_t>(distribution)];
 }
 

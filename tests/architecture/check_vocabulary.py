@@ -18,9 +18,20 @@ def distributions(root: Path) -> dict[str, bool]:
     return {row[1]: ".extension = true" in row[0] for row in ROW.finditer(text)}
 
 
+def enumerators(root: Path, enumeration: str) -> list[str]:
+    header = (root / "compiler/vocabulary/vocabulary.hpp").read_text()
+    body = re.search(rf"enum class {enumeration} : [\w:]+ \{{(.*?)\}};", header, re.S)[1]
+    return re.findall(r"\w+", re.sub(r"//.*", "", body))
+
+
 def complaints(root: Path) -> list[str]:
     table = distributions(root)
     found = [] if len(table) > 20 else ["distributions.cpp is not understood"]
+    for enumeration, file in [("Operator", "operators.cpp"), ("Distribution", "distributions.cpp")]:
+        text = (root / "compiler/vocabulary" / file).read_text()
+        rows = re.findall(rf"^    \{{\.\w+ = {enumeration}::(\w+),", text, re.M)
+        if rows != enumerators(root, enumeration):
+            found.append(f"compiler/vocabulary/{file}: the rows are not the enumerators of {enumeration}, in their order")
     grammar = (root / "grammar/RDDL.g4").read_text()
     reserved = set(re.findall(r"'(\w+)'", re.search(r"\nDISTRIBUTION\n(.*?);", grammar, re.S)[1]))
     for name in sorted(reserved ^ {name for name, extension in table.items() if not extension}):
