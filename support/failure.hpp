@@ -2,8 +2,12 @@
 // says whose fault it is; only support/program.hpp turns it into a message and an exit status.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <source_location>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace rddlc {
 
@@ -24,6 +28,13 @@ struct Failure : std::runtime_error {
     std::string hint;  // what to try, a whole clause; may be empty
     ExitStatus status;
 };
+
+// A mistake of our own: what was met, and where it was noticed. Programs end with status 70.
+[[noreturn]] inline void own_mistake(std::string_view what,
+                                     std::source_location where = std::source_location::current()) {
+    throw std::logic_error(fmt::format("{} ({}:{}, {})", what, where.file_name(), where.line(),
+                                       where.function_name()));
+}
 
 // The diagnostics are printed already; nothing is left to say.
 struct Diagnosed {};

@@ -61,6 +61,23 @@ ExitStatus tell_own_mistake(std::string_view name, std::string_view version, con
     return internal_error;
 }
 
+// A terminate handler takes no arguments, so what it prints stands here.
+std::string program_name, program_version;
+
+// Exceptions that leave a thread or a noexcept function come here.
+[[noreturn]] void end_with_message() {
+    const char* what = "the program was ended by itself";
+    try {
+        if (const std::exception_ptr error = std::current_exception())
+            std::rethrow_exception(error);
+    } catch (const std::exception& error) {
+        std::_Exit(tell_own_mistake(program_name, program_version, error.what()));
+    } catch (...) {
+        what = "an exception that is none of the standard library's";
+    }
+    std::_Exit(tell_own_mistake(program_name, program_version, what));
+}
+
 }  // namespace
 
 int run_program(std::string_view name, std::string_view version,
@@ -71,6 +88,9 @@ int run_program(std::string_view name, std::string_view version,
         return status;
     };
     occupy_standard_descriptors();
+    program_name = name;
+    program_version = version;
+    std::set_terminate(end_with_message);
     // A file that may not grow is a failure to write, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     try {

@@ -44,25 +44,6 @@ model::Expr fault_at(Span span, model::ValueType found, const Need& need, const 
     return {need.type, span, model::TypeFault{fault_message(span, found, need, context)}};
 }
 
-// Operators that give an int for ints.
-std::optional<Operator> on_ints(Operator op) {
-    switch (op) {
-        case Operator::Add:
-        case Operator::Subtract:
-        case Operator::Multiply:
-        case Operator::Negate:
-        case Operator::Abs:
-        case Operator::Minimum:
-        case Operator::Maximum:
-        case Operator::Power:
-            return op;
-        case Operator::FloorModuloReal:
-            return Operator::FloorModulo;
-        default:
-            return std::nullopt;
-    }
-}
-
 bool keeps_type(Reduction op) {
     return op == Reduction::Sum || op == Reduction::Product || op == Reduction::Minimum ||
            op == Reduction::Maximum;
@@ -218,7 +199,7 @@ class Narrowing {
     }
 
     Typed delta(model::Sample&& n, Span span, model::ValueType to) {
-        if (n.distribution != Distribution::KronDelta && n.distribution != Distribution::DiracDelta)
+        if (!is_delta(n.distribution))
             return std::nullopt;
         Typed value = at(std::move(n.parameters[0]), to);
         if (!value) return std::nullopt;

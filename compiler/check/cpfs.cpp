@@ -23,9 +23,12 @@ Definition definition_of(Role role) {
             return Definition::Interm;
         case Role::Observ:
             return Definition::Observ;
-        default:
-            return Definition::NextState;
+        case Role::State:
+        case Role::NonFluent:
+        case Role::Action:
+            break;
     }
+    return Definition::NextState;
 }
 
 Definition policy_definition_of(Role role) {

@@ -135,9 +135,10 @@ bool is_same_outside(std::optional<Reduction> op, BinaryOperator after) {
         case Reduction::ForAll:
         case Reduction::Exists:
             return after == BinaryOperator::And || after == BinaryOperator::Or;
-        default:
-            return false;
+        case Reduction::Product:
+            break;
     }
+    return false;
 }
 
 // Whether an operator on the left and one on the right give the same in either order.
@@ -147,17 +148,10 @@ bool commute(const ast::Expr& left, BinaryOperator right) {
     if (const auto* unary = std::get_if<ast::Unary>(&left.node))
         return unary->op == ast::UnaryOperator::Plus ||
                (unary->op == ast::UnaryOperator::Minus && scales);
-    switch (std::get<ast::Binary>(left.node).op) {
-        case BinaryOperator::Multiply:
-            return scales;
-        case BinaryOperator::Add:
-            return shifts;
-        case BinaryOperator::And:
-        case BinaryOperator::Or:
-            return right == std::get<ast::Binary>(left.node).op;
-        default:
-            return false;
-    }
+    const BinaryOperator op = std::get<ast::Binary>(left.node).op;
+    if (op == BinaryOperator::Multiply) return scales;
+    if (op == BinaryOperator::Add) return shifts;
+    return right == op && (op == BinaryOperator::And || op == BinaryOperator::Or);
 }
 
 // Whether an operator on the left would take an operand before one on the right does.

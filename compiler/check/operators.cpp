@@ -236,21 +236,13 @@ Typed check_strict_logic(const BinaryPlace& place, Typed left, Typed right, Scop
 }
 
 Typed combine(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
-    switch (place.op) {
-        case Operator::And:
-        case Operator::Or:
-            return check_lazy_logic(place, std::move(left), std::move(right), scope);
-        case Operator::Implies:
-        case Operator::Equivalent:
-            return check_strict_logic(place, std::move(left), std::move(right), scope);
-        case Operator::Add:
-        case Operator::Subtract:
-        case Operator::Multiply:
-        case Operator::Divide:
-            return check_arithmetic(place, std::move(left), std::move(right), scope);
-        default:
-            return check_comparison(place, std::move(left), std::move(right), scope);
-    }
+    if (is_comparison(place.op))
+        return check_comparison(place, std::move(left), std::move(right), scope);
+    if (typing_of(place.op) != Typing::Logic)
+        return check_arithmetic(place, std::move(left), std::move(right), scope);
+    if (is_one_of(place.op, {Operator::And, Operator::Or}))
+        return check_lazy_logic(place, std::move(left), std::move(right), scope);
+    return check_strict_logic(place, std::move(left), std::move(right), scope);
 }
 
 Typed check_sign(Operator op, const ast::Unary& unary, Span span, Scope& scope) {

@@ -118,7 +118,7 @@ class Trial {
 
     const ir::Program& program_;
     ir::Evaluator evaluator_;
-    ir::Context context_;
+    Context context_;
     ir::Evaluator::Frame frame_;
     Fault first_;
 };

@@ -58,7 +58,7 @@ ir::Buffer buffer_of(const model::Model& model, bool only_moderate, model::Fluen
         .values = fluent.values,
         .span = fluent.span};
     if (only_moderate && is_chosen_outside(fluent) && buffer.scalar == ir::Scalar::Real)
-        buffer.range = ir::Range{-rddl::moderate, rddl::moderate};
+        buffer.range = Range{-rddl::moderate, rddl::moderate};
     for (model::TypeId type : fluent.parameters) {
         buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
     }

@@ -163,7 +163,7 @@ ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
     return builder_.convert(lower(expr), type);
 }
 
-std::optional<ir::Range> Lowering::range_of_reals(ir::NodeId value) const {
+std::optional<Range> Lowering::range_of_reals(ir::NodeId value) const {
     if (program_[value].type != ir::Scalar::Real) return std::nullopt;
     return builder_.facts(value).range;
 }
@@ -221,18 +221,11 @@ ir::NodeId Lowering::lower(const model::TypeFault& form, const model::Expr& expr
 }
 
 ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
-    switch (form.op) {
-        case Operator::Multiply:
-            return product(form);
-        case Operator::And:
-        case Operator::Or:
-        case Operator::Implies:
-            return connective(form);
-        case Operator::Equivalent:
-            return builder_.apply(Operator::Equal, lower_all(form.operands));
-        default:
-            break;
-    }
+    if (form.op == Operator::Multiply) return product(form);
+    if (is_one_of(form.op, {Operator::And, Operator::Or, Operator::Implies}))
+        return connective(form);
+    if (form.op == Operator::Equivalent)
+        return builder_.apply(Operator::Equal, lower_all(form.operands));
     std::vector<ir::NodeId> operands = lower_all(form.operands);
     const bool on_integers = program_[operands.front()].type == ir::Scalar::Int;
     std::optional<ir::Place> place;
@@ -244,6 +237,7 @@ ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
 
 // A simple right operand decides whether a fallible left one is evaluated, else the left operand
 // about the right one.
+// Semantics 6.3.
 ir::NodeId Lowering::connective(const model::Apply& form) {
     const bool symmetric = form.op != Operator::Implies;
     const bool right_first = symmetric && is_simple(form.operands.back());
@@ -265,7 +259,7 @@ bool Lowering::keeps_zeros(ir::NodeId factor) const {
     return facts.finite && facts.never_negative_zero && facts.range && facts.range->lower >= 0;
 }
 
-// 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
+// Semantics 6.2: 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
 // in scope. Where it is not, that depends on the other objects in pyRDDLGym; there it is an
 // ordinary product here.
 ir::NodeId Lowering::product(const model::Apply& form) {
@@ -276,7 +270,7 @@ ir::NodeId Lowering::product(const model::Apply& form) {
     const bool is_scalar = is_fixed_in_scope(first);
     const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
     const bool is_plain =
-        !is_scalar || ir::excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
+        !is_scalar || excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
@@ -412,14 +406,10 @@ ir::NodeId Lowering::loops_over(const model::Aggregate& form, Reduction op, ir::
 // -------------------------------------------------------------------------------------- draws
 
 ir::NodeId Lowering::lower(const model::Sample& form, const model::Expr& expr) {
-    if (form.distribution == Distribution::KronDelta ||
-        form.distribution == Distribution::DiracDelta) {
-        return lower_as(form.parameters.front(), scalar_of(expr.type));
-    }
-    const bool counted = form.distribution == Distribution::Binomial;
+    if (is_delta(form.distribution)) return lower_as(form.parameters.front(), scalar_of(expr.type));
     std::vector<ir::NodeId> parameters;
     for (const model::Expr& parameter : form.parameters) {
-        const bool is_count = counted && parameters.empty();
+        const bool is_count = takes_int(form.distribution, parameters.size());
         parameters.push_back(lower_as(parameter, is_count ? ir::Scalar::Int : ir::Scalar::Real));
     }
     const ir::Place place = new_draw(expr, std::string(name_of(form.distribution)));

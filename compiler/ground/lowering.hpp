@@ -54,7 +54,7 @@ class Lowering {
     ir::NodeId lower(const model::RandomVector& form, const model::Expr& expr);
 
     ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
-    std::optional<ir::Range> range_of_reals(ir::NodeId value) const;
+    std::optional<Range> range_of_reals(ir::NodeId value) const;
     std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
     // Lowers an operand that is not evaluated in every case.
     ir::NodeId lower_lazily(const model::Expr& expr);

@@ -17,34 +17,11 @@ constexpr double elementary_cost = 20;
 
 // The cost in units of an addition.
 double cost_of(Operator op) {
-    switch (op) {
-        case Operator::Divide:
-        case Operator::FloorDivide:
-        case Operator::FloorModulo:
-        case Operator::Sqrt:
-            return 4;
-        case Operator::FloorModuloReal:
-        case Operator::Power:
-        case Operator::Exp:
-        case Operator::Ln:
-        case Operator::Cos:
-        case Operator::Sin:
-        case Operator::Tan:
-        case Operator::Acos:
-        case Operator::Asin:
-        case Operator::Atan:
-        case Operator::Cosh:
-        case Operator::Sinh:
-        case Operator::Tanh:
-        case Operator::Log:
-        case Operator::Hypot:
-        case Operator::Atan2:
-        case Operator::LnGamma:
-        case Operator::Gamma:
-            return elementary_cost;
-        default:
-            return 1;
-    }
+    if (is_elementary(op)) return elementary_cost;
+    return is_one_of(
+               op, {Operator::Divide, Operator::FloorDivide, Operator::FloorModulo, Operator::Sqrt})
+               ? 4
+               : 1;
 }
 
 // Joins what is known of operands into what is known of their user.
@@ -136,10 +113,10 @@ class Collector {
 
     void describe(Scalar type, const Apply& apply) {
         facts_.cost += cost_of(apply.op);
-        facts_.elementary |= apply.op == Operator::Sqrt || cost_of(apply.op) == elementary_cost;
+        facts_.elementary |= apply.op == Operator::Sqrt || is_elementary(apply.op);
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
-        if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
+        if (type == Scalar::Real) facts_.range = range_of(apply.op, ranges);
         if (facts_.range && is_square(apply))
             facts_.range->lower = std::max(facts_.range->lower, 0.0);
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
@@ -155,7 +132,7 @@ class Collector {
                                        std::span<const std::optional<Range>> operands) const {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
         if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
-        const auto range = ir::range_of(apply.op, operands);
+        const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;
     }
@@ -201,8 +178,8 @@ class Collector {
         const auto& body = range(reduce.body);
         if (program_[reduce.body].type != Scalar::Real || !body) return;
         const auto count = static_cast<double>(size);
-        if (reduce.op == Reduction::Sum) facts_.range = ir::range_of_sum(*body, count);
-        if (reduce.op == Reduction::Product) facts_.range = ir::range_of_product(*body, count);
+        if (reduce.op == Reduction::Sum) facts_.range = rddlc::range_of_sum(*body, count);
+        if (reduce.op == Reduction::Product) facts_.range = range_of_product(*body, count);
         if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum) facts_.range = body;
     }
 
@@ -232,7 +209,7 @@ class Collector {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
-        facts_.range = ir::range_of(sample.distribution, ranges);
+        facts_.range = range_of(sample.distribution, ranges);
         facts_.cost += 20;
     }
 
@@ -290,34 +267,22 @@ class Collector {
     }
     bool is_never_negative_zero(const Apply& apply) const {
         const NodeId a = apply.operands.front(), b = apply.operands.back();
-        switch (apply.op) {
-            case Operator::Add:
-                return never_negative_zero(a) || never_negative_zero(b);
-            case Operator::Subtract:  // only -0.0 - 0.0 is
-                return a == b || never_negative_zero(a) || excludes_zero(range(b));
-            case Operator::Multiply:
-                return a == b || (has_no_sign(a) && has_no_sign(b));
-            case Operator::Divide:
-                return has_no_sign(a) && has_no_sign(b);
-            case Operator::Power:
-                return has_no_sign(a);
-            case Operator::Sqrt:
-                return never_negative_zero(a);
-            // Equal operands give the first one.
-            case Operator::Minimum:
-                return never_negative_zero(a) &&
-                       (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
-            case Operator::Maximum:
-                return never_negative_zero(a) &&
-                       (never_negative_zero(b) || is_never_negative(range(a)));
-            case Operator::Abs:
-            case Operator::Exp:
-            case Operator::Cosh:
-            case Operator::Hypot:
-                return true;
-            default:
-                return false;
-        }
+        const Operator op = apply.op;
+        if (op == Operator::Add) return never_negative_zero(a) || never_negative_zero(b);
+        if (op == Operator::Subtract)  // only -0.0 - 0.0 is
+            return a == b || never_negative_zero(a) || excludes_zero(range(b));
+        if (op == Operator::Multiply) return a == b || (has_no_sign(a) && has_no_sign(b));
+        if (op == Operator::Divide) return has_no_sign(a) && has_no_sign(b);
+        if (op == Operator::Power) return has_no_sign(a);
+        if (op == Operator::Sqrt) return never_negative_zero(a);
+        // Equal operands give the first one.
+        if (op == Operator::Minimum)
+            return never_negative_zero(a) &&
+                   (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
+        if (op == Operator::Maximum)
+            return never_negative_zero(a) &&
+                   (never_negative_zero(b) || is_never_negative(range(a)));
+        return is_one_of(op, {Operator::Abs, Operator::Exp, Operator::Cosh, Operator::Hypot});
     }
     template <class Form>
     bool is_never_negative_zero(const Form&) const {

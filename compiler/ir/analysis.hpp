@@ -2,8 +2,8 @@
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/range.hpp"
 #include "ir/table_facts.hpp"
+#include "vocabulary/range.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -36,7 +36,7 @@ class Builder {
     NodeId bits(BufferId buffer, std::int64_t first);
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type);
-    // `place` for exactly the operators that may fault (model/vocabulary.hpp).
+    // `place` for exactly the operators that may fault (vocabulary/vocabulary.hpp).
     NodeId apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place = {});
     NodeId select(NodeId condition, NodeId then_value, NodeId else_value);
     // Over an empty variable only for reductions that have a value there.

@@ -5,9 +5,9 @@
 
 #include "ir/external_functions.hpp"
 #include "ir/ir.hpp"
-#include "ir/kernels.hpp"
 #include "ir/outcomes.hpp"
 #include "ir/rounding.hpp"
+#include "vocabulary/kernels.hpp"
 
 #include <rddl/values/reductions.hpp>
 

@@ -10,11 +10,11 @@
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
 
-#include "ir/range.hpp"
 #include "model/table.hpp"
-#include "model/vocabulary.hpp"
 #include "support/box.hpp"
 #include "support/source.hpp"
+#include "vocabulary/range.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -289,9 +289,8 @@ struct Fluent {
     Span span;
     // NonFluent: the instance's values, whatever passes make of the buffer; else empty.
     Table values;
-    // The bounds per grounding, from action-preconditions and state-invariants (semantics of
-    // env-and-viz 1.1); -inf/+inf without a bound. Only for numeric State and Action fluents; else
-    // empty.
+    // The bounds per grounding, from action-preconditions and state-invariants (Semantics 8.4);
+    // -inf/+inf without a bound. Only for numeric State and Action fluents; else empty.
     std::vector<double> lower, upper;
 };
 

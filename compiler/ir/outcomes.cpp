@@ -40,23 +40,6 @@ std::vector<double> binomial_probabilities(std::int64_t trials, double p) {
     return probabilities;
 }
 
-bool is_certain(Distribution distribution, double a, double b) {
-    switch (distribution) {
-        case Distribution::Uniform:
-            return a == b;
-        case Distribution::Normal:
-            return b == 0;
-        case Distribution::Poisson:
-            return a == 0;
-        case Distribution::Geometric:
-            return a >= 1;
-        case Distribution::NegativeBinomial:
-            return b >= 1;
-        default:
-            return false;
-    }
-}
-
 std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabilities,
                               std::size_t part) {
     const auto is_same = [&](const Draw& draw) {

@@ -1,8 +1,6 @@
 // The outcomes of a step's draws, one combination after the other, instead of random ones.
 #pragma once
 
-#include "model/vocabulary.hpp"
-
 #include <rddl/values/context.hpp>
 
 #include <cstddef>
@@ -16,9 +14,6 @@ namespace rddlc::ir {
 // The probabilities of the counts from 0 to trials, for trials >= 0 and 0 <= p <= 1. Throws a
 // Failure if the list would be too long.
 std::vector<double> binomial_probabilities(std::int64_t trials, double p);
-
-// Whether a draw with these parameters has one result only, such as a normal one without variance.
-bool is_certain(Distribution distribution, double a, double b);
 
 // Evaluations that are given it ask it at each finite draw. They are made again and again, each
 // with other choices, until next() says that there are no more: depth first, in the order of the

@@ -6,7 +6,7 @@
 // values.
 #pragma once
 
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <cstdint>
 #include <random>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/range.hpp"
+#include "vocabulary/range.hpp"
 
 #include <optional>
 #include <vector>

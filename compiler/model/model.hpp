@@ -5,9 +5,9 @@
 #pragma once
 
 #include "model/table.hpp"
-#include "model/vocabulary.hpp"
 #include "support/box.hpp"
 #include "support/source.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -193,7 +193,7 @@ struct Model {
     std::vector<Variable> variables;
 
     std::vector<InitialDraw> initial_draws;  // of different groundings, in the order written
-    std::vector<Cpf> cpfs;                   // in evaluation order (semantics 4.6)
+    std::vector<Cpf> cpfs;                   // in evaluation order (Semantics 4.6)
     Expr reward;                             // real
     // Each of type bool. State-action constraints are not kept: nothing enforces them.
     std::vector<Expr> action_preconditions;

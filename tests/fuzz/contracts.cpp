@@ -50,7 +50,7 @@ int affordable_steps(const ir::Program& program, int most) {
 void drop_states_out_of_bounds(const ir::Program& program, std::vector<Situation>& tried) {
     const ir::Interpreter engine(program);
     std::erase_if(tried, [&](const Situation& at) {
-        ir::Context context;
+        Context context;
         return engine.violates_invariant(at.state.data(), context);
     });
 }

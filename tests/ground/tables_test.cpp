@@ -31,7 +31,7 @@ rddl::FaultRecord fault_of(const ir::Program& program) {
         const ir::Interpreter engine(std::move(which));
         std::vector<std::byte> state(engine.state_size()), next(engine.state_size());
         std::vector<std::byte> action(engine.action_size()), scratch(engine.scratch_size());
-        ir::Context context{.key = rddl::stream_key(1, 0, 0), .step = 1, .fault = {}};
+        Context context{.key = rddl::stream_key(1, 0, 0), .step = 1, .fault = {}};
         engine.reset(state.data(), context);
         engine.step(state.data(), action.data(), scratch.data(), next.data(), nullptr, context);
         return context.fault;
@@ -90,7 +90,7 @@ TEST(Tables, ServeConditionsToo) {
                        "state-invariants { [det_{?a : obj, ?b : obj} [A(?a, ?b) * x]] < 512; };"));
     const ir::Interpreter engine(optimise(program));
     std::vector<std::byte> state(engine.state_size());
-    ir::Context context;
+    Context context;
     engine.reset(state.data(), context);
     EXPECT_TRUE(engine.terminal(state.data(), context));            // 64 > 62
     EXPECT_TRUE(engine.violates_invariant(state.data(), context));  // 512 < 512

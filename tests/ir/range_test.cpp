@@ -1,4 +1,4 @@
-#include "ir/range.hpp"
+#include "vocabulary/range.hpp"
 
 #include <gtest/gtest.h>
 

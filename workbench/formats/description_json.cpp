@@ -1,8 +1,8 @@
 #include "formats/description.hpp"
 #include "formats/records_json.hpp"
 #include "model/expression_text.hpp"
-#include "model/vocabulary.hpp"
 #include "support/match.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 namespace rddlc::workbench {
 

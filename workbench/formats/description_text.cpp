@@ -3,7 +3,7 @@
 #include "formats/number_text.hpp"
 #include "formats/table.hpp"
 #include "model/expression_text.hpp"
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

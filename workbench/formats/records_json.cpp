@@ -23,25 +23,14 @@ namespace {
 using nlohmann::json;
 
 std::size_t record_size(const rddl_problem& problem, rddl_role role) {
-    switch (role) {
-        case RDDL_STATE:
-            return static_cast<std::size_t>(problem.state_size);
-        case RDDL_ACTION:
-            return static_cast<std::size_t>(problem.action_size);
-        default:
-            return static_cast<std::size_t>(problem.observation_size);
-    }
+    if (role == RDDL_STATE) return static_cast<std::size_t>(problem.state_size);
+    if (role == RDDL_ACTION) return static_cast<std::size_t>(problem.action_size);
+    return static_cast<std::size_t>(problem.observation_size);
 }
 
 std::string_view record_name(rddl_role role) {
-    switch (role) {
-        case RDDL_STATE:
-            return "state";
-        case RDDL_ACTION:
-            return "action";
-        default:
-            return "observation";
-    }
+    if (role == RDDL_STATE) return "state";
+    return role == RDDL_ACTION ? "action" : "observation";
 }
 
 template <class T>

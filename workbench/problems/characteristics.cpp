@@ -51,20 +51,6 @@ bool is_variable_or_constant(const Expr& argument) {
            std::holds_alternative<Constant>(argument.node);
 }
 
-std::string name_of_vector(VectorDistribution distribution) {
-    switch (distribution) {
-        case VectorDistribution::MultivariateNormal:
-            return "MultivariateNormal";
-        case VectorDistribution::MultivariateStudent:
-            return "MultivariateStudent";
-        case VectorDistribution::Dirichlet:
-            return "Dirichlet";
-        case VectorDistribution::Multinomial:
-            return "Multinomial";
-    }
-    return {};
-}
-
 void collect(const Expr& expression, Occurrences& found) {
     const auto feature = [&](const char* name) {
         found.features.insert(name);
@@ -80,9 +66,7 @@ void collect(const Expr& expression, Occurrences& found) {
         [&](const Switch&) { feature("switch"); },
         [&](const Aggregate& n) { found.features.insert(std::string(rddlc::name_of(n.op))); },
         [&](const Sample& n) {
-            const bool certain = n.distribution == Distribution::KronDelta ||
-                                 n.distribution == Distribution::DiracDelta;
-            if (!certain) found.draws(std::string(rddlc::name_of(n.distribution)));
+            if (!is_delta(n.distribution)) found.draws(std::string(rddlc::name_of(n.distribution)));
         },
         [&](const Discrete& n) { found.draws(n.normalise ? "UnnormDiscrete" : "Discrete"); },
         [&](const DiscreteOver& n) { found.draws(n.normalise ? "UnnormDiscrete" : "Discrete"); },
@@ -92,7 +76,7 @@ void collect(const Expr& expression, Occurrences& found) {
             feature("external functions");
             found.random = true;  // the function is unknown and may draw
         },
-        [&](const RandomVector& n) { found.draws(name_of_vector(n.distribution)); });
+        [&](const RandomVector& n) { found.draws(std::string(rddlc::name_of(n.distribution))); });
     // An object as an argument is what RDDL is made of; only other places count.
     const bool is_reference = std::holds_alternative<Reference>(expression.node);
     for_each_operand(expression, [&](const Expr& operand) {

@@ -27,7 +27,7 @@ constexpr std::size_t most_values = 12;
 class Explainer {
   public:
     Explainer(const ir::Program& program, const ir::Evaluator& evaluator, ir::Records records,
-              ir::Context& context)
+              Context& context)
         : program_(program),
           evaluator_(evaluator),
           context_(context),
@@ -203,7 +203,7 @@ class Explainer {
 
     const ir::Program& program_;
     const ir::Evaluator& evaluator_;
-    ir::Context& context_;
+    Context& context_;
     std::vector<std::byte> scratch_;
     ir::Evaluator::Frame frame_;
     Explanation explanation_;
@@ -223,7 +223,7 @@ std::string Explanation::text() const {
 std::optional<Explanation> explain_condition(const ir::Program& program,
                                              const ir::Evaluator& evaluator,
                                              const ir::Computation& condition, ir::Records records,
-                                             ir::Context context) {
+                                             Context context) {
     return Explainer(program, evaluator, records, context).explain(condition);
 }
 

@@ -42,7 +42,7 @@ class Repetition {
     StepOutcome initial() const {
         StepOutcome outcome;
         outcome.state.resize(interpreter_.state_size());
-        ir::Context context = context_of(0);
+        Context context = context_of(0);
         interpreter_.reset(outcome.state.data(), context);
         outcome.causes_before =
             interpreter_.terminal(outcome.state.data(), context) ? RDDL_TERMINATED : RDDL_RUNNING;
@@ -57,10 +57,10 @@ class Repetition {
     StepOutcome step() {
         StepOutcome outcome;
         outcome.action = decide();
-        ir::Context asked = context_of(start_.step + 1);
+        Context asked = context_of(start_.step + 1);
         outcome.violated_precondition =
             interpreter_.violated_precondition(start_.state.data(), start_.action.data(), asked);
-        ir::Context context = context_of(start_.step + 1);
+        Context context = context_of(start_.step + 1);
         outcome.state.resize(interpreter_.state_size());
         outcome.observation.resize(interpreter_.observation_size());
         outcome.reward =
@@ -80,8 +80,8 @@ class Repetition {
     }
 
   private:
-    ir::Context context_of(std::int64_t step) const {
-        ir::Context context{.key = key_, .step = static_cast<std::uint32_t>(step), .fault = {}};
+    Context context_of(std::int64_t step) const {
+        Context context{.key = key_, .step = static_cast<std::uint32_t>(step), .fault = {}};
         return context;
     }
 
@@ -92,7 +92,7 @@ class Repetition {
         Record action(interpreter_.action_size());
         interpreter_.reset_policy(memory.data());
         for (std::size_t step = 0; step < start_.seen.size(); ++step) {
-            ir::Context context = context_of(static_cast<std::int64_t>(step) + 1);
+            Context context = context_of(static_cast<std::int64_t>(step) + 1);
             interpreter_.act(start_.seen[step].data(), memory.data(), scratch_.data(),
                              action.data(), next.data(), context);
             memory.swap(next);

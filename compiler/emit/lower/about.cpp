@@ -71,9 +71,12 @@ std::string record_of(Role role) {
             return "Action";
         case Role::Observ:
             return "Observation";
-        default:
-            return "";
+        case Role::NonFluent:
+        case Role::Interm:
+        case Role::Derived:
+            break;
     }
+    return "";
 }
 
 // Writes one table after the other; equal small tables are shared.

@@ -177,7 +177,7 @@ bool Expressions::needs_no_check(const ir::Sample& sample) const {
     if (sample.distribution != Distribution::Bernoulli) return false;
     const ir::NodeId p = sample.parameters.front();
     if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
-    return ir::always_in_domain(sample.distribution, std::array{unit_.facts_of(p).range});
+    return always_in_domain(sample.distribution, std::array{unit_.facts_of(p).range});
 }
 
 Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {

@@ -3,6 +3,8 @@
 #include "emit/names/identifiers.hpp"
 #include "support/match.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace rddlc::cpp {
@@ -52,48 +54,41 @@ tree::Operator plain_operator(Operator op) {
     return std::get<tree::Operator>(spelling_of(op, false));
 }
 
+// Every other operator is a call of the runtime's function of its name.
 Spelling spelling_of(Operator op, bool on_ints) {
-    switch (op) {
-        case Operator::Add:
-            if (on_ints) return std::string("wrap_add");
-            return tree::Operator{"+", Level::Additive, Level::Additive, Level::Multiplicative};
-        case Operator::Subtract:
-            if (on_ints) return std::string("wrap_sub");
-            return tree::Operator{"-", Level::Additive, Level::Additive, Level::Multiplicative};
-        case Operator::Multiply:
-            if (on_ints) return std::string("wrap_mul");
-            return tree::Operator{"*", Level::Multiplicative, Level::Multiplicative, Level::Unary};
-        case Operator::Divide:
-            return tree::Operator{"/", Level::Multiplicative, Level::Multiplicative, Level::Unary};
-        case Operator::Negate:
-            if (on_ints) return std::string("wrap_neg");
-            return tree::Operator{"-", Level::Unary, Level::Primary, Level::Primary};
-        case Operator::Equal:
-        case Operator::Equivalent:
-            return comparison("==");
-        case Operator::NotEqual:
-            return comparison("!=");
-        case Operator::Less:
-            return comparison("<");
-        case Operator::LessEqual:
-            return comparison("<=");
-        case Operator::Greater:
-            return comparison(">");
-        case Operator::GreaterEqual:
-            return comparison(">=");
-        case Operator::And:
-            return connective("&&", Level::And);
-        case Operator::Or:
-            return connective("||", Level::Or);
-        case Operator::Not:
-            return tree::Operator{"!", Level::Not, Level::Primary, Level::Primary};
-        case Operator::Implies:  // behind a Not
-            return tree::Operator{"||", Level::Or, Level::Not, Level::Comparison};
-        case Operator::FloorModuloReal:
-            return std::string("floor_mod");
-        default:
-            return std::string(name_of(op));
+    if (on_ints) {
+        if (op == Operator::Add) return std::string("wrap_add");
+        if (op == Operator::Subtract) return std::string("wrap_sub");
+        if (op == Operator::Multiply) return std::string("wrap_mul");
+        if (op == Operator::Negate) return std::string("wrap_neg");
     }
+    struct Row {
+        Operator op;
+        Spelling spelling;
+    };
+    using Infix = tree::Operator;
+    static const Row rows[] = {
+        {Operator::Add, Infix{"+", Level::Additive, Level::Additive, Level::Multiplicative}},
+        {Operator::Subtract, Infix{"-", Level::Additive, Level::Additive, Level::Multiplicative}},
+        {Operator::Multiply,
+         Infix{"*", Level::Multiplicative, Level::Multiplicative, Level::Unary}},
+        {Operator::Divide, Infix{"/", Level::Multiplicative, Level::Multiplicative, Level::Unary}},
+        {Operator::Negate, Infix{"-", Level::Unary, Level::Primary, Level::Primary}},
+        {Operator::Equal, comparison("==")},
+        {Operator::Equivalent, comparison("==")},
+        {Operator::NotEqual, comparison("!=")},
+        {Operator::Less, comparison("<")},
+        {Operator::LessEqual, comparison("<=")},
+        {Operator::Greater, comparison(">")},
+        {Operator::GreaterEqual, comparison(">=")},
+        {Operator::And, connective("&&", Level::And)},
+        {Operator::Or, connective("||", Level::Or)},
+        {Operator::Not, Infix{"!", Level::Not, Level::Primary, Level::Primary}},
+        {Operator::Implies, Infix{"||", Level::Or, Level::Not, Level::Comparison}},  // behind a Not
+        {Operator::FloorModuloReal, std::string("floor_mod")},
+    };
+    const auto* row = std::ranges::find(rows, op, &Row::op);
+    return row == std::end(rows) ? Spelling(std::string(name_of(op))) : row->spelling;
 }
 
 std::string function_of(Reduction reduction) {

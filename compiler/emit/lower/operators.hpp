@@ -3,7 +3,7 @@
 
 #include "emit/cpp/tree.hpp"
 #include "ir/ir.hpp"
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <string>
 #include <variant>

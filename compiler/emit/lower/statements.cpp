@@ -49,21 +49,12 @@ bool is_leaf(const Unit& unit, ir::NodeId id) {
 std::optional<Operator> chain_operator(const ir::Node& node) {
     const auto* apply = std::get_if<ir::Apply>(&node.form);
     if (!apply || apply->operands.size() != 2 || node.type == ir::Scalar::Int) return std::nullopt;
-    switch (apply->op) {
-        case Operator::Subtract:
-            return Operator::Add;
-        case Operator::Divide:
-            return Operator::Multiply;
-        case Operator::Add:
-        case Operator::Multiply:
-        case Operator::And:
-        case Operator::Or:
-        case Operator::Equal:
-        case Operator::NotEqual:
-            return apply->op;
-        default:
-            return std::nullopt;
-    }
+    if (apply->op == Operator::Subtract) return Operator::Add;
+    if (apply->op == Operator::Divide) return Operator::Multiply;
+    const bool makes_chains =
+        is_one_of(apply->op, {Operator::Add, Operator::Multiply, Operator::And, Operator::Or,
+                              Operator::Equal, Operator::NotEqual});
+    return makes_chains ? std::optional(apply->op) : std::nullopt;
 }
 
 // What to call a value that needs a name.
@@ -82,7 +73,9 @@ std::string_view wish_for(const ir::Node& node) {
                 return "all";
             case Reduction::Exists:
                 return "any";
-            default:
+            case Reduction::Average:
+            case Reduction::ArgMin:
+            case Reduction::ArgMax:
                 return "best";
         }
     }

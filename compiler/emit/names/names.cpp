@@ -31,9 +31,13 @@ struct RecordScopes {
                 return observation;
             case Storage::Memory:
                 return memory;
-            default:
-                return state;
+            case Storage::Constant:
+            case Storage::State:
+            case Storage::Next:
+            case Storage::NextMemory:
+                break;
         }
+        return state;
     }
 
     Scope state, action, scratch, observation, memory;

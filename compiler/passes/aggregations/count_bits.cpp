@@ -174,7 +174,7 @@ class BitCounting {
     // Calls visit(frame, row) for every entry of every row.
     template <class Visit>
     void for_each_entry(const CountedNest& nest, const Visit& visit) {
-        ir::Context context;
+        Context context;
         ir::Evaluator::Frame frame(evaluator_, {}, context);
         std::int64_t row = 0;
         const auto over_entries = [&](const auto& self, std::size_t depth) -> void {
@@ -326,20 +326,15 @@ class BitCounting {
     Connective connective(ir::NodeId id, bool value) const {
         const auto& apply = std::get<ir::Apply>(program_[id].form);
         const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
-        switch (apply.op) {
-            case Operator::Not:
-                return {Operator::BitAnd, {a, !value}, {a, !value}};
-            case Operator::And:
-                return {value ? Operator::BitAnd : Operator::BitOr, {a, value}, {b, value}};
-            case Operator::Or:
-                return {value ? Operator::BitOr : Operator::BitAnd, {a, value}, {b, value}};
-            case Operator::Implies:
-                return {value ? Operator::BitOr : Operator::BitAnd, {a, !value}, {b, value}};
-            case Operator::NotEqual:
-                return {Operator::BitXor, {a, true}, {b, value}};
-            default:  // Equivalent, Equal
-                return {Operator::BitXor, {a, true}, {b, !value}};
-        }
+        const auto either_or = [&](bool intersects) {
+            return intersects ? Operator::BitAnd : Operator::BitOr;
+        };
+        if (apply.op == Operator::Not) return {Operator::BitAnd, {a, !value}, {a, !value}};
+        if (apply.op == Operator::And) return {either_or(value), {a, value}, {b, value}};
+        if (apply.op == Operator::Or) return {either_or(!value), {a, value}, {b, value}};
+        if (apply.op == Operator::Implies) return {either_or(!value), {a, !value}, {b, value}};
+        const bool is_equal = apply.op != Operator::NotEqual;
+        return {Operator::BitXor, {a, true}, {b, value != is_equal}};
     }
 
     // Ones for the elements that there are.

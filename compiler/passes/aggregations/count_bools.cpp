@@ -55,22 +55,15 @@ class Splitting {
         const auto* apply = std::get_if<ir::Apply>(&program[id].form);
         if (!apply) return std::nullopt;
         const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
-        switch (apply->op) {
-            case Operator::Add:
-                return sum(terms_of(a), terms_of(b));
-            case Operator::Subtract:
-                return sum(terms_of(a), scaled(terms_of(b), -1));
-            case Operator::Negate:
-                return scaled(terms_of(a), -1);
-            case Operator::Multiply:
-                if (const auto factor = ir::constant<double>(program, a))
-                    return scaled(terms_of(b), *factor);
-                if (const auto factor = ir::constant<double>(program, b))
-                    return scaled(terms_of(a), *factor);
-                return std::nullopt;
-            default:
-                return std::nullopt;
-        }
+        if (apply->op == Operator::Add) return sum(terms_of(a), terms_of(b));
+        if (apply->op == Operator::Subtract) return sum(terms_of(a), scaled(terms_of(b), -1));
+        if (apply->op == Operator::Negate) return scaled(terms_of(a), -1);
+        if (apply->op != Operator::Multiply) return std::nullopt;
+        if (const auto factor = ir::constant<double>(program, a))
+            return scaled(terms_of(b), *factor);
+        if (const auto factor = ir::constant<double>(program, b))
+            return scaled(terms_of(a), *factor);
+        return std::nullopt;
     }
 
     static std::optional<Terms> sum(std::optional<Terms> a, const std::optional<Terms>& b) {

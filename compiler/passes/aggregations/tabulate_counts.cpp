@@ -125,7 +125,7 @@ class CountTabulation {
 
     // The expression for each value of the count.
     std::vector<ir::NodeId> cases_of(ir::NodeId id, ir::NodeId count) {
-        const ir::Range range = *builder_.facts(count).range;
+        const Range range = *builder_.facts(count).range;
         std::vector<ir::NodeId> cases;
         for (double value = range.lower; value <= range.upper; ++value) {
             std::map<ir::NodeId, ir::NodeId> known = {{count, integer(value)}};
@@ -181,7 +181,7 @@ class CountTabulation {
             return facts.uniform && std::ranges::includes(variables, facts.free_variables);
         };
         if (is_known(count)) return count;
-        const ir::Range range = *builder_.facts(count).range;
+        const Range range = *builder_.facts(count).range;
         const auto form = program_[count].form;
         if (const auto* apply = std::get_if<ir::Apply>(&form)) {
             const ir::NodeId a = apply->operands.front(), b = apply->operands.back();

@@ -9,7 +9,7 @@ std::optional<std::vector<ir::Value>> constant_values(const ir::Evaluator& evalu
     std::int64_t count = 1;
     for (ir::VariableId variable : variables) count *= program[variable].size;
 
-    ir::Context context;
+    Context context;
     ir::Evaluator::Frame frame(evaluator, {}, context);
     if (assumed) evaluator.set(assumed->local, assumed->value, frame);
     std::vector<ir::Value> values;

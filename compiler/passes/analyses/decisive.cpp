@@ -38,29 +38,20 @@ class Search {
 
     Conditions of_apply(const ir::Apply& apply, const ir::Value& value) const {
         const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
-        switch (apply.op) {
-            case Operator::Not:
-                return of(a, !std::get<bool>(value));
-            case Operator::And:
-                return std::get<bool>(value) ? common(of(a, value), of(b, value))
-                                             : all(of(a, value), of(b, value));
-            case Operator::Or:
-                return std::get<bool>(value) ? all(of(a, value), of(b, value))
-                                             : common(of(a, value), of(b, value));
-            case Operator::Multiply:
-                return number(value) == 0 ? of_product(a, b, value) : Conditions();
-            case Operator::Divide:
-                return number(value) == 0 && ir::excludes_zero(builder_.facts(b).range)
-                           ? of(a, value)
-                           : Conditions();
-            case Operator::Negate:
-                return number(value) == 0 ? of(a, value) : Conditions();
-            case Operator::Add:
-            case Operator::Subtract:
-                return number(value) == 0 ? common(of(a, value), of(b, value)) : Conditions();
-            default:
-                return {};
-        }
+        const Operator op = apply.op;
+        if (op == Operator::Not) return of(a, !std::get<bool>(value));
+        if (is_one_of(op, {Operator::And, Operator::Or}))
+            return std::get<bool>(value) == (op == Operator::And)
+                       ? common(of(a, value), of(b, value))
+                       : all(of(a, value), of(b, value));
+        if (std::holds_alternative<bool>(value) || number(value) != 0) return {};
+        if (op == Operator::Multiply) return of_product(a, b, value);
+        if (op == Operator::Divide)
+            return excludes_zero(builder_.facts(b).range) ? of(a, value) : Conditions();
+        if (op == Operator::Negate) return of(a, value);
+        if (is_one_of(op, {Operator::Add, Operator::Subtract}))
+            return common(of(a, value), of(b, value));
+        return {};
     }
 
     // 0 * x is 0 where x is finite.

@@ -11,27 +11,6 @@ namespace {
 
 constexpr std::int64_t fewest_iterations = 8;
 
-// Drawn from one number, by functions that registers have.
-bool is_by_inversion(Distribution distribution) {
-    switch (distribution) {
-        case Distribution::Bernoulli:
-        case Distribution::Uniform:
-        case Distribution::Normal:
-        case Distribution::Exponential:
-        case Distribution::Weibull:
-        case Distribution::Geometric:
-        case Distribution::Pareto:
-        case Distribution::Gumbel:
-        case Distribution::Laplace:
-        case Distribution::Cauchy:
-        case Distribution::Gompertz:
-        case Distribution::Kumaraswamy:
-            return true;
-        default:
-            return false;
-    }
-}
-
 }  // namespace
 
 SeveralObjects::SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,

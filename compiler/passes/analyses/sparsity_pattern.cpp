@@ -114,7 +114,7 @@ std::optional<Relation> SparsityPattern::of_doubtful_product(ir::NodeId a, ir::N
 
 std::optional<ir::Value> SparsityPattern::evaluate(ir::NodeId id, std::span<const Axis> axes,
                                                    std::int64_t tuple) const {
-    ir::Context context;
+    Context context;
     ir::Evaluator::Frame frame(evaluator_, {}, context);
     for (std::size_t k = axes.size(); k-- > 0;) {
         frame.set(axes[k].variable, tuple % axes[k].size);
@@ -244,30 +244,18 @@ std::optional<Relation> SparsityPattern::of(const ir::Convert& convert, const ir
 std::optional<Relation> SparsityPattern::of(const ir::Apply& apply, const ir::Value& value) {
     const ir::NodeId a = apply.operands.front();
     const ir::NodeId b = apply.operands.back();
-    switch (apply.op) {
-        case Operator::Not:
-            return of(a, opposite(value));
-        case Operator::And:
-            return std::get<bool>(value) ? either(a, b, value) : both(a, value, b, value);
-        case Operator::Or:
-            return std::get<bool>(value) ? both(a, value, b, value) : either(a, b, value);
-        case Operator::Equal:
-        case Operator::NotEqual:
-            if (value == ir::Value(apply.op == Operator::Equal)) return std::nullopt;
-            return of_equality(a, b);
-        case Operator::Multiply:
-            return is_zero(value) ? of_product(a, b, value) : std::nullopt;
-        case Operator::Add:
-        case Operator::Subtract:
-            return is_zero(value) ? either(a, b, value) : std::nullopt;
-        case Operator::Negate:
-            return is_zero(value) ? of(a, value) : std::nullopt;
-        case Operator::Minimum:
-        case Operator::Maximum:
-            return either(a, b, value);
-        default:
-            return std::nullopt;
-    }
+    const Operator op = apply.op;
+    if (op == Operator::Not) return of(a, opposite(value));
+    if (is_one_of(op, {Operator::And, Operator::Or}))
+        return std::get<bool>(value) == (op == Operator::And) ? either(a, b, value)
+                                                              : both(a, value, b, value);
+    if (is_one_of(op, {Operator::Equal, Operator::NotEqual}))
+        return value == ir::Value(op == Operator::Equal) ? std::nullopt : of_equality(a, b);
+    if (is_one_of(op, {Operator::Minimum, Operator::Maximum})) return either(a, b, value);
+    if (!is_zero(value)) return std::nullopt;
+    if (op == Operator::Multiply) return of_product(a, b, value);
+    if (is_one_of(op, {Operator::Add, Operator::Subtract})) return either(a, b, value);
+    return op == Operator::Negate ? of(a, value) : std::nullopt;
 }
 
 // Of a loop index with something that does not depend on it: there is one such index for each.
@@ -335,7 +323,9 @@ std::optional<Relation> SparsityPattern::of(const ir::Reduce& reduce, const ir::
         case Reduction::Product:
             if (as_real(value) != 1) return std::nullopt;
             break;
-        default:
+        case Reduction::Average:
+        case Reduction::ArgMin:
+        case Reduction::ArgMax:
             return std::nullopt;
     }
     const Found inside = of(reduce.body, value);

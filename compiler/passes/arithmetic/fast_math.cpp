@@ -21,25 +21,15 @@ class Relaxing {
         const auto* apply = std::get_if<ir::Apply>(&node.form);
         if (!apply) return std::nullopt;
         const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
-        switch (apply->op) {
-            case Operator::Multiply:
-                return product(a, b);
-            case Operator::Add:
-                return sum(a, b);
-            case Operator::Subtract:
-                return difference(a, b);
-            case Operator::Divide:
-                return quotient(a, b);
-            case Operator::Power:
-                return power(a, b);
-            case Operator::FloorModuloReal:
-                return remainder(a, b);
-            case Operator::Minimum:
-            case Operator::Maximum:
-                return constant_last(apply->op, a, b);
-            default:
-                return std::nullopt;
-        }
+        const Operator op = apply->op;
+        if (op == Operator::Multiply) return product(a, b);
+        if (op == Operator::Add) return sum(a, b);
+        if (op == Operator::Subtract) return difference(a, b);
+        if (op == Operator::Divide) return quotient(a, b);
+        if (op == Operator::Power) return power(a, b);
+        if (op == Operator::FloorModuloReal) return remainder(a, b);
+        if (is_one_of(op, {Operator::Minimum, Operator::Maximum})) return constant_last(op, a, b);
+        return std::nullopt;
     }
 
   private:

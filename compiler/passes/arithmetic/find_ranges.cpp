@@ -35,7 +35,7 @@ class Ranges {
     // The tables that the definition fills get the ranges of what is stored.
     void enter(const ir::Definition& definition) {
         for (const ir::NodeId root : ir::roots_of(definition.body)) find_below(root);
-        std::map<ir::BufferId, std::optional<ir::Range>> stored;
+        std::map<ir::BufferId, std::optional<Range>> stored;
         ir::for_each_statement<ir::Store>(definition.body, [&](const ir::Store& store) {
             const auto& range = facts_[store.value.index].range;
             const auto [entry, is_first] = stored.try_emplace(store.target, range);
@@ -48,8 +48,7 @@ class Ranges {
             ir::Buffer& buffer = program_.buffers[id.index];
             if (buffer.scalar != ir::Scalar::Real || !buffer.is_computed_in_step() || !range)
                 continue;
-            if (!buffer.range || !ir::is_finite(*buffer.range))
-                newly_finite_ += ir::is_finite(*range);
+            if (!buffer.range || !is_finite(*buffer.range)) newly_finite_ += is_finite(*range);
             buffer.range = range;
         }
     }
@@ -57,9 +56,9 @@ class Ranges {
     std::int64_t newly_finite() const { return newly_finite_; }
 
   private:
-    static std::optional<ir::Range> joined(const std::optional<ir::Range>& a,
-                                           const std::optional<ir::Range>& b) {
-        return a && b ? std::optional(ir::join(*a, *b)) : std::nullopt;
+    static std::optional<Range> joined(const std::optional<Range>& a,
+                                       const std::optional<Range>& b) {
+        return a && b ? std::optional(join(*a, *b)) : std::nullopt;
     }
 
     // Operands first: their numbers are lower.
@@ -82,7 +81,7 @@ class Ranges {
     }
 
     // A quotient by what only the instance decides: by all values of the divisor.
-    std::optional<ir::Range> range_by_values(ir::NodeId dividend, ir::NodeId divisor) {
+    std::optional<Range> range_by_values(ir::NodeId dividend, ir::NodeId divisor) {
         const ir::Facts& facts = facts_[divisor.index];
         const double cost = facts.cost * evaluations(program_, facts);
         if (!facts.uniform || cost > affordable_for_divisor || cost > left_) return std::nullopt;
@@ -91,10 +90,10 @@ class Ranges {
         if (!values || values->empty()) return std::nullopt;
         const auto quotient = [&](const ir::Value& value) {
             const double number = std::get<double>(value);
-            const std::optional<ir::Range> by{ir::Range{number, number}};
-            return std::isnan(number) ? std::nullopt
-                                      : ir::range_of(Operator::Divide,
-                                                     std::array{facts_[dividend.index].range, by});
+            const std::optional<Range> by{Range{number, number}};
+            return std::isnan(number)
+                       ? std::nullopt
+                       : range_of(Operator::Divide, std::array{facts_[dividend.index].range, by});
         };
         auto range = quotient(values->front());
         for (const ir::Value& value : *values) range = joined(range, quotient(value));

@@ -51,24 +51,18 @@ std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
 std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) {
     const ir::Program& program = builder.program();
     const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
-    switch (apply.op) {
-        case Operator::Divide: {
-            const auto divisor = ir::constant<double>(program, b);
-            if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
-            return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
-        }
-        case Operator::Multiply: {
-            const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
-                                  (is_zero(program, b) && is_from_bool(program, a));
-            const ir::NodeId other = is_zero(program, a) ? b : a;
-            if (!vanishes || !ir::is_droppable(builder.facts(other))) return std::nullopt;
-            return builder.constant(0.0);
-        }
-        case Operator::Power:
-            return reduced_power(builder, a, b);
-        default:
-            return std::nullopt;
+    if (apply.op == Operator::Power) return reduced_power(builder, a, b);
+    if (apply.op == Operator::Divide) {
+        const auto divisor = ir::constant<double>(program, b);
+        if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
+        return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
     }
+    if (apply.op != Operator::Multiply) return std::nullopt;
+    const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
+                          (is_zero(program, b) && is_from_bool(program, a));
+    const ir::NodeId other = is_zero(program, a) ? b : a;
+    if (!vanishes || !ir::is_droppable(builder.facts(other))) return std::nullopt;
+    return builder.constant(0.0);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(SearchIntervals, LooksUpWhatIsConstantInEach) {
 double next_x(const ir::Program& program, double value) {
     std::vector<double> state = {value, 0.0, 1.0, 2.0, 3.0};
     std::vector<double> next(5);
-    ir::Context context;
+    Context context;
     const ir::Evaluator evaluator(program);
     ir::Records records;
     records.set(ir::Storage::State, reinterpret_cast<const std::byte*>(state.data()));

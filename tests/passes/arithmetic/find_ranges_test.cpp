@@ -26,7 +26,7 @@ bool is_known_finite(const ir::Program& program, const std::string& name, ir::St
     const auto found = std::ranges::find_if(program.buffers, [&](const ir::Buffer& buffer) {
         return buffer.name == name && buffer.storage == storage;
     });
-    return found->range && ir::is_finite(*found->range);
+    return found->range && is_finite(*found->range);
 }
 
 struct Found {

@@ -2,12 +2,13 @@
 // numbers are finite.
 #pragma once
 
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 
-namespace rddlc::ir {
+namespace rddlc {
 
 // Closed, without nan; bounds may be infinite. Rounding is monotone, so the bounds of a sum are
 // the rounded sums of the bounds.
@@ -43,4 +44,18 @@ Range range_of_product(const Range& factor, double count);
 // True if parameters from these ranges are always in the distribution's domain: it cannot fault.
 bool always_in_domain(Distribution distribution, std::span<const std::optional<Range>> parameters);
 
-}  // namespace rddlc::ir
+// ---------------------------------------------------------------------------- for the tables
+
+// A row's range for one or two operands or parameters, whose ranges are finite.
+using RangeRule = std::optional<Range> (*)(Range first, Range last);
+
+// The smallest range that holds all corners; nothing if one of them is nan.
+std::optional<Range> hull(std::initializer_list<double> corners);
+double magnitude(Range range);
+Range symmetric(double magnitude);
+// The range with a margin for the rounding of functions and long sums.
+Range padded(Range range);
+// Nothing if there is no rule, or an operand's range is unknown or not finite.
+std::optional<Range> apply(RangeRule rule, std::span<const std::optional<Range>> operands);
+
+}  // namespace rddlc
