@@ -1,6 +1,7 @@
 #include "passes/passes.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/verify.hpp"
 #include "passes/compare_counts.hpp"
 #include "passes/compare_magnitudes.hpp"
