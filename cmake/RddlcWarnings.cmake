@@ -1,4 +1,4 @@
-# What every target of our own code is compiled with.
+# The options with which every target of our own code is compiled.
 add_library(rddlc_options INTERFACE)
 target_compile_options(rddlc_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion

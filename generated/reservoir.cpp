@@ -221,7 +221,7 @@ struct Simulator {
 // ------------------------------------------------------------------------- moderate values
 
 // The same step with less work, for states and actions whose reals are all moderate
-// (rddl/moderate.hpp): nothing overflows then, so terms that are multiplied by 0 are left out.
+// (rddl/values/moderate.hpp): nothing overflows then, so terms that are multiplied by 0 are left out.
 namespace moderate {
 
 // ---------------------------------------------------------------------------------- tables

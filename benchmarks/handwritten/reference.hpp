@@ -1,5 +1,5 @@
 // A simulator written by hand for one instance, behind the functions of rddl_simulator that
-// stepping a batch needs. A problem P gives what is its own:
+// stepping a batch needs. A problem P defines:
 //
 //     width, horizon                  environments stepped together in registers; steps
 //     stochastic                      something is drawn at random
@@ -11,13 +11,13 @@
 //     store(state, lane, record)      the state record
 //
 // Rules of the game: a step is computed from the state record and the action record, as in the
-// simulators that we emit; what the caller gives and gets is the same; the random numbers are the
-// same, too (docs/randomness.md). Anything else is allowed.
+// simulators that we emit; the inputs and outputs of the caller are the same; the random numbers
+// are also the same (docs/randomness.md). Anything else is allowed.
 #pragma once
 
 #include "registers.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 #include <rddl/simulator.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@
 
 namespace handwritten {
 
-// Where random numbers come from: the coordinates of a draw but for site and index.
+// The source of random numbers: the coordinates of a draw except site and index.
 template <class Word>
 struct Draws {
     Word step;
     rddl::philox::Key<Word> key;
 
-    // Those with indices 2 block and 2 block + 1.
+    // The numbers with indices 2 block and 2 block + 1.
     auto two(Word site, Word block) const {
         const auto words = rddl::philox::generate<rddl::philox::draw_rounds>(
             rddl::philox::Block<Word>{step, site, block, Word{std::uint64_t{0}}}, key);
@@ -135,7 +135,7 @@ class Reference {
         std::int64_t count;
         std::size_t action_size, state_size;
         std::vector<Single> singles;    // of a batch that is too small for registers, or
-        std::vector<Several> severals;  // of others; what is not full has lanes that nobody sees
+        std::vector<Several> severals;  // of others; some may have unused lanes
     };
 
     static rddl_batch* create(const rddl_simulator* simulator, const rddl_batch_options* options) {

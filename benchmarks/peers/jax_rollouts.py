@@ -54,7 +54,7 @@ class Rollouts:
         self.types = {name: value.dtype for name, value in outcome[0].items()}
 
     def _stacked(self, course: list[dict]) -> dict:
-        """By fluent, the first axis being time."""
+        """Arrays by fluent, the first axis being time."""
         course = [course[step % len(course)] for step in range(self.horizon)]
         return {
             name: np.stack([action[name] for action in course]).astype(self.types[name])

@@ -2,6 +2,7 @@
 
 #include "ast/print.hpp"
 #include "check/check.hpp"
+#include "details/make_details.hpp"
 #include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
@@ -18,7 +19,6 @@
 #include "ir/verify.hpp"
 #include "model/print.hpp"
 #include "parse/parse.hpp"
-#include "passes/make_details.hpp"
 #include "passes/passes.hpp"
 #include "support/match.hpp"
 #include "support/render.hpp"

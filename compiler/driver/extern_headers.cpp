@@ -54,7 +54,7 @@ std::optional<std::string> why_unreadable(const fs::path& header) {
     const fs::file_type type = fs::status(header, ignored).type();
     if (type == fs::file_type::directory) return std::strerror(EISDIR);
     if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular)
-        return "it is no regular file";
+        return "it is not a regular file";
     return std::ifstream(header) ? std::nullopt : std::optional<std::string>(std::strerror(errno));
 }
 

@@ -6,7 +6,7 @@
 #include "driver/process.hpp"
 #include "support/files.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -155,7 +155,7 @@ struct Part {
     const char* entry;  // null: that of the dispatcher, which chooses between the others
 };
 
-// Lower ones first (rddl/dispatch.cpp says why).
+// Lower ones first (rddl/interface/dispatch.cpp says why).
 constexpr Part parts[] = {{"dispatch", "x86-64", nullptr},
                           {"sse2", "x86-64", "rddl_simulator_sse2"},
                           {"avx2", "x86-64-v3", "rddl_simulator_avx2"},
@@ -164,7 +164,8 @@ constexpr Part parts[] = {{"dispatch", "x86-64", nullptr},
 std::vector<std::string> part_command(const Part& part, const fs::path& source,
                                       const fs::path& object) {
     std::vector<std::string> command = compiler_command(Processors::Any);
-    const fs::path dispatcher = runtime_include_folder().value_or("") / "rddl" / "dispatch.cpp";
+    const fs::path dispatcher =
+        runtime_include_folder().value_or("") / "rddl" / "interface" / "dispatch.cpp";
     command.insert(command.end(), {"-march=" + std::string(part.level), "-c", "-o", object.string(),
                                    part.entry ? source.string() : dispatcher.string()});
     if (part.entry) {
@@ -257,8 +258,8 @@ std::optional<std::string> complaint_about_environment() {
         return fmt::format("RDDLC_INCLUDE is '{}', which holds no rddl/simulator.hpp", include);
     const std::string set = environment_value("RDDL_INSTRUCTION_SET");
     if (!set.empty() && set != "sse2" && set != "avx2" && set != "avx512")
-        return fmt::format("RDDL_INSTRUCTION_SET is '{}', which is none of sse2, avx2 and avx512",
-                           set);
+        return fmt::format(
+            "RDDL_INSTRUCTION_SET is '{}', which is not one of sse2, avx2 and avx512", set);
     return std::nullopt;
 }
 

@@ -12,14 +12,15 @@
 namespace rddlc {
 
 // The folder that holds rddl/simulator.hpp: $RDDLC_INCLUDE, the one installed beside the running
-// program or the library that this is part of, or that of the source tree from which it was built. Nothing if there is none.
+// program or the library that this is part of, or that of the source tree from which it was built.
+// Nothing if there is none.
 std::optional<std::filesystem::path> runtime_include_folder();
 
 // What is wrong with RDDLC_INCLUDE or RDDL_INSTRUCTION_SET, if they are set.
 std::optional<std::string> complaint_about_environment();
 
 // For which processors: any of the architecture, or those with the vector registers of this one
-// (fewer if RDDL_INSTRUCTION_SET says so: rddl/processor.hpp).
+// (fewer if RDDL_INSTRUCTION_SET says so: rddl/lanes/processor.hpp).
 enum class Processors { Any, LikeThis };
 
 // The compiler and its arguments: $CXX (split at blanks) or c++.

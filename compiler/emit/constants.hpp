@@ -1,4 +1,4 @@
-// What the instance fixes, as emitted code tells it (rddl/constants.hpp).
+// What the instance fixes, as emitted code tells it (rddl/interface/constants.hpp).
 #pragma once
 
 #include "emit/unit.hpp"

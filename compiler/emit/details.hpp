@@ -1,5 +1,5 @@
-// The code that computes interm- and derived-fluents again for those who ask (rddl/details.hpp): a
-// namespace of its own inside that of the simulator.
+// The code that computes interm- and derived-fluents again for those who ask
+// (rddl/interface/details.hpp): a namespace of its own inside that of the simulator.
 #pragma once
 
 #include "emit/unit.hpp"

@@ -294,7 +294,7 @@ struct ConditionKind {
     std::string comment;
     std::string type;      // of its result, in L
     std::string none;      // the result where there are none
-    std::string gathered;  // the class that adds them up (rddl/conditions.hpp)
+    std::string gathered;  // the class that adds them up (rddl/step/conditions.hpp)
     std::string result;    // its member that says what they say
 };
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "format/comments.hpp"
-#include "format/document.hpp"
+#include "support/document.hpp"
 
 #include <stdexcept>
 #include <utility>
 
 namespace rddlc::format {
+
+using namespace document;
 
 // What stands above a declaration.
 struct Lead {

@@ -4,7 +4,7 @@
 #include "ir/analysis.hpp"
 #include "ir/evaluator.hpp"
 
-#include <rddl/fault_text.hpp>
+#include <rddl/interface/fault_text.hpp>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "model/fingerprint.hpp"
 
-#include <rddl/moderate.hpp>
+#include <rddl/values/moderate.hpp>
 
 #include <utility>
 

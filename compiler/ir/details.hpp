@@ -1,5 +1,5 @@
 // What a step computes on its way, as a program of its own: for those who ask about the last step
-// (rddl/details.hpp).
+// (rddl/interface/details.hpp).
 #pragma once
 
 #include "ir/ir.hpp"

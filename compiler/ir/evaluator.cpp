@@ -8,7 +8,7 @@
 #include "support/failure.hpp"
 #include "support/match.hpp"
 
-#include <rddl/distributions.hpp>
+#include <rddl/random/distributions.hpp>
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include "ir/outcomes.hpp"
 #include "ir/rounding.hpp"
 
-#include <rddl/reductions.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "ir/kernels.hpp"
 #include "support/match.hpp"
 
-#include <rddl/reductions.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <limits>
 

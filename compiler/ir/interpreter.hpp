@@ -1,4 +1,4 @@
-// Runs a program without a C++ compiler: an engine for rddl::Batch (rddl/engine.hpp), and the
+// Runs a program without a C++ compiler: an engine for rddl::Batch (rddl/step/engine.hpp), and the
 // oracle that compiled simulators are tested against, bit for bit.
 #pragma once
 
@@ -57,7 +57,7 @@ class Interpreter {
     int violated_precondition(const std::byte* state, const std::byte* action,
                               Context& context) const;
 
-    // The policy block (rddl/engine.hpp: PolicyEngine), if there is one.
+    // The policy block (rddl/step/engine.hpp: PolicyEngine), if there is one.
     bool has_policy() const { return program_->policy.has_value(); }
     std::size_t memory_size() const { return memory_size_; }
     void reset_policy(std::byte* memory) const;

@@ -226,7 +226,7 @@ struct Loop {
     VariableId variable;
     Block body;
     // With the loops right inside of it, it may run over several objects at once: no iteration
-    // needs another (passes/evaluate_together.hpp).
+    // needs another (passes/lanes/evaluate_together.hpp).
     bool several_at_once = false;
 };
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
@@ -310,7 +310,7 @@ struct Program {
     RealType real = RealType::Double;
     // --fast-math: reals that are computed are taken to be never inf or nan.
     bool assumes_finite = false;
-    // Right only for steps from moderate states and actions (rddl/moderate.hpp).
+    // Right only for steps from moderate states and actions (rddl/values/moderate.hpp).
     bool only_moderate = false;
     // Makes such steps in place of this program, with less work. It has the same sites.
     std::optional<Box<Program>> moderate = {};

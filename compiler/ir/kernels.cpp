@@ -1,8 +1,8 @@
 #include "ir/kernels.hpp"
 
-#include <rddl/bits.hpp>
-#include <rddl/distributions.hpp>
-#include <rddl/linear_algebra.hpp>
+#include <rddl/random/distributions.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/linear_algebra.hpp>
 
 #include <cstdlib>
 

@@ -4,7 +4,7 @@
 
 #include "ir/ir.hpp"
 
-#include <rddl/ops.hpp>
+#include <rddl/values/ops.hpp>
 
 #include <cstdint>
 

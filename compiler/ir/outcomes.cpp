@@ -2,7 +2,7 @@
 
 #include "support/failure.hpp"
 
-#include <rddl/distributions/saddle_point.hpp>
+#include <rddl/random/distributions/saddle_point.hpp>
 
 #include <fmt/format.h>
 

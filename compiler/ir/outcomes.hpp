@@ -3,7 +3,7 @@
 
 #include "model/vocabulary.hpp"
 
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <cstdint>

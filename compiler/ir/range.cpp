@@ -1,6 +1,6 @@
 #include "ir/range.hpp"
 
-#include <rddl/distributions/probability.hpp>
+#include <rddl/random/distributions/probability.hpp>
 
 #include <algorithm>
 #include <cmath>

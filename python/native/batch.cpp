@@ -31,7 +31,7 @@ solvers::Batch copy_of(const rddl_simulator& simulator, const rddl_batch* batch)
 
 }  // namespace
 
-Batch::Batch(cli::Simulator simulator, const BatchSettings& settings)
+Batch::Batch(workbench::Simulator simulator, const BatchSettings& settings)
     : simulator_(std::move(simulator)),
       settings_(settings),
       batch_(nullptr, simulator_->destroy),
@@ -72,8 +72,8 @@ Batch::Batch(const Batch& other)
       records_of_values_(other.records_of_values_),
       calls_(other.calls_) {}
 
-// A forked process has none of the threads of its parent: a copy has threads of its own. The old
-// batch is not destroyed there, since that waits for its threads.
+// A forked process lacks the threads of its parent: a copy has threads of its own. The old batch is
+// not destroyed there, since that waits for its threads.
 rddl_batch* Batch::live() {
     finish();
     if (settings_.threads == 1 || process_ == ::getpid()) return batch_.get();
@@ -108,14 +108,13 @@ void Batch::reset(const std::uint8_t* mask) {
     calls_.run([=, this] {
         check(*simulator_, simulator_->reset(batch, where.empty() ? nullptr : where.data(),
                                              arrays_.observations.data()));
-        read_values();
+        read_values(arrays_.observation_values.data());
     });
 }
 
-void Batch::read_values() {
+void Batch::read_values(void* values) {
     if (settings_.shows_values)
-        check(*simulator_, simulator_->get_observation_values(batch_.get(), number(),
-                                                              arrays_.observation_values.data()));
+        check(*simulator_, simulator_->get_observation_values(batch_.get(), number(), values));
 }
 
 // Eight at a time: few steps end anything.
@@ -136,10 +135,11 @@ bool Batch::has_ended() const {
 bool Batch::step(const Outputs& outputs) {
     rddl_batch* const batch = live();
     const rddl_transition out = transition(outputs);
+    void* const values = outputs.values ? outputs.values : arrays_.observation_values.data();
     calls_.run(
         [=, this] {
             check(*simulator_, simulator_->step(batch, arrays_.actions.data(), &out));
-            read_values();
+            read_values(values);
         },
         outputs.kept);
     return has_ended();
@@ -228,7 +228,7 @@ void Batch::read_observations() {
     if (settings_.shows_records)
         check(*simulator_, simulator_->get_observation(batch_.get(), 0, settings_.environments,
                                                        arrays_.observations.data()));
-    read_values();
+    read_values(arrays_.observation_values.data());
 }
 
 void Batch::read_interm(std::int64_t environment, std::byte* record) {

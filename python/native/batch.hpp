@@ -24,12 +24,12 @@ struct BatchSettings {
     std::int64_t environments = 1;
     int threads = 0;  // 0: one per core
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
-    std::int64_t horizon = 0;                        // 0: the instance's; RDDL_NO_HORIZON: none
-    bool doubles = false;                            // the matrices of numbers
+    std::int64_t horizon = 0;  // 0: the instance's; RDDL_NO_HORIZON: no horizon
+    bool doubles = false;      // the matrices of numbers
     bool shows_records = true, shows_values = true;  // what steps and resets fill
 };
 
-// Where a step writes, if not into the batch's own arrays; null: there.
+// The arrays that a step writes in place of the batch's own; null: the batch's.
 struct Outputs {
     void* values = nullptr;  // a matrix
     double* rewards = nullptr;
@@ -38,23 +38,23 @@ struct Outputs {
     nanobind::handle kept;  // whose memory that is
 };
 
-// Its arrays stay where they are, so that Python looks at them without copies. Values are the same
+// Its arrays stay where they are, so that Python reads them without copies. Values are the same
 // numbers as records, a column each. Functions that step release Python's lock. A step that Ctrl-C
-// does not wait for is made nevertheless; what comes next waits for it.
+// interrupts still completes; the next call waits for it.
 class Batch {
   public:
-    Batch(cli::Simulator simulator, const BatchSettings& settings);
+    Batch(workbench::Simulator simulator, const BatchSettings& settings);
     Batch(const Batch& other);
     Batch& operator=(const Batch&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
-    const cli::Simulator& shared_simulator() const { return simulator_; }
+    const workbench::Simulator& shared_simulator() const { return simulator_; }
     const BatchSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
-    // By the rows of action_records, or of these values: floats or doubles. Whether an episode has
-    // ended.
+    // Steps by the rows of action_records, or of these values: floats or doubles. Returns whether
+    // an episode has ended.
     bool step(const Outputs& outputs);
     bool step_values(const Outputs& outputs, const void* values, nanobind::handle kept = {});
     bool step_values(const Outputs& outputs) {
@@ -104,18 +104,18 @@ class Batch {
     rddl_transition transition(const Outputs& outputs);
     std::size_t number_size() const { return settings_.doubles ? sizeof(double) : sizeof(float); }
     rddl_batch* live();
-    void read_values();
+    void read_values(void* values);
     void read_observations();  // records, and values
     bool has_ended() const;
 
-    cli::Simulator simulator_;  // outlives the batch
+    workbench::Simulator simulator_;  // outlives the batch
     BatchSettings settings_;
     solvers::Batch batch_;
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
     Arrays arrays_;
     solvers::ActionRecords records_of_values_;
-    LongCalls calls_;  // the last one: a step that goes on writes into the others
+    LongCalls calls_;  // the last one: a step that still runs writes into the others
 };
 
 void add_batch(nanobind::module_& module);

@@ -157,8 +157,9 @@ void add_batch(nb::module_& module) {
                             "Environments, and the arrays that they read and fill: a row each.");
     batch.def(
         "__init__",
-        [](Batch* self, const cli::LoadedProblem& problem, std::int64_t environments, int threads,
-           int autoreset, std::int64_t horizon, bool doubles, bool records, bool values) {
+        [](Batch* self, const workbench::LoadedProblem& problem, std::int64_t environments,
+           int threads, int autoreset, std::int64_t horizon, bool doubles, bool records,
+           bool values) {
             new (self) Batch(problem.simulator,
                              {environments, threads, static_cast<rddl_autoreset>(autoreset),
                               horizon, doubles, records, values});

@@ -35,8 +35,8 @@ namespace rddlc::python {
 
 namespace {
 
-using cli::LoadedProblem;
-using cli::Simulator;
+using workbench::LoadedProblem;
+using workbench::Simulator;
 
 // A policy, which acts in one batch at a time.
 class Policy {
@@ -166,10 +166,10 @@ class Learner {
     Simulator simulator_;  // outlives the trainee
     solvers::Trainee trainee_;
     Stop stop_;
-    LongCalls calls_{true};  // the last one: an update that goes on works with the others
+    LongCalls calls_{true};  // the last one: an update that still runs works with the others
 };
 
-// What command lines have by other means.
+// Adds the options that command lines have by other means.
 template <class Options>
 solvers::OptionTable<Options> with_common(solvers::OptionTable<Options> table) {
     table.push_back(solvers::seed_option<Options>());
@@ -204,7 +204,7 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
                       std::uint64_t seed) {
     return {problem.simulator, [text, random, seed](const rddl_simulator& simulator) {
-                return cli::policy_of_text(simulator, text, random, seed, "learned");
+                return workbench::policy_of_text(simulator, text, random, seed, "learned");
             }};
 }
 

@@ -1,5 +1,6 @@
 // The native part of the Python package; python/rddlc/ is what people use.
 #include "native/batch.hpp"
+#include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
 #include "native/learners.hpp"
 #include "native/painter.hpp"
@@ -11,6 +12,7 @@ NB_MODULE(_native, module) {
     rddlc::python::add_problem(module);
     rddlc::python::add_batch(module);
     rddlc::python::add_row_writer(module);
+    rddlc::python::add_dictionary_writer(module);
     rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);
     rddlc::python::add_learners(module);

@@ -21,13 +21,14 @@ namespace rddlc::python {
 
 namespace {
 
-using cli::LoadedProblem;
+using workbench::LoadedProblem;
 
-cli::ProblemFiles files_of(const std::string& domain, const std::string& instance,
-                           const std::string& repository) {
-    if (repository.empty() || cli::is_path(domain)) return cli::find_files(domain, instance);
-    const cli::Repository scanned = cli::scan_repository(repository);
-    return cli::find_instance(cli::find_problem(scanned, domain), instance);
+workbench::ProblemFiles files_of(const std::string& domain, const std::string& instance,
+                                 const std::string& repository) {
+    if (repository.empty() || workbench::is_path(domain))
+        return workbench::find_files(domain, instance);
+    const workbench::Repository scanned = workbench::scan_repository(repository);
+    return workbench::find_instance(workbench::find_problem(scanned, domain), instance);
 }
 
 std::string text_of(const Compilation& compilation) {
@@ -44,20 +45,20 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
     const std::vector<std::string> headers = paths_of(externs);
     try {
         const nb::gil_scoped_release released;
-        cli::ProblemFiles files = files_of(names[0], names[1], names[2]);
+        workbench::ProblemFiles files = files_of(names[0], names[1], names[2]);
         files.instance_name = instance_name;
         if (extended) files.standard = Standard::Rddlc;
-        cli::LoadOptions options;
-        options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
+        workbench::LoadOptions options;
+        options.engine = interpreted ? workbench::Engine::Interpreter : workbench::Engine::Compiled;
         options.externs = {headers.begin(), headers.end()};
         options.details = details;
         options.remembers = true;
-        if (auto known = cli::load_known(files, options)) return *std::move(known);
-        Compilation compilation = cli::compile_problem(files, options);
+        if (auto known = workbench::load_known(files, options)) return *std::move(known);
+        Compilation compilation = workbench::compile_problem(files, options);
         if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
-        return cli::load_compilation(std::move(compilation), files, options);
+        return workbench::load_compilation(std::move(compilation), files, options);
     } catch (...) {
-        // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
+        // Ctrl-C also ends the C++ compiler: whatever error that causes, Ctrl-C was the reason.
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
         throw;
     }
@@ -65,7 +66,8 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
 
 nb::list problems_in(const nb::object& repository) {
     nb::list all;
-    for (const cli::RepositoryProblem& problem : cli::scan_repository(path_of(repository)).problems)
+    for (const workbench::RepositoryProblem& problem :
+         workbench::scan_repository(path_of(repository)).problems)
         all.append(nb::make_tuple(problem.name, nb::cast(problem.instances), problem.description));
     return all;
 }
@@ -76,7 +78,7 @@ nb::list files_as_text(const LoadedProblem& problem) {
     return all;
 }
 
-// Whose what() lacks the hint.
+// Adds exceptions whose what() lacks the hint.
 void add_errors(nb::module_& module) {
     const nb::object error = nb::exception<Failure>(module, "Error");
     nb::exception<CompileError>(module, "CompileError", error);
@@ -133,7 +135,7 @@ void add_problem(nb::module_& module) {
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
     module.def(
-        "is_path", [](const nb::object& text) { return cli::is_path(path_of(text)); },
+        "is_path", [](const nb::object& text) { return workbench::is_path(path_of(text)); },
         nb::arg("text"), "Whether the text means a file or a folder.");
     module.def("cpp_compiler", cpp_compiler, "The words of the C++ compiler's command.");
 }

@@ -67,14 +67,14 @@ def make(
     normalize: flat observations with two bounds, and all numbers of simplified actions, are from -1
         to 1.
     enforce_action_constraints: a step that violates a precondition raises ActionError.
-    enforce_action_count_non_bool: max-nondef-actions counts ints, objects and reals, too.
-    action_mask: info["action_mask"] tells which actions satisfy the preconditions, in the form that
-        action_space.sample(mask) takes.
-    horizon: steps, not negative; None: the instance's; 0: none.
+    enforce_action_count_non_bool: max-nondef-actions also counts ints, objects and reals.
+    action_mask: info["action_mask"] marks the actions that satisfy the preconditions, in the form
+    that action_space.sample(mask) takes.
+    horizon: steps, not negative; None: the instance's; 0: no horizon.
     render_mode: None, "rgb_array", "ansi" or "human" (a window, with pygame).
     render_size: width and height in pixels (600, 400). visualizer: see `rddl render`.
 
-    Raises CompileError with the compiler's diagnostics, and Error where files are missing.
+    Raises CompileError with the compiler's diagnostics, and Error if files are missing.
     """
     return RDDLEnv(_problem_of(domain, instance, options, RDDLEnv), **options)
 

@@ -73,7 +73,7 @@ def finite(name: str, given: Any) -> float:
 
 def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
     if not any(given is each or (isinstance(given, str) and given == each) for each in known):
-        raise ArgumentError(f"{name} is {shown(given)}, which is none of {_listed(map(repr, known))}")
+        raise ArgumentError(f"{name} is {shown(given)}, which is not one of {_listed(map(repr, known))}")
     return given
 
 
@@ -85,7 +85,7 @@ def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> Non
 
 
 def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:
-    """The `options` of a reset; empty for None."""
+    """Returns the `options` of a reset; empty for None."""
     if options is None:
         return {}
     if not isinstance(options, Mapping):
@@ -95,7 +95,7 @@ def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:
 
 
 def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:
-    """What it takes by name alone."""
+    """Returns the parameters that are keyword-only."""
     parameters = inspect.signature(function).parameters.values()
     return tuple(each.name for each in parameters if each.kind is each.KEYWORD_ONLY)
 

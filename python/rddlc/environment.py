@@ -13,16 +13,18 @@ from numpy.typing import NDArray
 
 from . import _native, causes
 from .arguments import one_of, options_of_reset, seed_of, seed_or_none, whole, whole_or_none
-from .dictionaries import DictionaryActions, GroundedReader, LiftedReader
 from .errors import ActionError, ArgumentError, EpisodeOver, Error
-from .learning import ChoiceActions, FlatReader
-from .legal import go_on_from, legal_space
-from .masks import ActionMasks
 from .model import Model
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
 from .states import State
+from .translation.choice_actions import ChoiceActions
+from .translation.dictionary_actions import SingleActions
+from .translation.legal import go_on_from, legal_space
+from .translation.masks import ActionMasks
+from .translation.protocols import ActionWriter, ObservationReader
+from .translation.readers import dictionary_reader, observation_reader
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
@@ -52,7 +54,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         render_size: tuple[int, int] = (600, 400),
         visualizer: str = "",
     ) -> None:
-        """See `rddlc.make`, which loads the problem, too."""
+        """See `rddlc.make`, which also loads the problem."""
         self._forms = {
             "vectorized": vectorized,
             "observations": one_of("observations", observations, OBSERVATIONS),
@@ -75,13 +77,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             values=observations != "dict",
         )
         self._seed: int | None = None
-        # An episode may go on with other random numbers than its own.
+        # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
         self._own: _native.Batch | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
-        """All that looks at the batch's arrays."""
+        """Binds everything that reads the batch's arrays."""
         batch, forms = self._batch, self._forms
         self._reader = self._new_reader()
         self._writer = self._new_writer()
@@ -98,20 +100,19 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self.render_mode is not None:
             self._renderer = self._new_renderer()
 
-    def _new_reader(self) -> Any:
-        if self._forms["observations"] == "flat":
-            return FlatReader(
-                self.problem,
-                self._batch.observation_values,
-                self._batch.final_values,
-                normalize=self._forms["normalize"],
-            )
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.observed, self._batch.observations)
+    def _new_reader(self) -> ObservationReader:
+        return observation_reader(
+            self.model.observed,
+            self._batch,
+            flat=self._forms["observations"] == "flat",
+            lifted=self._forms["vectorized"],
+            normalize=self._forms["normalize"],
+            by_values=self._forms["actions"] != "dict",
+        )
 
-    def _new_writer(self) -> Any:
+    def _new_writer(self) -> ActionWriter:
         if self._forms["actions"] == "dict":
-            return DictionaryActions(
+            return SingleActions(
                 self.problem,
                 self._batch,
                 lifted=self._forms["vectorized"],
@@ -155,8 +156,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         """The true state in the form of dictionary observations, also where it is not observed."""
         record = np.zeros((1, self.model.state_size), np.uint8)
         self._batch.read_state(0, record[0])
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.states, record).read()
+        return dictionary_reader(self.model.states, record, lifted=self._forms["vectorized"]).read()
 
     @property
     def timestep(self) -> int:
@@ -192,17 +192,15 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One step. At an end, info["cause"] says why: "terminated", "horizon", "invariant" (a state
-        invariant is violated) or "fault" (info["fault"] tells which); several are joined by ", ".
+        invariant is violated) or "fault" (info["fault"] describes it); several are joined by ", ".
 
         Raises ActionError or EpisodeOver, and has changed nothing then.
         """
         if self._ended or self._seed is None:
             raise self._no_step()
-        self._batch.finish()
-        self._writer.write(action)
         if self._enforces:
-            self._check_preconditions()
-        self._writer.step()
+            self._check_preconditions(action)
+        self._writer.step(action)
         ended = self._causes.item()
         info: dict[str, Any] = {}
         if ended or self._tells_mask:
@@ -227,20 +225,21 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self._tells_mask:
             info["action_mask"] = self._masks.for_space()
 
-    def _check_preconditions(self) -> None:
-        self._writer.write_record()
-        if self._batch.violated_preconditions(self._batch.actions)[0] >= 0:
-            raise ActionError(self._why_violated())
+    def _check_preconditions(self, action: Any) -> None:
+        record = self._writer.record(action)
+        if self._batch.violated_preconditions(record)[0] >= 0:
+            raise ActionError(self._why_violated(record))
 
-    def _why_violated(self) -> str:
+    def _why_violated(self, action: NDArray[np.uint8]) -> str:
         if self.problem.has_details:
+            self._batch.actions[:] = action
             return self._batch.explain_violation(0)
         batch = _native.Batch(self.problem.detailed, values=False)
         batch.reset()
         record = np.zeros(self.model.state_size, np.uint8)
         self._batch.read_state(0, record)
         batch.write_state(0, record, self.timestep)
-        batch.actions[:] = self._batch.actions
+        batch.actions[:] = action
         return batch.explain_violation(0)
 
     def action_masks(self) -> NDArray[np.bool_]:
@@ -257,13 +256,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return State(record.tobytes(), self.timestep, self._ended, self.problem.state_form.problem)
 
     def set_state(self, state: State, *, seed: int | None = None, replay: bool = False) -> None:
-        """The episode goes on from there, with new random numbers each time: a planner that tries an
-        action several times sees several successors, and never the one that is to come. They are
+        """The episode continues from there, with new random numbers each time: a planner that tries
+        an action several times sees several successors, and never the one that is to come. They are
         drawn from `np_random`, so that the same seed of reset() and the same calls give the same.
 
         seed: of the random numbers that follow: the same seed gives the same successors.
         replay: the numbers are this episode's own, which depend on its seed, its number and the
-            number of the step alone: the same actions lead to what they have led to before.
+            number of the step alone: the same actions have the same results as before.
         """
         self.problem.state_form.record_of(state)
         if seed is not None and replay:
@@ -311,7 +310,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- pictures
 
     def render(self) -> Any:
-        """(height, width, 3) uint8, a text, or None: as `render_mode` says."""
+        """Returns (height, width, 3) uint8, a text, or None, as `render_mode` says."""
         if self._renderer is None or self._seed is None:
             return None
         if self.render_mode == "human":
@@ -319,7 +318,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
     def _begin_pictures(self) -> None:
-        """What is drawn begins where the environment stands."""
+        """Starts drawing at the environment's present state."""
         if self._renderer is not None:
             self._renderer.begin(self._batch, self.horizon)
             self._show()
@@ -363,8 +362,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- copies
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RDDLEnv:
-        """What follows is the same in both as long as the actions are: the copy draws what this one
-        will draw. `set_state(env.get_state(), seed=...)` gives it random numbers of its own."""
+        """Returns a copy. The future is the same in both as long as the actions are: the copy draws
+        what this one will draw. `set_state(env.get_state(), seed=...)` gives it random numbers
+        of its own."""
         copy = type(self)(self.problem, **self._forms)
         copy._take(self, self._batch.copy())
         return copy

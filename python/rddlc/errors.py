@@ -1,4 +1,4 @@
-"""What rddlc raises. All are `Error`s."""
+"""Errors that rddlc raises. All are `Error`s."""
 
 from ._native import CompileError, Error
 
@@ -6,8 +6,8 @@ __all__ = ["ActionError", "ArgumentError", "CompileError", "Error", "EpisodeOver
 
 
 class ArgumentError(Error, ValueError, TypeError):
-    """An argument that cannot be, or a name that does not exist; nothing has been changed by it. It is
-    one of Python's own errors, too, for programs that catch these."""
+    """An impossible argument, or a name that does not exist; it has changed nothing. It is also one
+    of Python's own errors, for programs that catch these."""
 
 
 class ActionError(Error):

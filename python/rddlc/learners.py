@@ -17,16 +17,15 @@ from typing import Any, ClassVar, TypeVar
 
 from . import _native
 from .arguments import SEEDS, seed_of, thread_count, whole, whole_or_none
-from .dictionaries import GroundedReader, LiftedReader
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
-from .lifted import LiftedRows
 from .problems import Problem
+from .translation.readers import dictionary_reader
 from .vector import RDDLVectorEnv
 
 Solvable = Problem | RDDLEnv | RDDLVectorEnv
 Callback = Callable[["Learner"], bool | None]
-"""Called after each update; learning ends where it gives False."""
+"""Called after each update; learning ends when it returns False."""
 MOST_EPISODES = 10_000_000
 EVALUATION_SEED = 0x65766131  # with the learner's seed, as `rddl train` has it
 EVALUATION_HORIZON = 1000  # of a problem without one
@@ -46,7 +45,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What a policy earns."""
+    """The returns of a policy."""
 
     episodes: int
     returns: Estimate
@@ -59,8 +58,8 @@ class Evaluation:
     faulted: int
 
     def is_better_than(self, other: Evaluation | None) -> bool:
-        """As `rddl train` chooses the best policy: by the mean return, and of equal ones by which
-        reaches its end sooner. One that is not finite is never better."""
+        """Compares as `rddl train` chooses the best policy: by the mean return, and among equal
+        ones by which reaches its end sooner. One that is not finite is never better."""
         mean = self.returns.mean
         if not math.isfinite(mean) or other is None:
             return math.isfinite(mean)
@@ -88,10 +87,10 @@ class _Best:
 
 
 class Learner:
-    """What PPO and CGP have in common."""
+    """The common part of PPO and CGP."""
 
     extension: ClassVar[str]
-    total: ClassVar[str]  # the option that tells how long to learn
+    total: ClassVar[str]  # the option for the amount of training
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
         self.problem: Problem = (
@@ -120,10 +119,10 @@ class Learner:
         evaluations: int = 20,
         evaluation_episodes: int = 20,
     ) -> L:
-        """Learns for so many steps (PPO) or generations (CGP); again, it goes on from where it was.
-        Ctrl-C ends it, within an update, too, and leaves what has been learned.
+        """Learns for so many steps (PPO) or generations (CGP); another call continues.
+        Ctrl-C ends it, also within an update, and keeps what has been learned.
 
-        callback: called with the learner after each update; learning ends where it gives False.
+        callback: called with the learner after each update; learning ends when it returns False.
         evaluations: so often, evenly, the policy is evaluated in `evaluation_episodes` episodes of
             the same seeds, and `best` keeps the best one; 0: never.
         """
@@ -172,8 +171,8 @@ class Learner:
 
     @property
     def progress(self) -> dict[str, float]:
-        """What is known after the last update, by Stable-Baselines3's names; "eval/mean_reward" and
-        "eval/mean_ep_length" after the first evaluation."""
+        """Returns the results of the last update, by Stable-Baselines3's names; "eval/mean_reward"
+        and "eval/mean_ep_length" after the first evaluation."""
         known = {} if self._native is None else self._native.row()
         if self._latest is not None:
             known["eval/mean_reward"] = self._latest.returns.mean
@@ -182,7 +181,7 @@ class Learner:
 
     @property
     def policy_text(self) -> str:
-        """What a policy file holds: the policy as it is now."""
+        """Returns the text of a policy file: the policy as it is now."""
         if self._native is not None:
             return self._native.policy_text()
         if self._loaded is not None:
@@ -191,9 +190,9 @@ class Learner:
 
     @property
     def best(self: L) -> L:
-        """The policy that was best in the evaluations of learn(), as `rddl train` keeps it: to
-        predict, to evaluate and to save. It stays what it is while learning goes on. Of a policy
-        that was loaded, and where nothing was evaluated, it is the policy as it is now."""
+        """Returns the best policy of the evaluations of learn(), as `rddl train` keeps it: to
+        predict, to evaluate and to save. It stays the same while learning continues. For a
+        policy that was loaded, and without evaluations, it is the policy as it is now."""
         text = self.policy_text if self._best is None else self._best.text
         return self._of_text(text, self.problem)
 
@@ -210,9 +209,9 @@ class Learner:
         )
 
     def predict(self, env: RDDLEnv | RDDLVectorEnv) -> tuple[Any, None]:
-        """The action, as env.step takes it, for where `env` stands; None, as Stable-Baselines3 has a
-        second result. `env` is of any instance that the policy may act in, and has actions="dict".
-        Call it once before each step."""
+        """Returns the action, as env.step takes it, for the present state of `env`; and None, since
+        Stable-Baselines3 has a second result. `env` is of any instance that the policy may act
+        in, and has actions="dict". Call it once before each step."""
         if self._actor is None:
             self._actor, self._acts_in = self.policy(), None
         batch = env._batch
@@ -220,11 +219,11 @@ class Learner:
         self._acts_in = env
         fluents = env.problem.model.actions
         if isinstance(env, RDDLVectorEnv):
-            return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True), None
+            return dictionary_reader(fluents, batch.actions, lifted=True).rows(copy=True), None
         if env._forms["actions"] != "dict":
             raise Error("predict() gives dictionaries: make the environment with actions='dict'")
-        reader = LiftedReader if env._forms["vectorized"] else GroundedReader
-        return reader(fluents, batch.actions).read(), None
+        lifted = env._forms["vectorized"]
+        return dictionary_reader(fluents, batch.actions, lifted=lifted).read(), None
 
     def evaluate(
         self,
@@ -234,8 +233,8 @@ class Learner:
         threads: int = 0,
         horizon: int | None = None,
     ) -> Evaluation:
-        """Its returns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
-        None: the instance's; 0: none. threads: 0: one for each core."""
+        """The returns of the policy in the episodes of this seed; as `rddl evaluate --seed`.
+        horizon: steps; None: the instance's; 0: no horizon. threads: 0: one for each core."""
         found = self.policy().evaluate(
             whole("episodes", episodes, 1, MOST_EPISODES),
             seed_of(seed),
@@ -252,8 +251,8 @@ class Learner:
         )
 
     def save(self, path: str | os.PathLike[str], *, best: bool = False) -> Path:
-        """Writes the policy file: of the policy as it is now, or of the `best` one. Its name gets its
-        extension if it has none."""
+        """Writes the policy file: of the policy as it is now, or of the `best` one. Adds the
+        extension if the name has no extension."""
         file = Path(os.fsdecode(path))
         file = file if file.suffix else file.with_suffix(self.extension)
         _native.write_file(file, (self.best if best else self).policy_text)
@@ -269,7 +268,7 @@ class Learner:
         learner = cls.__new__(cls)
         Learner.__init__(learner, env_or_problem)  # without what it takes to learn
         learner._loaded = text if isinstance(text, str) else text.decode(errors="replace")
-        learner.policy()  # refuses what is none
+        learner.policy()  # refuses impossible values
         return learner
 
     def __getstate__(self) -> dict[str, Any]:
@@ -308,7 +307,7 @@ class PPO(Learner):
 
 
 class CGP(Learner):
-    """Cartesian genetic programming: a formula, which str() tells.
+    """Cartesian genetic programming: finds a formula, which str() prints.
 
     Options are keywords, with the values that `rddl help train cgp` lists; lists are Python's, and
     True and False are on and off:

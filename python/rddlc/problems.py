@@ -22,7 +22,7 @@ NO_HORIZON = -1  # of a batch; its 0 is the instance's
 
 
 def batch_horizon(horizon: int | None) -> int:
-    """What a batch takes where people say None for the instance's horizon, and 0 for none."""
+    """Converts a user's horizon to a batch's: None is the instance's, and 0 is no horizon."""
     given = whole_or_none("horizon", horizon, 0)
     return 0 if given is None else given or NO_HORIZON
 
@@ -98,7 +98,7 @@ class Problem:
 
     @property
     def has_details(self) -> bool:
-        """Whether the simulator tells interm-fluents, and objects that violate a precondition."""
+        """Whether the simulator reports interm-fluents, and objects that violate a precondition."""
         return self.engine == "interpreter" or self._options["details"]
 
     @cached_property
@@ -149,7 +149,8 @@ def _load_again(files: list[str], options: dict[str, Any]) -> Problem:
 
 
 def repository_folder() -> str:
-    """The folder of rddlrepository: $RDDL_REPOSITORY, else the installed package; "" if none."""
+    """Returns the folder of rddlrepository: $RDDL_REPOSITORY, else the installed package; "" if it
+    is missing."""
     if given := os.environ.get("RDDL_REPOSITORY"):
         return given
     spec = find_spec("rddlrepository")
@@ -159,7 +160,7 @@ def repository_folder() -> str:
 
 
 def problems() -> list[ListedProblem]:
-    """All problems of rddlrepository, by name; none where it is not installed."""
+    """Returns all problems of rddlrepository, by name; an empty dictionary if it is not installed."""
     folder = repository_folder()
     return list(_problems_in(folder)) if folder else []
 
@@ -178,7 +179,7 @@ def _engine_at_hand(engine: str) -> str:
 
 @lru_cache(maxsize=1)
 def _has_cpp_compiler() -> bool:
-    """Warns, once, where there is none."""
+    """Warns, once, if the compiler is missing."""
     command = _native.cpp_compiler()[0]
     if shutil.which(command):
         return True

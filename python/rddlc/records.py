@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .model import Fluent
+from .model import Fluent, Model
 
 STORED: dict[str, np.dtype[Any]] = {
     "bool": np.dtype(np.int8),
@@ -26,6 +26,11 @@ class Column:
     name: str
     fluent: Fluent
     grounding: int
+
+    @property
+    def offset(self) -> int:
+        """Bytes into its record."""
+        return self.fluent.offset + self.grounding * STORED[self.fluent.scalar].itemsize
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -64,15 +69,11 @@ def columns_of(fluents: Sequence[Fluent]) -> list[Column]:
 def grounded_view(records: NDArray[np.uint8], fluents: Sequence[Fluent]) -> NDArray[np.void]:
     """(n,) structured: a field for each value, without copying. records: (n, bytes)."""
     columns = columns_of(fluents)
-    sizes = [STORED[column.fluent.scalar] for column in columns]
     layout = np.dtype(
         {
             "names": [f"f{index}" for index in range(len(columns))],
-            "formats": sizes,
-            "offsets": [
-                column.fluent.offset + column.grounding * size.itemsize
-                for column, size in zip(columns, sizes)
-            ],
+            "formats": [STORED[column.fluent.scalar] for column in columns],
+            "offsets": [column.offset for column in columns],
             "itemsize": records.shape[1],
         }
     )
@@ -94,3 +95,13 @@ def lifted_views(
             (len(records), *shape), stored, records, fluent.offset, (records.shape[1], *strides)
         )
     return views
+
+
+def action_records(model: Model, values: NDArray[Any]) -> NDArray[np.uint8]:
+    """(n, bytes) of rows of values, of which whole numbers may be floats."""
+    is_real = [column.fluent.scalar == "real" for column in columns_of(model.actions)]
+    records = np.zeros((len(values), model.action_size), np.uint8)
+    view = grounded_view(records, model.actions)
+    for place, row in enumerate(values.tolist()):
+        view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
+    return records

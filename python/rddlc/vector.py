@@ -13,14 +13,18 @@ from numpy.typing import NDArray
 from . import _native, causes
 from .arguments import SEEDS, one_of, options_of_reset, seed_of, seed_or_none, thread_count, whole
 from .errors import ArgumentError, EpisodeOver
-from .learning import ChoiceActions, FlatReader
-from .legal import legal_space
-from .lifted import LiftedActions, LiftedRows
-from .masks import ActionMasks
 from .model import Model
 from .problems import Problem, batch_horizon
 from .states import State
+from .translation.choice_actions import ChoiceActions
+from .translation.dictionary_actions import LiftedActions
+from .translation.legal import legal_space
+from .translation.masks import ActionMasks
+from .translation.protocols import ActionWriter
+from .translation.readers import observation_reader
 
+OBSERVATIONS = ("flat", "dict")
+ACTIONS = ("simplified", "box", "dict")
 AUTORESET = {AutoresetMode.DISABLED: 0, AutoresetMode.NEXT_STEP: 1, AutoresetMode.SAME_STEP: 2}
 CAUSE_TEXTS = np.array(causes.TEXTS, object)
 
@@ -46,7 +50,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         horizon: int | None = None,
         copy: bool = True,
     ) -> None:
-        """See `rddlc.make_vec`, which loads the problem, too."""
+        """See `rddlc.make_vec`, which also loads the problem."""
         mode = _mode_of(autoreset_mode)
         num_envs = whole("num_envs", num_envs, 1)
         self.metadata = {**self.metadata, "autoreset_mode": mode}
@@ -60,7 +64,14 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             records=observations == "dict",
             values=observations != "dict",
         )
-        self._reader = self._new_reader(observations, normalize)
+        self._reader = observation_reader(
+            problem.model.observed,
+            self._batch,
+            flat=one_of("observations", observations, OBSERVATIONS) == "flat",
+            lifted=True,
+            normalize=normalize,
+            by_values=actions != "dict",
+        )
         self._writer = self._new_writer(actions, normalize)
         self._masks = ActionMasks(problem, self._batch, self._writer)
         self._mode, self._copies = mode, copy
@@ -73,30 +84,16 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if problem.model.preconditions:
             self.action_space = legal_space(self.action_space, self._writer, num_envs)
         batch = self._batch
-        is_view = getattr(self._reader, "is_view", False)
-        self._engine_shape = batch.observation_values.shape if is_view else None
+        self._engine_shape = batch.observation_values.shape if self._reader.is_view else None
         self._rewards, self._causes = batch.rewards, batch.causes
         self._terminated, self._truncated = batch.terminated, batch.truncated
 
-    def _new_reader(self, observations: str, normalize: bool) -> Any:
-        batch = self._batch
-        if observations == "flat":
-            return FlatReader(
-                self.problem, batch.observation_values, batch.final_values, normalize=normalize
-            )
-        if observations == "dict":
-            return LiftedRows(
-                self.problem.model.observed, batch.observations, batch.final_observations
-            )
-        raise ArgumentError(f"observations is {observations!r}, which is neither 'flat' nor 'dict'")
-
-    def _new_writer(self, actions: str, normalize: bool) -> Any:
-        if actions == "dict":
+    def _new_writer(self, actions: str, normalize: bool) -> ActionWriter:
+        if one_of("actions", actions, ACTIONS) == "dict":
             return LiftedActions(self.problem, self._batch)
-        if actions in ("simplified", "box"):
-            box = actions == "box"
-            return ChoiceActions(self.problem, self._batch, box=box, normalize=normalize)
-        raise ArgumentError(f"actions is {actions!r}, which is none of 'simplified', 'box' and 'dict'")
+        return ChoiceActions(
+            self.problem, self._batch, box=actions == "box", normalize=normalize
+        )
 
     @property
     def model(self) -> Model:
@@ -108,10 +105,10 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: Mapping[str, Any] | None = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Starts episodes: of seed + i, or of the i-th seed; without seeds the next ones. options:
-        {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts them in that
-        state, each with random numbers of its own, and {"state": [State or None, ...]} each in its
-        own state, or in its initial one."""
+        """Starts episodes with seed + i, or with the i-th seed; without seeds the next ones.
+        options: {"reset_mask": (num_envs,) bool} starts them only there; {"state": State} starts
+        them in that state, each with random numbers of its own, and {"state": [State or None, ...]}
+        each in its own state, or in its initial one."""
         given = options_of_reset(options, ("reset_mask", "state"))
         mask = self._mask_of(given.get("reset_mask"))
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
@@ -137,7 +134,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return mask
 
     def _states_of(self, given: Any, chosen: NDArray[np.int64]) -> dict[int, State]:
-        """By the places of environments; a state that is over starts no episode."""
+        """Returns the states by the places of environments; a state that is over starts no episode."""
         if isinstance(given, State):
             states: Any = [given] * self.num_envs
         elif given is None or isinstance(given, (list, tuple)):
@@ -166,7 +163,7 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 self._batch.set_seeds(place, [its])
 
     def _seeds_of(self, seed: Any) -> list[int | None]:
-        """One for each environment; None: it goes on with its own."""
+        """One for each environment; None: it continues with its own."""
         if not _is_list(seed):
             first = seed_of(seed)
             if first + self.num_envs > SEEDS:
@@ -188,17 +185,17 @@ class RDDLVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if not self._has_begun:
             raise EpisodeOver("no episode has begun: call reset() before step()")
         if not self._copies:
-            any_ended = self._writer.step_rows(actions, None)
+            any_ended = self._writer.step(actions, None)
             results = (self._rewards, self._terminated, self._truncated)
             return self._reader.rows(copy=False), *results, self._infos() if any_ended else {}
         into = self._room()
-        any_ended = self._writer.step_rows(actions, into)
+        any_ended = self._writer.step(actions, into)
         rows = self._reader.rows(copy=True) if into[0] is None else into[0]
         return rows, *into[1:], self._infos() if any_ended else {}
 
     def _room(self) -> tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any]]:
-        """New arrays for a step: observations (None if they are not the engine's values), rewards,
-        terminated, truncated."""
+        """Returns new arrays for a step: observations (None if they are not the engine's values),
+        rewards, terminated, truncated."""
         count = self.num_envs
         shape = self._engine_shape
         return (

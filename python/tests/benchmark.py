@@ -25,8 +25,8 @@ ENVIRONMENTS = 1024
 
 
 def rates_of(steppers: dict[str, Callable[[], int]]) -> dict[str, float]:
-    """Steps a second of each, by the best of the parts of its time, for which they take turns; a
-    stepper tells how many steps it made."""
+    """Returns steps a second of each, by the best of the parts of its time, for which they take
+    turns; a stepper returns how many steps it made."""
     best = dict.fromkeys(steppers, 0.0)
     for _ in range(PARTS):
         for name, step in steppers.items():

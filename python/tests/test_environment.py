@@ -155,7 +155,8 @@ class States(unittest.TestCase):
         np.testing.assert_equal(env.step(action), first)
 
     def test_states_have_no_luck(self) -> None:
-        """Who goes back to a state again and again sees what may come, and not what will."""
+        """A planner that returns to a state repeatedly sees possible futures, and not the one that
+        is to come."""
         env = example("network")
         steps_of(env, 5, 3)
         state = env.get_state()

@@ -88,7 +88,7 @@ class Learners(unittest.TestCase):
         self.assertEqual(seen, [64, 128, 192])
 
     def test_looks_meanwhile_see_what_is_learned(self) -> None:
-        """A look at the policy, in a callback, between calls of learn() or after a Ctrl-C, freezes
+        """Using the policy in a callback, between calls of learn() or after a Ctrl-C freezes
         nothing."""
         problem = example("mountain_car").problem
         options = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
@@ -129,7 +129,7 @@ class Learners(unittest.TestCase):
         self.assertEqual(model.policy_text, kept.policy_text)
 
     def test_the_best_policy_is_kept_beside_the_last(self) -> None:
-        """With a step size that spoils what was learned."""
+        """The step size is so large that it spoils what was learned."""
         problem = example("cart_pole").problem
         model = rddlc.PPO(
             problem, environments=4, rollout=32, minibatch=128, learning_rate=0.05,

@@ -40,7 +40,7 @@ class Refusals(unittest.TestCase):
                 (lambda: vector(num_envs=-1), rddlc.Error, "num_envs is -1"),
                 (lambda: vector(num_envs=1 << 40), rddlc.Error, "GiB|memory"),
                 (lambda: vector(num_envs="4"), TypeError, ""),
-                (lambda: vector(observations="none"), ValueError, "'flat' nor 'dict'"),
+                (lambda: vector(observations="none"), ValueError, "none of 'flat', 'dict'"),
                 (lambda: vector(autoreset_mode="none"), ValueError, ""),
                 (lambda: example("mountain_car", observations="none"), ValueError, "none of"),
                 (lambda: example("mountain_car", no_option=1), TypeError, "no_option.*horizon"),

@@ -22,12 +22,12 @@ inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_opti
 // Fails with the simulator's own sentence where it has refused a call: nothing has been done then.
 void require_done(const rddl_simulator& simulator, rddl_error error);
 
-// Where users say 0 for no horizon, and problems do.
+// Converts the user's 0, which means no horizon, to the constant of problems.
 inline std::int64_t horizon_option(std::int64_t horizon) {
     return horizon == 0 ? RDDL_NO_HORIZON : horizon;
 }
 
-// What an environment takes in a batch, with the records that go in and out: at least 1.
+// The bytes of one environment in a batch, with the records that go in and out: at least 1.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator);
 
 // Fails with a sentence if so many environments take more bytes than they may.

@@ -34,8 +34,8 @@ enum Tightness : int {
     name
 };
 
-// Of what a function and its arguments become, and what that needs of the arguments: (a + b) + c is
-// "a + b + c", and a + (b + c) keeps its brackets, as rounding is another.
+// How tightly a function binds and what it needs of its arguments: (a + b) + c is "a + b + c", and
+// a + (b + c) keeps its brackets, since it rounds differently.
 struct Binding {
     Tightness own = name;
     std::array<Tightness, 3> needed{choice, choice, choice};
@@ -77,10 +77,10 @@ struct Text {
 
 // How a language writes things.
 struct Language {
-    // Of the input as the program reads it, from its number.
+    // The text of input number i, as the program reads it.
     std::function<Text(int)> input;
     std::function<std::string(double)> constant;
-    // Of a function and its arguments, which are bracketed where they need it.
+    // The text of a call; arguments are bracketed where they need it.
     std::function<std::string(Function, const std::string&, const std::string&, const std::string&)>
         call;
     std::function<Binding(Function)> binding = [](Function) {
@@ -197,7 +197,7 @@ Language for_people(const ProgramScope& scope) {
     return language;
 }
 
-// Where the bool is one of a group.
+// The group to which the bool belongs, or NULL.
 const CategoryHead* group_of(const ActionSpace& space, int column) {
     for (const CategoryHead& head : space.categories)
         if (std::ranges::binary_search(head.group, column)) return &head;
@@ -213,7 +213,7 @@ int other_values(const ActionSpace& space, int column) {
                       [column](const Choice& choice) { return choice.column == column; }));
 }
 
-// What becomes of an output, where it is not clear.
+// How an output becomes an action, where that is not clear.
 std::string meaning_of(const ProgramScope& scope, std::size_t output) {
     const ActionSpace& space = scope.actions;
     int column = static_cast<int>(output);

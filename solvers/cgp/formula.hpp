@@ -31,7 +31,7 @@ struct Formula {
     std::vector<double> evaluate(const std::vector<double>& inputs) const;
 };
 
-// With the same values as the genome's program, where inputs are within +-1e6.
+// The formula has the same values as the genome's program where inputs are within +-1e6.
 Formula simplified(const Genome& genome);
 
 // "action = vel > pos", a line for each output; parts that occur several times have lines of their

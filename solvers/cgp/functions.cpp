@@ -71,7 +71,7 @@ std::vector<Function> functions_named(const std::vector<std::string>& words) {
         for (const FunctionInfo& info : all_functions)
             if (word == info.name || word == info.group) add(info.function);
         if (functions.size() == before && !function_named(word))
-            throw Failure(fmt::format("'{}' is no function of CGP, nor a group of them", word),
+            throw Failure(fmt::format("'{}' is not a CGP function or a group of functions", word),
                           "groups are arith, trig, logic, round and unit", usage_error);
     }
     return functions;

@@ -1,4 +1,4 @@
-// What nodes of a program compute. All functions are total: no result is nan, or beyond +-1e6.
+// The functions of a program's nodes. All are total: no result is nan, or beyond +-1e6.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ std::vector<Function> functions_named(const std::vector<std::string>& words);
 // arith, trig and logic.
 std::vector<Function> default_functions();
 
-// Arguments beyond the arity are not looked at.
+// Ignores arguments beyond the arity.
 double apply(Function function, double a, double b, double c);
 // The same of rows of `count` numbers.
 void apply(Function function, int count, const double* a, const double* b, const double* c,

@@ -179,7 +179,7 @@ void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* va
     for (const int output : outputs_) *outputs++ = at(output, values);
 }
 
-// What nodes read: of a delayed program a copy of what the step before has left.
+// The values that nodes read: in a delayed program a copy of the values of the step before.
 const double* Program::remembered(int lanes, double* values) const {
     if (!delayed_) return values;
     const std::ptrdiff_t count = std::ptrdiff_t{slots_} * lanes;

@@ -10,8 +10,8 @@
 
 namespace rddlc::solvers {
 
-// What is left of a genome, for any number of lanes at once: nodes that have a part in the outputs.
-// What they compute of constants alone is computed once, and nodes that compute the same are one.
+// A genome reduced to the nodes that have a part in the outputs, for any number of lanes at once.
+// Nodes of constants alone are computed once, and nodes that compute the same are merged.
 class Program {
   public:
     Program() = default;

@@ -6,7 +6,7 @@
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
 
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <fmt/format.h>
 
@@ -130,7 +130,7 @@ struct CgpSearch::State {
         }
     }
 
-    // What this rank knows, as the others take it.
+    // This rank's report, in the form that other ranks read.
     std::string own_report() const {
         const Island* first = islands.front().get();
         CgpProgress own;

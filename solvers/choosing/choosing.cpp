@@ -4,7 +4,7 @@
 #include "solvers/choosing/probabilities.hpp"
 #include "solvers/spaces/mending.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -252,8 +252,8 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
     }
 }
 
-// What may be picked next: what is legal then; where nothing is, all that is not picked yet, since
-// more changes may mend it.
+// Masks the next pick: a choice must be legal then. If no choice is legal, all that are not picked
+// yet are allowed, since more changes may repair the action.
 void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
     const auto picks = static_cast<std::size_t>(space_.picks);
     const std::size_t logits = space_.choices.size();

@@ -1,4 +1,4 @@
-// What came of episodes: means with their confidence intervals.
+// Summaries of episodes: means with their confidence intervals.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"

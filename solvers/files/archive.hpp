@@ -35,7 +35,7 @@ class SavingArchive {
     void fixed(const std::vector<T>& values) {
         (*this)(values);
     }
-    // What another archive has saved.
+    // Appends the bytes of another archive.
     void append(std::string_view bytes) { bytes_.append(bytes); }
     const std::string& bytes() const { return bytes_; }
 

@@ -2,7 +2,7 @@
 
 #include "solvers/network/gru.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 
 #include <cstddef>
 #include <cstdint>

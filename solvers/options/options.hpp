@@ -26,23 +26,23 @@ struct OptionRefused : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What people see of an option.
+// The texts of an option that users see.
 struct OptionText {
     std::string name;     // "--lr", of command lines
     std::string keyword;  // "learning_rate", of Python
     std::string value;    // "RATE"; "" for a flag
     std::string help;
-    bool is_setting = true;                 // a run goes on with the same
+    bool is_setting = true;                 // a resumed run has the same
     bool is_list = false;                   // of words with commas between them
     std::vector<std::string> choices = {};  // the only words; empty: others
 };
 
 template <class Options>
 struct LearnerOption : OptionText {
-    // By the words of its value: one, unless it is a list. Throws an OptionRefused, and has changed
-    // nothing then.
+    // Sets the option from the words of its value: one, unless it is a list. Throws an
+    // OptionRefused, and has changed nothing then.
     std::function<void(Options&, const std::vector<std::string>&)> set;
-    // As `set` takes it; "auto": what the learner chooses by itself.
+    // The value as `set` takes it; "auto": the learner chooses it.
     std::function<std::string(const Options&)> text;
 };
 
@@ -105,7 +105,7 @@ LearnerOption<Options> switch_option(OptionText text, Member member) {
     return choice_option<Options, bool>(std::move(text), member, {{"on", true}, {"off", false}});
 }
 
-// Of all learners, where they are made by a keyword or a program.
+// The seed of all learners, where they are made by a keyword or a program.
 template <class Options>
 LearnerOption<Options> seed_option() {
     return number_option<Options, std::uint64_t>(
@@ -123,7 +123,7 @@ LearnerOption<Options> memory_option() {
 
 // ------------------------------------------------------------------------------ what tables do
 
-// "--lr", "0.0003": of those that a run goes on with.
+// The settings that a resumed run keeps, as "--lr", "0.0003".
 template <class Options>
 std::vector<std::pair<std::string, std::string>> settings_of(const OptionTable<Options>& table,
                                                              const Options& options) {
@@ -136,7 +136,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const OptionTable<O
 // The words between commas.
 std::vector<std::string> words_of_list(const std::string& text);
 
-// For options that no face has looked at. Throws a Failure.
+// Checks options that did not pass a parser. Throws a Failure.
 template <class Options>
 void require_ranges(const OptionTable<Options>& table, const Options& options) {
     Options copy = options;
@@ -151,7 +151,7 @@ void require_ranges(const OptionTable<Options>& table, const Options& options) {
     }
 }
 
-// "there is no option 'minibach'; did you mean 'minibatch'?"
+// The message "there is no option 'minibach'; did you mean 'minibatch'?"
 std::string unknown_option(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace rddlc::solvers

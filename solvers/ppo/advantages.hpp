@@ -13,8 +13,8 @@ struct Course {
     std::ptrdiff_t row;
     const float* rewards;
     const float* values;  // of the states in which the steps began
-    // What the state is worth to which a step led, where an episode ended with that step (0 if it
-    // terminated), and after the last step. Elsewhere it is not read.
+    // The value of the state after a step with which an episode ended (0 if it terminated), and
+    // after the last step. Other entries are not read.
     const float* next_values;
     const std::uint8_t* ends;  // 1: an episode ended with that step
 };

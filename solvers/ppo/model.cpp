@@ -1,6 +1,6 @@
 #include "solvers/ppo/model.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +142,7 @@ void make_parameters(PpoModel& model, const PpoOptions& options) {
     initialise(model.value, 1, model.parameters.data() + model.value_begin());
     if (model.recurrent > 0)
         initialise(model.memory, model.parameters.data() + model.memory_begin());
-    // Where it is a sum over units, so that the sum has about this deviation.
+    // A deviation that is a sum over units is divided so that the sum has about this deviation.
     const double parts = std::max(model.noisy_units(), 1);
     std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),
                 static_cast<float>(options.log_deviation - 0.5 * std::log(parts)));

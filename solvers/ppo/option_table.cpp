@@ -10,7 +10,7 @@ using O = PpoOptions;
 using Option = LearnerOption<O>;
 using Time = ObservationOptions::Time;
 
-// What the presets alone change is told by their names.
+// The names of the presets stand for the values that only they change.
 Option preset_option() {
     Option option{{"--preset",
                    "preset",
@@ -86,25 +86,25 @@ OptionTable<O> make_table() {
         preset_option(),
         steps_option(),
         size_option(
-            {"--envs", "environments", "N", "Environments (64), of each rank of MPI"},
+            {"--envs", "environments", "N", "Environments (64), on each rank of MPI"},
             [](auto& o) -> auto& { return o.environments; }),
         size_option(
             {"--rollout", "rollout", "T",
-             "Steps of each between updates (128, or as many as fit into memory)"},
+             "Steps of each environment between updates (128, or as many as fit into memory)"},
             [](auto& o) -> auto& { return o.rollout; }),
         int_option(
-            {"--epochs", "epochs", "E", "Passes over what was collected (4)"},
+            {"--epochs", "epochs", "E", "Passes over the collected samples (4)"},
             [](auto& o) -> auto& { return o.epochs; }, 1, 10000),
         int_option(
             {"--minibatch", "minibatch", "M",
-             "Samples of a step of descent (1024), of each rank of MPI"},
+             "Samples of a gradient step (1024), on each rank of MPI"},
             [](auto& o) -> auto& { return o.minibatch; }, 1, 1 << 30),
         real_option(
             {"--lr", "learning_rate", "RATE", "Learning rate (3e-4)"},
             [](auto& o) -> auto& { return o.learning_rate; }, 0, 10),
         choice_option<O, LearningRate>({"--lr-schedule", "schedule", "HOW",
-                                        "linear (default): down to 0; constant; kl: so that the "
-                                        "policy moves evenly"},
+                                        "linear (default): down to 0; constant; kl: adapts so "
+                                        "that the policy moves evenly"},
                                        [](auto& o) -> auto& { return o.schedule; },
                                        {{"linear", LearningRate::Linear},
                                         {"constant", LearningRate::Constant},
@@ -113,70 +113,73 @@ OptionTable<O> make_table() {
             {"--gamma", "gamma", "G", "Discount (0.99, or the instance's if lower)"},
             [](auto& o) -> auto& { return o.gamma; }, 0, 1),
         real_option(
-            {"--lambda", "gae_lambda", "L", "Of generalised advantage estimation (0.95)"},
+            {"--lambda", "gae_lambda", "L", "Lambda of generalised advantage estimation (0.95)"},
             [](auto& o) -> auto& { return o.lambda; }, 0, 1),
         real_option(
-            {"--clip", "clip", "C", "Of the probability ratio (0.2)"},
+            {"--clip", "clip", "C", "Clip range of the probability ratio (0.2)"},
             [](auto& o) -> auto& { return o.clip; }, 0, 10),
         real_option(
-            {"--value-clip", "value_clip", "C", "Of values; 0 (default): none"},
+            {"--value-clip", "value_clip", "C",
+             "Clip range of value estimates; 0 (default): no clipping"},
             [](auto& o) -> auto& { return o.value_clip; }, 0, 1e9),
         real_option(
-            {"--value-weight", "value_weight", "W", "Of the values' error (0.5)"},
+            {"--value-weight", "value_weight", "W", "Weight of the value loss (0.5)"},
             [](auto& o) -> auto& { return o.value_weight; }, 0, 1e9),
         real_option(
             {"--entropy", "entropy", "W", "Weight of the entropy (0; 0.01 with choices)"},
             [](auto& o) -> auto& { return o.entropy_weight; }, 0, 1e9),
         real_option(
-            {"--gradient-norm", "gradient_norm", "N", "Of the gradient, at most (0.5); 0: any"},
+            {"--gradient-norm", "gradient_norm", "N",
+             "Largest norm of the gradient (0.5); 0: no limit"},
             [](auto& o) -> auto& { return o.gradient_norm; }, 0, 1e9),
         real_option(
             {"--target-kl", "target_kl", "D",
-             "An update ends when the policy has moved by 1.5 times this; 0 (default): "
-             "never"},
+             "An update ends when the policy has moved by 1.5 times this KL divergence; "
+             "0 (default): never"},
             [](auto& o) -> auto& { return o.kl_stop; }, 0, 1e9),
         choice_option<O, Noise>(
             {"--noise", "noise", "NOISE",
-             "Of reals: ar1 (default), correlated in time; sde, a function of the "
+             "Exploration noise of reals: ar1 (default), correlated in time; sde, a function of "
+             "the "
              "state that changes every "
              "few steps; or white"},
             [](auto& o) -> auto& { return o.noise; },
             {{"ar1", Noise::Ar1}, {"sde", Noise::Sde}, {"white", Noise::White}}),
         int_option(
-            {"--sde-steps", "sde_steps", "N", "Steps with the same function, of sde (8)"},
+            {"--sde-steps", "sde_steps", "N", "Steps for which sde keeps its function (8)"},
             [](auto& o) -> auto& { return o.noise_steps; }, 1, 1 << 20),
         real_option(
-            {"--correlation", "correlation", "R", "Of ar1 between steps (0.9)"},
+            {"--correlation", "correlation", "R", "Correlation of ar1 noise between steps (0.9)"},
             [](auto& o) -> auto& { return o.correlation; }, 0, 0.9999),
         real_option(
-            {"--log-std", "log_std", "X", "Logarithm of the noise's deviation at first (0)"},
+            {"--log-std", "log_std", "X", "Logarithm of the noise's first standard deviation (0)"},
             [](auto& o) -> auto& { return o.log_deviation; }, -20, 5),
         switch_option<O>(
             {"--squash", "squash", "WHEN",
              "Whether reals with two bounds are tanh of a normal number (on), or "
-             "cut at their bounds (off, default)"},
+             "clipped to their bounds (off, default)"},
             [](auto& o) -> auto& { return o.squashes; }),
         switch_option<O>(
             {"--curiosity", "curiosity", "WHEN",
-             "Whether seeing more of the problem is rewarded as long as nearly all "
-             "episodes earn the same: on (default; off in sb3 and rllib), off"},
+             "Reward for seeing more of the problem while nearly all episodes have "
+             "the same return: on (default; off in sb3 and rllib), off"},
             [](auto& o) -> auto& { return o.curious; }),
         hidden_option(),
-        choice_option<O, Activation>({"--activation", "activation", "FUNCTION",
-                                      "Of hidden layers: tanh (default), or relu, which is faster"},
-                                     [](auto& o) -> auto& { return o.activation; },
-                                     {{"tanh", Activation::Tanh}, {"relu", Activation::Relu}}),
+        choice_option<O, Activation>(
+            {"--activation", "activation", "FUNCTION",
+             "Activation of hidden layers: tanh (default), or relu, which is faster"},
+            [](auto& o) -> auto& { return o.activation; },
+            {{"tanh", Activation::Tanh}, {"relu", Activation::Relu}}),
         int_option(
             {"--stack", "stack", "K", "Observations seen at once (1)"},
             [](auto& o) -> auto& { return o.observations.stack; }, 1, most_stacked),
         int_option(
             {"--recurrent", "recurrent", "UNITS",
-             "Gated recurrent units, which remember what was observed, for problems that "
-             "are observed in part; 0 (default): none"},
+             "Gated recurrent units, a memory for partially observed problems; "
+             "0 (default): no memory"},
             [](auto& o) -> auto& { return o.recurrent; }, 0, 1 << 14),
         int_option(
-            {"--segment", "segment", "T",
-             "Steps through which what is remembered is learned, at most (32)"},
+            {"--segment", "segment", "T", "Longest backpropagation through time, in steps (32)"},
             [](auto& o) -> auto& { return o.segment; }, 2, 1 << 20),
         choice_option<O, Time>(
             {"--time-input", "time_input", "WHEN",

@@ -24,7 +24,8 @@ using Json = nlohmann::json;
 std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
-// Nine digits tell a float from its neighbours; "-0" would be the int 0 in JSON, without a sign.
+// Nine digits distinguish a float from its neighbours; "-0" would be the int 0 in JSON, without a
+// sign.
 std::string array(const float* values, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
@@ -87,7 +88,7 @@ std::vector<float> numbers_in(const Json& json, std::size_t count, const char* m
 constexpr const char* other_layers = "its layers do not fit";
 constexpr int most_units = 1 << 16, most_remembered = 1 << 14;
 
-// Older files tell the correlation alone.
+// Older files hold only the correlation.
 Noise noise_of(const Json& json, double correlation) {
     const std::string name = json.value("noise", correlation > 0 ? "ar1" : "white");
     for (const Noise noise : {Noise::White, Noise::Ar1, Noise::Sde})
@@ -204,7 +205,7 @@ void read_gru(const Json& json, const Gru& gru, float* parameters) {
     read_bias(json.at("state_bias"), gru.units, parameters + gru.state_bias());
 }
 
-// Of a file's member "recurrent", before anything gets that size.
+// The size in a file's member "recurrent", checked before anything gets that size.
 int units_of(const Json& json) {
     const auto units = whole_number(json.at("units"), "number of units", 1, most_remembered);
     if (json.at("state_bias").size() != static_cast<std::size_t>(units))
@@ -280,7 +281,7 @@ void require_small_numbers(const PpoModel& model) {
         if (model.log_deviations()[d] > 80) throw Failure("its noise is too large");
 }
 
-// What is seen, but for the horizon, which another instance of the problem may have.
+// The observation space without the horizon, which another instance of the problem may have.
 Json seen_in(Json space) {
     space.erase("horizon");
     return space;
@@ -289,7 +290,7 @@ Json seen_in(Json space) {
 void require_format(const Json& json) {
     if (!json.is_object() || json.value("format", "") != "rddl-policy" ||
         json.value("solver", "") != "ppo")
-        throw Failure("it is no policy of PPO");
+        throw Failure("it is not a PPO policy");
     const Json& version = json.at("version");
     if (version.is_number_integer() && version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
@@ -297,7 +298,7 @@ void require_format(const Json& json) {
     whole_number(version, "version", 1, policy_file_version);
 }
 
-// Of any instance in which the same is seen and done.
+// Accepts any instance with the same spaces.
 void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& model) {
     const rddl_problem& problem = *simulator.problem;
     if (json.at("domain") != problem.domain)
@@ -313,7 +314,7 @@ void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& mo
     model.actions = action_space(simulator);
     for (const Json& real : json.at("action").at("reals"))
         if (real.at("range") == "squashed") squash_bounded(model.actions);
-    // As values: other programs lay out JSON in their own way.
+    // Compares values, since other programs lay out JSON in their own way.
     if (seen_in(parse_json(text_of(model.observations))) != seen_in(seen.at("space")) ||
         parse_json(text_of(model.actions)) != json.at("action"))
         throw Failure(
@@ -504,7 +505,7 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
     } catch (const RefusedJson& refused) {
         throw Failure(refused.byte ? "it is not complete, or no JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
-        throw Failure("it is no policy of PPO, or something in it is missing");
+        throw Failure("it is not a PPO policy, or something in it is missing");
     }
 }
 

@@ -19,9 +19,9 @@ inline constexpr int policy_file_version = 4;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 
-// Throws a Failure with a sentence where the text is none, incomplete, of a newer version, or of
-// another problem; where it takes more than the limit to read, or a number in it is none that a
-// network may have.
+// Throws a Failure with a sentence if the text is not a policy, or is incomplete, of a newer
+// version, or of another problem; and if reading it takes more than the limit, or it holds a number
+// that a network may not have.
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text,
                                                 std::int64_t memory_limit = default_memory_limit);

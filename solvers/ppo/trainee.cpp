@@ -13,7 +13,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// What this process has done: a run that goes on has steps that others made.
+// The work of this process: a resumed run has steps that others made.
 struct Work {
     std::int64_t steps_before = 0;
     double seconds = 0;

@@ -55,8 +55,8 @@ double typical_size(const rddl_simulator& simulator) {
     return count > 0 ? std::max(1.0, sum / count) : 1;
 }
 
-// The greatest power of two by which a value may be away from where it starts, in `direction`, at
-// the beginning of an episode; `otherwise` if there is no such limit.
+// The greatest power of two by which a value may differ from its start, in `direction`, at the
+// beginning of an episode; `otherwise` if there is no such limit.
 double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
                   const std::vector<float>& defaults, int column, double start, double direction,
                   double otherwise, const Stops& stops) {
@@ -125,7 +125,7 @@ void add_category(ActionSpace& space, const rddl_column& column, int index) {
     space.categories.push_back(head);
 }
 
-// Which column each choice of the simulator changes, and to which value.
+// The column that each choice of the simulator changes, and its new value.
 std::vector<Choice> simulator_choices(const rddl_simulator& simulator,
                                       const std::vector<rddl_column>& columns) {
     std::vector<Choice> choices;
@@ -180,7 +180,7 @@ void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator
     }
 }
 
-// Where the first bool of a group had a category, the group has one; those of its others go.
+// A group gets one category in place of those of its bools, at the place of the first bool's.
 void add_groups(ActionSpace& space, const Groups& groups) {
     std::vector<const std::vector<int>*> group_of(static_cast<std::size_t>(space.column_count));
     for (const std::vector<int>& group : groups.columns)
@@ -209,7 +209,7 @@ bool fit_into_masks(std::int64_t picks, std::int64_t choices) {
     return choices <= most_mask_bytes / std::max<std::int64_t>(picks, 1);
 }
 
-// The simulator tries each choice for a mask, and looks at all of the action each time.
+// The simulator tries each choice for a mask, and checks the whole action each time.
 bool may_ask_for_masks(const rddl_problem& problem, std::int64_t columns, std::int64_t choices) {
     constexpr std::int64_t most_values = 4'000'000;
     return problem.precondition_count == 0 || choices <= most_values / columns;
@@ -298,7 +298,7 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops) {
     const bool is_limited = limit < space.column_count;
     const auto groups =
         bites && limit > 1 ? find_groups(simulator, columns, space, records, stops) : std::nullopt;
-    // Picks keep to limits, too, and know what is legal; but from the default they do not find to
+    // Picks also keep to limits and know what is legal; but from the default they do not find
     // actions where one bool of each group has to change.
     if (groups && !(is_limited && groups->may_be_none)) {
         add_groups(space, *groups);
@@ -359,7 +359,7 @@ void write_action(const ActionSpace& space, const float* numbers, const std::int
     const auto set_real = [&](std::size_t r) {
         constexpr double most = std::numeric_limits<float>::max();
         const double value = value_of_real(space.reals[r], static_cast<double>(numbers[r]));
-        if (!std::isnan(value))  // else the default: simulators refuse actions that are none
+        if (!std::isnan(value))  // otherwise the default: simulators refuse nan in actions
             values[space.reals[r].column] = static_cast<float>(std::clamp(value, -most, most));
     };
     if (space.picks > 0) {

@@ -62,7 +62,7 @@ void RunLog::check_loaded() const {
     for (std::size_t row = 0; row < numbers_.size(); row += width())
         if (const double steps = numbers_[row + 1];
             !(steps >= 0 && steps <= greatest && steps == std::floor(steps)))
-            throw Failure("it is damaged: a number of steps in its log is no count");
+            throw Failure("it is damaged: a number of steps in its log is not a count");
 }
 
 void RunLog::add(std::int64_t steps, double seconds, double wall_time, const Row& row) {

@@ -1,7 +1,7 @@
 """Every diagnostic code has a page and a test, and no page or test has a code that does not exist.
 
-The tests of a code are the case folders that mark it, and what tests/robustness does to the programs
-where RDDL alone cannot cause it: files that are missing, too large, not writable.
+The tests of a code are the case folders that mark it, and the tests in tests/robustness if RDDL
+alone cannot cause it: files that are missing, too large, not writable.
 """
 
 import re

@@ -1,6 +1,6 @@
 """No tracked file is a cache, and none is large without a reason.
 
-Without git, as in a release that was unpacked, the files that stand here are looked at, but for those of builds.
+Without git, as in a release that was unpacked, the files of the folder are checked, except those of builds.
 """
 
 import re
@@ -13,12 +13,12 @@ LARGEST = 500_000  # bytes
 # Larger ones, each with its reason.
 REASONS: dict[str, str] = {}
 CACHE = re.compile(r"(^|/)(\.[^/]*_cache|__pycache__|\.cache|\.ccache|node_modules|\.ipynb_checkpoints)/|\.(pyc|pyo|o|gcda|gcno|swp)$")
-# Of those who build and test here.
+# Folders of builds and tools.
 OWN = re.compile(r"^(\.git|\.venv|build[^/]*|shared)(/|$)")
 
 
 def tracked(root: Path) -> list[str] | None:
-    """Nothing where this is no checkout."""
+    """Returns None if this is not a checkout."""
     try:
         found = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True, check=True)
         top = subprocess.run(["git", "-C", str(root), "rev-parse", "--show-toplevel"], capture_output=True, check=True)
@@ -30,7 +30,7 @@ def tracked(root: Path) -> list[str] | None:
 
 
 def unpacked(root: Path) -> list[str]:
-    """Whoever runs tests there makes caches of their own."""
+    """Leaves out the caches that running tests makes here."""
     names = (str(path.relative_to(root)) for path in root.rglob("*") if path.is_file())
     return [name for name in names if not OWN.match(name) and not CACHE.search(name)]
 

@@ -8,7 +8,7 @@ RULE = re.compile(r"// Semantics \d")
 
 
 def first_line(case: Path) -> str:
-    """Of the domain."""
+    """A line of the domain."""
     domain = case / "domain.rddl"
     file = domain if domain.exists() else case / "problem.rddl"
     return file.read_text().splitlines()[0]

@@ -1,4 +1,4 @@
-// Where policies and checkpoints meet a simulator: which they fit, and which files are refused.
+// Policies and checkpoints that meet a simulator: which they fit, and which files are refused.
 #include "program.hpp"
 
 #include <chrono>
@@ -310,8 +310,8 @@ TEST_F(PolicyFiles, CtrlCIsHeardWithinAChoiceAmongThousands) {
         }
 }
 
-// Where each of many objects may get one of many, so random actions give most of them one: they are
-// not drawn freely and repaired until hardly any is left.
+// Each of many objects may get one of many, so random actions give most of them one: they are not
+// drawn freely and repaired until hardly any is left.
 TEST_F(PolicyFiles, RandomActionsKnowWhatExcludesEachOther) {
     std::string items = "i0", people = "p0";
     for (int i = 1; i < 30; ++i) {

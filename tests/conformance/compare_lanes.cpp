@@ -1,12 +1,12 @@
-// Steps the same environments one by one, in packs, and in packs by two threads, and compares
-// all bits of what they tell.
+// Steps the same environments one by one, in packs, and in packs by two threads, and compares all
+// bits of their outputs.
 //
 //     compare_lanes SIMULATOR.so STEPS ENVIRONMENTS
 //
 // Every second environment takes a choice (one value that is not the default), the others any
-// action: every value drawn within its bounds. Preconditions are not heeded, so that faults are
-// compared, too. Prints what was compared. Exit status: 0 if all agree, 1 if not, 2 if nothing
-// could be compared.
+// action: every value drawn within its bounds. Preconditions are ignored, so that faults are also
+// compared. Prints what was compared. Exit status: 0 if all agree, 1 if not, 2 if nothing could be
+// compared.
 #include "stepping.hpp"
 
 #include <dlfcn.h>

@@ -1,4 +1,4 @@
-"""Which optimisations do something to which problems: each is left out where it counts."""
+"""Finds which optimisations change which problems: each is left out where it counts."""
 
 import json
 import subprocess

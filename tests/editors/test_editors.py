@@ -1,4 +1,4 @@
-"""What editors are given: the words of the TextMate grammar are the language's, and the extension works.
+"""The files for editors: the words of the TextMate grammar are the language's, and the extension works.
 
     RDDLC_BIN=build/bin test_editors.py
 """

@@ -46,8 +46,8 @@ Simulator interpreted(const json& request) {
     if (!compilation.program) throw std::runtime_error("rejected");
     const double most_operations = rddlc::fuzzing::Exercise{}.most_operations;
     if (rddlc::fuzzing::step_cost(*compilation.program) > most_operations) return nullptr;
-    return rddlc::cli::interpreted_simulator(*std::move(compilation.program),
-                                             std::move(compilation.sources));
+    return rddlc::workbench::interpreted_simulator(*std::move(compilation.program),
+                                                   std::move(compilation.sources));
 }
 
 const rddl_simulator& compiled(void* object, const std::string& name) {

@@ -74,7 +74,7 @@ int affordable_steps(const ir::Program& program, int most) {
     return std::clamp(static_cast<int>(std::min(steps, 1e3)), 3, std::max(3, most));
 }
 
-// With --fast-math a step starts where the invariants hold: there they have been tested before.
+// With --fast-math a step starts only in states within the invariants, which are checked before it.
 void drop_states_out_of_bounds(const ir::Program& program, std::vector<Situation>& tried) {
     const ir::Interpreter engine(program);
     std::erase_if(tried, [&](const Situation& at) {
@@ -94,7 +94,7 @@ Tolerance tolerance_of(std::string_view pass) {
 
 namespace {
 
-// Of a program that stands alone.
+// Checks a program by itself.
 Contracts check_alone(const ir::Program& program, const PassOptions& options, Values values,
                       std::uint64_t seed, int steps) {
     Contracts result;
@@ -113,7 +113,7 @@ Contracts check_alone(const ir::Program& program, const PassOptions& options, Va
         }
     };
     result.optimised = optimise(program, watched);
-    if (!result.breaches.empty() || steps == 0) return result;  // nobody runs what is not valid
+    if (!result.breaches.empty() || steps == 0) return result;  // an invalid program is not run
     const bool only_moderate = program.only_moderate || options.fast_math;
     std::vector<Situation> tried =
         situations(program, values, only_moderate, seed, affordable_steps(program, steps));

@@ -1,4 +1,4 @@
-"""What one problem does in pyRDDLGym and in rddlc: the same, or where they differ."""
+"""Compares one problem in pyRDDLGym and in rddlc: the same, or the first difference."""
 
 import contextlib
 import io
@@ -25,7 +25,8 @@ REFUSED = (ValueError, ArithmeticError, TypeError, IndexError, SyntaxError, Runt
 
 @dataclass
 class Verdict:
-    """What was compared, and the first difference: its kind, stable while reduced, and its text."""
+    """The comparison's extent, and the first difference: its kind, stable while reduced, and its
+    text."""
 
     values: int = 0
     steps: int = 0

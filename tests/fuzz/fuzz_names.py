@@ -62,8 +62,8 @@ TAKEN = taken_by_rddl()
 
 
 def collect(compilers: list[str]) -> dict[str, list[str]]:
-    """Where a name comes from -> the names, as far as RDDL can spell them."""
-    skeleton = in_files("templates/*", "runtime/rddl/compiled.hpp", "runtime/rddl/simulator*")
+    """Maps the origins of names to the names, as far as RDDL can spell them."""
+    skeleton = in_files("templates/*", "runtime/rddl/step/compiled.hpp", "runtime/rddl/simulator*")
     for emitter in ("names", "functions", "about", "tables", "emit"):
         strings = re.findall(r'"([^"\n]*)"', (ROOT / f"compiler/emit/{emitter}.cpp").read_text())
         skeleton |= identifiers(" ".join(strings))
@@ -111,7 +111,7 @@ class Names:
         return self.random.choice(self.pool[source])
 
     def varied(self, name: str) -> str:
-        """Such that a name that is made of it is that of something else."""
+        """Varies the name so that a name derived from it is that of something else."""
         choice = self.random.randrange(12)
         if choice == 0:
             name = name.replace("_", "-")

@@ -101,7 +101,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return len(self.problem.type(type_name).members)
 
     def elements(self) -> int:
-        """Of the scope."""
+        """The number of elements of the scope."""
         return math.prod(self.size(of) for _, of in self.scope)
 
     def affordable(self, make, depth: int) -> Expr:
@@ -298,8 +298,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
 
     def wild_real(self, fluent: Fluent, value: Expr) -> Expr:
-        """Within bounds, or nan; or infinite: what grows over steps would overflow. Actions are
-        taken to be finite, those of policies, too."""
+        """Bounds the value, or lets it be nan; or infinite: sums over steps would overflow. Actions
+        are assumed finite, also those of policies."""
         if fluent.role == "action-fluent":
             value = self.finite_number(1, True, always=True)
         bounded = Expr("real", "max[-500.0, min[500.0, %s]]", (value,), 10, UNSURE, value.finite)
@@ -344,7 +344,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         first = self.problem.types[0].name
         own.append(self.declared("memos", "state-fluent", self.pick(["bool", "int"]), (first,)))
         for fluent in own:
-            fluent.values.clear()  # the instance gives none
+            fluent.values.clear()  # the instance gives no values
         derived = self.declared("hint", "derived-fluent", self.pick(["bool", "real"]), (first,))
         seen = self.of("observ-fluent") or self.of("state-fluent")
         memory = [(f.name, f) for f in own]
@@ -372,7 +372,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
 
 
 def is_closed(expr: Expr) -> bool:
-    """It stands in any place without brackets: no chain goes on in it."""
+    """Whether it stands in any place without brackets: no chain continues in it."""
     return expr.form.startswith("(") or re.match(r"[A-Za-z-]+[\[(]", expr.form) is not None
 
 

@@ -41,7 +41,7 @@ struct Options {
     std::vector<fs::path> inputs;
 };
 
-// What readers of JSON, of numbers and of lines stumble over.
+// Words that readers of JSON, of numbers and of lines stumble over.
 std::vector<std::string> words() {
     return {"1e400",
             "-1e400",

@@ -4,7 +4,7 @@
 #include "ir/interpreter.hpp"
 #include "ir/layout.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 

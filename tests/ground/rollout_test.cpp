@@ -4,7 +4,7 @@
 #include "passes/passes.hpp"
 #include "problem.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "passes/passes.hpp"
 #include "problem.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 
@@ -165,7 +165,7 @@ TEST(Vectors, FaultsNameTheirPlace) {
     EXPECT_EQ(weight.place, (rddl::Place{0, 0}));
 }
 
-// What may fault is not dropped, though nobody reads it.
+// An expression that may fault stays, even if its value is not read.
 TEST(Vectors, StayWhereNobodyReadsThem) {
     Problem problem = vector_problem("0");
     problem.pvariables += "\nw(obj) : { interm-fluent, real };";

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc::workbench {
 namespace {
 
 Simulator load(const std::string& name, Engine engine, bool details = true) {
@@ -233,4 +233,4 @@ TEST(Violations, NameTheObjects) {
 }
 
 }  // namespace
-}  // namespace rddlc::cli
+}  // namespace rddlc::workbench

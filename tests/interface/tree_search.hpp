@@ -57,7 +57,7 @@ class TreeSearch {
         explicit Node(std::size_t choices) : visits(choices), values(choices), children(choices) {}
         std::vector<std::int64_t> visits;
         std::vector<double> values;
-        std::vector<std::size_t> children;  // 0: none yet
+        std::vector<std::size_t> children;  // 0: no child yet
     };
 
     rddl_batch* create() const {

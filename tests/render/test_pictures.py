@@ -228,7 +228,7 @@ class Movies(PictureTest):
         # A step of 0.05 s takes 0.1 s.
         self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
-        self.assertIn("does not tell how long a step is", refused.stderr)
+        self.assertIn("does not say how long a step is", refused.stderr)
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", "--fps=3", status=USAGE)
         self.assertIn("--fps and --real-time-factor both", refused.stderr)
         self.assertEqual(self.left_behind(), ["a.gif"])
@@ -362,7 +362,7 @@ class Errors(PictureTest):
 
     def test_what_is_no_trace(self):
         (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)
-        self.assertIn("'t.bin' is no trace: its first line is no JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
+        self.assertIn("'t.bin' is not a trace: its first line is not JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
         text = self.refuse("render", EXAMPLE, "1", "--gif=a.gif")
         self.assertIn("is a folder, and no trace", text)
         self.assertIn("rddl run --gif", text)
@@ -450,20 +450,21 @@ class Terminal(PictureTest):
         try:
             while chunk := os.read(screen, 1 << 16):
                 text += chunk
-        except OSError:  # how Linux tells that the other end is closed
+        except OSError:  # Linux reports in this way that the other end is closed
             pass
         os.close(screen)
         return text.decode().replace("\r\n", "\n")
 
     def watch(self, *words, **options) -> str:
-        """What the terminal gets of three steps."""
+        """Returns the terminal output of three steps."""
         process, screen = self.start(*words, "--horizon=3", **options)
         text = self.rest_of(screen)
         self.assertEqual(process.wait(), SUCCESS, text)
         return text
 
     def test_progress(self):
-        """While files are drawn, a bar on the terminal that is gone in the end; none with --quiet."""
+        """A bar on the terminal shows that files are drawn, and is wiped at the end; --quiet hides
+        it."""
         self.run_car("--trace=t.jsonl", "--policy=noop", horizon=900)
         for option, bars in ([], True), (["--quiet"], False):
             ours, theirs = pty.openpty()
@@ -531,7 +532,8 @@ class Terminal(PictureTest):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 0  step \d+ / 30", text, re.M)), 31)
-        # With files of one episode all are shown, too, and a trace is the same as ever.
+        # The options for files of one episode do not change that all are shown, and a trace is the
+        # same as ever.
         both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
         self.assertTrue(both.startswith(text))
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 1  step \d+ / 30", both, re.M)), 31)

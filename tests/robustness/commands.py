@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted(folder for folder in (ROOT / "examples").iterdir() if folder.is_dir())
 RDDLC = os.environ.get("RDDLC", ROOT / "build/bin/rddlc")
 RDDL = os.environ.get("RDDL", ROOT / "build/bin/rddl")
-# What each of the two makes of a problem without running it.
+# Commands of both programs that check a problem without running it.
 LOOKING = [[RDDLC, "--stop-after=emit"], [RDDL, "check"]]
 
 SUCCESS, DIAGNOSED, USAGE = 0, 1, 2

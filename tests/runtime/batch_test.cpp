@@ -1,5 +1,5 @@
-// The promise: an environment's trajectory is bit for bit the same whatever the batch around it,
-// its place in it and the number of threads. lanes_test.cpp goes on with how many are stepped
+// An environment's trajectory is bit for bit the same whatever the batch around it, its place in it
+// and the number of threads. lanes_test.cpp tests the number of environments that are stepped
 // together.
 #include "trajectories.hpp"
 
@@ -122,7 +122,7 @@ TEST(Trajectories, AreRepeatedBySettingTheState) {
     batch.step();
     const auto before = batch.states();
     batch.step();
-    // The step counter goes on, so that the same state meets new random numbers...
+    // The step counter continues, so that the same state meets new random numbers...
     const auto first_time = batch.states();
     ASSERT_EQ(simulator()->set_state(batch.get(), 0, 8, before.data(), nullptr), RDDL_OK);
     batch.step();

@@ -1,7 +1,7 @@
 // Rows of the C interface become blocks of packs and rows again. This file is also built for other
 // instruction sets than the compiler's default (CMakeLists.txt).
-#include <rddl/columns.hpp>
-#include <rddl/tables.hpp>
+#include <rddl/step/columns.hpp>
+#include <rddl/values/tables.hpp>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ std::vector<Row> random_rows(int count) {
     std::mt19937_64 random(21);
     std::vector<Row> rows(static_cast<std::size_t>(count));
     for (Row& row : rows) {
-        std::memset(&row, 0, sizeof row);  // padding, too
+        std::memset(&row, 0, sizeof row);  // also padding
         for (bool& value : row.bools) value = random() % 3 == 0;
         for (double& value : row.reals) value = static_cast<double>(random() % 1000) / 8;
         for (std::int64_t& value : row.ints) value = static_cast<std::int64_t>(random());

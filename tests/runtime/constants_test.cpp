@@ -1,4 +1,4 @@
-#include <rddl/describe.hpp>
+#include <rddl/interface/describe.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The distributions drawn by inversion against Boost.Math's distribution functions.
 #include "fit.hpp"
 
-#include <rddl/distributions/continuous.hpp>
+#include <rddl/random/distributions/continuous.hpp>
 
 #include <boost/math/distributions/normal.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Distributions of counts against Boost.Math's distribution functions.
 #include "fit.hpp"
 
-#include <rddl/distributions/binomial.hpp>
-#include <rddl/distributions/discrete.hpp>
-#include <rddl/distributions/poisson.hpp>
+#include <rddl/random/distributions/binomial.hpp>
+#include <rddl/random/distributions/discrete.hpp>
+#include <rddl/random/distributions/poisson.hpp>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/geometric.hpp>

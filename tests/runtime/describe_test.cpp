@@ -1,4 +1,4 @@
-// What a simulator tells about itself: names, columns, constants, errors in words.
+// The description of a simulator: names, columns, constants, errors in words.
 #include "tiny_batch.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "fit.hpp"
 
-#include <rddl/distributions/discrete.hpp>
+#include <rddl/random/distributions/discrete.hpp>
 
 #include <gtest/gtest.h>
 

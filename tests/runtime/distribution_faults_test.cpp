@@ -1,5 +1,5 @@
 // Parameters outside their domains: which fault, with which value, and that nothing hangs.
-#include <rddl/distributions.hpp>
+#include <rddl/random/distributions.hpp>
 
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ TEST(DistributionFaults, Probabilities) {
     });
 }
 
-// Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1, in packs and in
-// floats, too, which round more.
+// Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1. This also holds in
+// packs, and in floats, which round more.
 template <class L>
 void expect_rounding_is_no_fault(Context<L> context, double rounding) {
     using Real = typename L::Real;

@@ -1,4 +1,4 @@
-#include <rddl/fault_text.hpp>
+#include <rddl/interface/fault_text.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The functions of floats: how exact they are, and that lanes have the bits of single floats.
-#include <rddl/distributions/normal_quantile.hpp>
-#include <rddl/math.hpp>
-#include <rddl/pack_ops.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
 
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST(FloatMath, IsRoundedFromDoubles) {
                     [](double x) { return std::pow(x, double{1.0f / 3.0f}); });
 }
 
-// Of angles up to 2^13 the absolute error stays small, though zeros are not met to the last bit.
+// Angles up to 2^13 have a small absolute error, though zeros are not met to the last bit.
 TEST(FloatMath, TurnsFarAngles) {
     for (float angle = -8192; angle < 8192; angle += 0.37f) {
         EXPECT_NEAR(sin(angle), std::sin(double{angle}), 1.2e-7) << angle;
@@ -109,7 +109,7 @@ TEST(FloatMath, HasTheRareCases) {
         EXPECT_TRUE(std::isnan(none));
 }
 
-// What a pack converts, rounds and gathers is what single numbers do.
+// Packs convert, round and gather as single numbers do.
 TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
     std::array<float, 64> table;
     for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(i) * 0.1f;

@@ -1,7 +1,7 @@
 // The gamma family against Boost.Math's distribution functions.
 #include "fit.hpp"
 
-#include <rddl/distributions/gamma.hpp>
+#include <rddl/random/distributions/gamma.hpp>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -75,7 +75,7 @@ TEST(Beta, FitsItsLaw) {
         });
 }
 
-// Of 1e-316, the logarithms of both gamma draws are infinite.
+// With a shape of 1e-316 the logarithms of both gamma draws are infinite.
 TEST(Beta, OfTinyShapesIsACoin) {
     for (const double shape : {1e-5, 1e-300, 1e-316}) {
         int ones = 0;

@@ -3,7 +3,7 @@
 // and pairs fill the unit square evenly.
 #include "fit.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 

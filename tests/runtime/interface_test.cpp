@@ -1,7 +1,7 @@
 // The C interface over the hand-written simulator: records, copies, refusals, messages.
 #include "tiny_batch.hpp"
 
-#include <rddl/action_choices.hpp>
+#include <rddl/batch/action_choices.hpp>
 
 #include <gtest/gtest.h>
 
@@ -184,7 +184,7 @@ TEST(Interface, RefusesOptionsOutOfRange) {
     EXPECT_EQ(functions.create(nullptr, nullptr), nullptr);
 }
 
-// As a caller in C may write it.
+// A caller in C may write such a number.
 TEST(Interface, RefusesNumbersOfNoKind) {
     TinyBatch batch(four);
     using StepValues = rddl_error (*)(rddl_batch*, int, const void*, void*, const rddl_transition*);
@@ -324,7 +324,7 @@ TEST(Choices, AreMaskedByTheLimitOfActions) {
     EXPECT_EQ(masks_of(*table.get())[0], (Mask{1, 0, 0, 0, 0}));
 }
 
-// Actions of three ints that are bounded differently; the default, 2, is no value of the last.
+// Actions of three ints that are bounded differently; the default, 2, is not a value of the last.
 TEST(Choices, OfIntsNeedTwoBoundsNotTooFarApart) {
     const double infinity = std::numeric_limits<double>::infinity();
     const double lower[]{0.5, -infinity, 0.0, 5.0, 4.0};

@@ -2,7 +2,7 @@
 // with every instruction set.
 #include "trajectories.hpp"
 
-#include <rddl/abi.hpp>
+#include <rddl/interface/abi.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-// Those of 16 are in batches.cpp.
+// The tables of 16 lanes are in batches.cpp.
 extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<16>>&);
 extern template rddl_simulator rddl::table_of(const SimulatorParts<Pack<16, float>>&);
 

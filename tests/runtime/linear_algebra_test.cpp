@@ -1,5 +1,5 @@
 // Matrix functions: known answers, and the equations that define them.
-#include <rddl/linear_algebra.hpp>
+#include <rddl/values/linear_algebra.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // and against themselves in packs.
 #include "plain_pack.hpp"
 
-#include <rddl/distributions/normal_quantile.hpp>
-#include <rddl/math.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
+#include <rddl/values/math.hpp>
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ const BinaryFunction binary_functions[] = {
 
 // ------------------------------------------------------------------------------- arguments
 
-// Where the functions change their ways, and what IEEE arithmetic treats apart.
+// Arguments at which the functions change their method, and special values of IEEE arithmetic.
 std::vector<double> special_arguments() {
     const double magnitudes[] = {
         // clang-format off
@@ -115,7 +115,7 @@ double between(Random& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// Of any sign, exponent and significand, or of a size that occurs in models.
+// A number of any sign, exponent and significand, or of a size that occurs in models.
 double any_argument(Random& random) {
     switch (random() % 3) {
         case 0:
@@ -145,7 +145,7 @@ int argument_count() {
     return text ? std::atoi(text) : 100'000;
 }
 
-// Expects that no error exceeds the bound, and tells the greatest.
+// Expects that no error exceeds the bound, and reports the greatest.
 template <class Draw>
 void expect_errors_below(double bound, const std::string& what, const Draw& error_of_draw) {
     double worst = 0;

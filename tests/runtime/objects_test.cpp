@@ -1,6 +1,6 @@
 // One environment whose objects are in registers has the values, draws and faults that it has with
 // one object after the other. Also built for other instruction sets (CMakeLists.txt).
-#include <rddl/objects.hpp>
+#include <rddl/object_lanes/objects.hpp>
 #include <rddl/simulator.hpp>
 
 #include <gtest/gtest.h>
@@ -148,7 +148,7 @@ TEST(Objects, DrawWhatTheyDrawOneByOne) {
     EXPECT_FALSE(context.faulted());
 }
 
-// Of several faults, and though one operator comes before the other.
+// The first of several faults counts, though one operator comes before the other.
 TEST(Objects, TellTheFaultOfTheFirstObject) {
     std::array<double, 40> p{}, variance{};
     p[30] = 2;

@@ -1,4 +1,4 @@
-#include <rddl/ops.hpp>
+#include <rddl/values/ops.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Known answers and agreement with the authors' own implementation.
-#include <rddl/philox.hpp>
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>

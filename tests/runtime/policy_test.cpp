@@ -2,7 +2,7 @@
 #include "tiny_batch.hpp"
 #include "tiny_policy.hpp"
 
-#include <rddl/policy.hpp>
+#include <rddl/step/policy.hpp>
 
 #include <gtest/gtest.h>
 

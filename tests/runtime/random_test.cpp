@@ -1,4 +1,4 @@
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 

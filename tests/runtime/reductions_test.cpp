@@ -1,4 +1,4 @@
-#include <rddl/reductions.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <gtest/gtest.h>
 

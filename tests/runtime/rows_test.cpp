@@ -1,6 +1,6 @@
 // Several objects of one environment take from their rows what one object after the other takes,
 // whether that is looked up or computed. Also built for other instruction sets (CMakeLists.txt).
-#include <rddl/rows.hpp>
+#include <rddl/object_lanes/rows.hpp>
 #include <rddl/simulator.hpp>
 
 #include <gtest/gtest.h>

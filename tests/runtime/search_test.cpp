@@ -1,6 +1,6 @@
-#include <rddl/pack.hpp>
-#include <rddl/pack_ops.hpp>
-#include <rddl/search.hpp>
+#include <rddl/lanes/pack.hpp>
+#include <rddl/values/pack_ops.hpp>
+#include <rddl/values/search.hpp>
 
 #include <gtest/gtest.h>
 
@@ -24,11 +24,11 @@ constexpr std::array<Entry, size> even = [] {
 }();
 
 constexpr std::array<double, 5> uneven = {-7.5, 0.0, 0.25, 3.0, 1e9};
-// Even but for steps a tenth too long or too short.
+// Even steps, except that some are a tenth too long or too short.
 template <class Real>
 constexpr std::array<Real, 7> nearly_even = {Real(0.1), Real(0.9), Real(2.1), Real(2.9),
                                              Real(4.1), Real(4.9), Real(6.0)};
-// As doubles become that are nearer to each other than floats.
+// Doubles that are nearer to each other than floats become such floats.
 constexpr std::array<float, 5> repeated = {0.1f, 0.1f, 0.3f, 0.5f, 0.5f};
 // No line goes through these without overflow, or a nan; nor could a constant expression have one.
 template <class Real>

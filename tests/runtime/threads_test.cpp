@@ -1,4 +1,4 @@
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(Team, ReturnsWhenAllAreDone) {
     }
 }
 
-// Those who wait are awake in some of these jobs, asleep in others, and about to fall asleep.
+// The waiting threads are awake in some of these jobs, asleep in others, and about to fall asleep.
 TEST(Team, RunsJobsAfterPausesOfAnyLength) {
     for (const int size : {2, 5}) {
         Team team(size);
@@ -99,8 +99,8 @@ TEST(Team, OfOneRunsInTheCallingThread) {
     EXPECT_EQ(team.size(), 1);
 }
 
-// Whoever of the workers it is, the caller included; all have come to their end then, and the team
-// works on.
+// Any worker may throw, also the calling thread; all have come to their end then, and the team
+// still works.
 TEST(Team, ThrowsWhatAWorkerThrows) {
     for (const int size : {1, 4}) {
         Team team(size);

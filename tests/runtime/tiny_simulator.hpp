@@ -42,7 +42,7 @@ struct Scratch {
 template <class L>
 struct Observation {};
 
-// Of a bool or an int.
+// Converts a bool or an int.
 template <class L, class Value>
 typename L::Real to_real_of(const Value& value) {
     if constexpr (std::is_same_v<typename L::Element, float>)

@@ -1,8 +1,8 @@
 // Random vectors: each element against its own law, the elements together by their covariances.
 #include "fit.hpp"
 
-#include <rddl/distributions/vectors.hpp>
-#include <rddl/linear_algebra.hpp>
+#include <rddl/random/distributions/vectors.hpp>
+#include <rddl/values/linear_algebra.hpp>
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
@@ -182,7 +182,7 @@ TEST(Multinomial, NeverCountsWhatIsImpossible) {
     }
 }
 
-// What is left of the sum of probabilities is 0 before the last one that is not.
+// The rest of the sum of probabilities is 0 before the last one that is not 0.
 TEST(Multinomial, GivesToTheCertainWhereTheSumRounds) {
     Context<Scalar> context;
     Counts counts;

@@ -1,4 +1,4 @@
-// Actions of a batch, which are mended.
+// Actions of a batch, which are repaired.
 #pragma once
 
 #include "solvers/batches/batch.hpp"

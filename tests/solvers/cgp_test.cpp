@@ -157,7 +157,7 @@ TEST(Cgp, SimplifiedFormulasHaveTheSameValues) {
     EXPECT_GT(smaller, 300);
 }
 
-// A half of a choice is no choice of halves.
+// Half of a choice is not the same as a choice of halves.
 TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
     using Term = Formula::Term;
     const ProgramScope scope =
@@ -172,7 +172,7 @@ TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
               std::string::npos);
 }
 
-// Reads what people read: its value, and a text that tells how it was understood.
+// Reads formulas as people do: the value, and a text that shows how it was understood.
 class FormulaReader {
   public:
     struct Part {
@@ -182,7 +182,7 @@ class FormulaReader {
     FormulaReader(std::string text, std::map<std::string, double> names)
         : text_(std::move(text)), names_(std::move(names)) {}
 
-    // Nothing where it is no formula.
+    // Nothing if it is not a formula.
     std::optional<Part> read() {
         at_ = 0;
         good_ = true;
@@ -356,7 +356,7 @@ TEST(Cgp, ScalesInputsByTheStatesOfRandomSteps) {
     EXPECT_GT(scaled, 0);
 }
 
-// What rddl export writes, by the C++ compiler.
+// The C++ of rddl export is compiled.
 TEST(Cgp, CompiledFormulasHaveTheSameValues) {
     const ProgramScope scope =
         program_scope(*rddl_simulator_mountain_car_mountain_car_1(), Lifting::Auto, false, 0);
@@ -493,7 +493,7 @@ TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
     simulator.reset = [](rddl_batch* batch, const std::uint8_t* mask, void* observations) {
         const auto reset = rddl_simulator_mountain_car_mountain_car_1()->reset;
         if (std::this_thread::get_id() == caller) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others work, too
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others also work
             return reset(batch, mask, observations);
         }
         return rddl_error{RDDL_BAD_ARGUMENT};
@@ -509,7 +509,8 @@ TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
     }
 }
 
-// By steps of our own, with the first output of the program: full throttle to the right, or none.
+// The test steps by itself, with the first output of the program: full throttle to the right, or no
+// throttle.
 TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
     const ProgramScope scope = program_scope(simulator, Lifting::Auto, false, 0);
@@ -551,7 +552,7 @@ TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     EXPECT_GT(reach[0], reach[1]);
 }
 
-// Where every program earns the same, those stay that see more.
+// Programs that see more stay while all have the same return.
 TEST(Cgp, LooksAroundWhereNothingIsEarned) {
     rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
     simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,

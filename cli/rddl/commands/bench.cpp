@@ -20,7 +20,7 @@ struct BenchOptions {
     ProblemArguments problem;
     LoadOptions load;
     double seconds = 1;
-    std::vector<std::int64_t> batches;  // none: one of a size that suits the problem
+    std::vector<std::int64_t> batches;  // empty: one of a size that suits the problem
     int threads = 0;
     std::vector<std::string> against;
     std::string python;
@@ -80,13 +80,13 @@ void measure_all(const rddl_simulator& simulator, const std::vector<std::int64_t
     }
 }
 
-// The speed of episodes that end at once is none that anybody wants to know.
+// Warns if episodes fault: the speed of episodes that end at once is of no use.
 bool tells_of_faults(const BenchReport& report) {
     if (report.faulted == 0) return false;
     const bool all = report.faulted == report.episodes;
     tell(
-        "rddl: {}: {} of {} episodes ended with a fault, which is what these speeds are of; 'rddl "
-        "run' tells the first\n",
+        "rddl: {}: {} of {} episodes ended with a fault, and the speeds include them; 'rddl "
+        "run' reports the first fault\n",
         all ? "error" : "warning", grouped(report.faulted), grouped(report.episodes));
     return all;
 }
@@ -111,7 +111,7 @@ std::vector<PeerFigures> measure_peers(const ProblemFiles& files, const BenchOpt
 ExitStatus bench(const BenchOptions& options) {
     const ProblemFiles files = options.problem.files();
     LoadOptions load = options.load;
-    load.ignore_cache |= !options.against.empty();  // the others compile anew, too
+    load.ignore_cache |= !options.against.empty();  // the others also compile again
     const LoadedProblem problem = load_problem(files, load);
     const rddl_simulator& simulator = *problem.simulator;
 
@@ -142,7 +142,7 @@ ExitStatus bench(const BenchOptions& options) {
 
 void add_peer_options(Command& command, BenchOptions& options) {
     add_list_option(command, "--against", "PEER,...",
-                    "Measure others in the same run: pyrddlgym, jax (pyRDDLGym-jax)",
+                    "Measure other simulators in the same run: pyrddlgym, jax (pyRDDLGym-jax)",
                     [&options](const std::string& name) { options.against.push_back(name); })
         .choices = peer_names();
     add_text_option(command, "--python", "PYTHON",

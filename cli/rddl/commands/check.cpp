@@ -79,7 +79,8 @@ std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
     return outcomes;
 }
 
-// What several instances share, such as an error in the domain, is told and counted once.
+// A problem's row. Diagnostics that several instances share, such as an error in the domain, are
+// reported and counted once.
 struct ProblemRow {
     std::size_t instances = 0, without_errors = 0, errors = 0, warnings = 0;
     std::vector<const RenderedDiagnostic*> different;
@@ -202,7 +203,7 @@ Command check_command() {
     add_extern_option(command, options->load,
                       "Also check the external functions of FILE, a C++ header or .so");
     add_flag(command, "--all", "Check every instance of rddlrepository", options->all);
-    add_flag(command, "-v,--verbose", "Show warnings, too, where many instances are checked",
+    add_flag(command, "-v,--verbose", "Also show warnings when many instances are checked",
              options->verbose);
     command.run = [options] {
         return check(*options);

@@ -3,7 +3,12 @@
 
 #include "command_line/command_line.hpp"
 
+// What commands are made of (workbench/).
+namespace rddlc::workbench {}
+
 namespace rddlc::cli {
+
+using namespace workbench;
 
 Command list_command();
 Command info_command();

@@ -1,4 +1,5 @@
-// rddl evaluate and rddl compare: what policies earn, with confidence intervals, on the same seeds.
+// rddl evaluate and rddl compare: returns of policies, with confidence intervals, on the same
+// seeds.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
@@ -141,8 +142,8 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
     write_chart(chart, options.chart);
 }
 
-// What the last episodes earned while PPO learned, which acts at random then; nothing where the
-// policy is no run that tells it.
+// The mean return of the last episodes while PPO learned, with random actions; nothing if the
+// policy is not a run that reports it.
 std::optional<double> learned_return(const std::string& policy) {
     try {
         const RunProgress run = read_progress(policy);
@@ -153,7 +154,7 @@ std::optional<double> learned_return(const std::string& policy) {
     return std::nullopt;
 }
 
-// Where the likeliest actions earn much less than chance did.
+// Prints a note if the likeliest actions have a much lower return than random ones had.
 void hint_at_chance(const Evaluation& one) {
     const std::optional<double> learned = learned_return(one.policy);
     if (!learned) return;
@@ -161,7 +162,8 @@ void hint_at_chance(const Evaluation& one) {
     const double size = std::max(std::abs(*learned), std::abs(earned.mean));
     if (*learned - earned.mean > std::max(size / 2, 3 * earned.half_width))
         tell(
-            "rddl: note: while '{}' learned, its last episodes earned {} by actions at random, as "
+            "rddl: note: while '{}' learned, the mean return of its last episodes was {} with "
+            "random actions, as "
             "--stochastic takes them\n",
             one.policy, number_text(*learned));
 }
@@ -191,16 +193,17 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
 
 void add_common_options(Command& command, EvaluationOptions& options) {
     options.episodes.episodes = 100;
-    add_number_option<std::int64_t>(command, "--episodes", "N", "How many of each (100)",
+    add_number_option<std::int64_t>(command, "--episodes", "N", "Episodes of each policy (100)",
                                     options.episodes.episodes, 1, 100'000'000);
     add_seed_option(command, options.episodes.seed, "Seed of all random numbers (0)");
     add_horizon_option(command, options.episodes.horizon,
                        "Steps an episode; 0: no horizon (the instance's)");
     add_number_option(command, "--threads", "T", "Threads (one per core)", options.episodes.threads,
                       1, most_threads);
-    add_option(command, "--policy-block", "FILE", "File with the policy block that 'rddl' means",
+    add_option(command, "--policy-block", "FILE",
+               "File with the policy block for the policy 'rddl'",
                [&options](const std::string& file) { options.policy_block = file; });
-    add_flag(command, "--stochastic", "Learned policies act at random, as while they learned",
+    add_flag(command, "--stochastic", "Learned policies sample their actions, as during training",
              options.random);
     add_engine_options(command, options.load);
     add_flag(command, "--json", "Print the results as JSON", options.json);
@@ -212,7 +215,7 @@ Command evaluate_command() {
     const auto options = std::make_shared<EvaluationOptions>();
     Command command;
     command.name = "evaluate";
-    command.summary = "Run episodes of a policy and tell what it earns";
+    command.summary = "Run episodes of a policy and report its mean return";
     command.details =
         "Examples:\n"
         "  rddl evaluate MountainCar_ippc2023 1 --policy runs/a\n"

@@ -32,7 +32,7 @@ std::string exported_program(const rddl_simulator& simulator, const std::string&
         throw Failure(fmt::format("it remembers the step before, as programs of scikit-decide do, "
                                   "and such programs are not written as {}",
                                   form),
-                      "--as formula tells what it does", usage_error);
+                      "--as formula explains it", usage_error);
     const solvers::Formula formula = solvers::simplified(found->genome);
     if (form == "cpp") return solvers::formula_cpp(formula, found->scope);
     if (form == "dot") return solvers::formula_dot(formula, found->scope);
@@ -95,10 +95,11 @@ Command export_command() {
         .is_required = true;
     add_option(
         command, "--as", "FORM",
-        "Of CGP: formula (default), cpp, dot, svg, py, latex; of PPO: json (default), cpp, onnx",
+        "For CGP: formula (default), cpp, dot, svg, py, latex; for PPO: json (default), cpp, onnx",
         [options](const std::string& form) { options->form = form; })
         .choices = {"formula", "json", "cpp", "dot", "svg", "py", "latex", "onnx"};
-    add_text_option(command, "-o,--output", "FILE", "Where to (standard output)", options->output);
+    add_text_option(command, "-o,--output", "FILE", "Output file (standard output)",
+                    options->output);
     add_engine_options(command, options->load);
     command.run = [options] {
         return export_policy(*options);

@@ -2,7 +2,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "engines/interpreted_simulator.hpp"
-#include "problems/description.hpp"
+#include "formats/description.hpp"
 #include "problems/front_end.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
@@ -50,7 +50,7 @@ Command info_command() {
         "  rddl info Reservoir_ippc2023 1 --json\n"
         "  rddl info domain.rddl instance.rddl --policy policy.rddl";
     add_problem_arguments(command, options->problem);
-    add_text_option(command, "--policy", "FILE", "Take the policy block of this file, too",
+    add_text_option(command, "--policy", "FILE", "Also read the policy block of this file",
                     options->policy_file);
     add_flag(command, "--json", "Print everything as JSON, layouts and bounds included",
              options->json);

@@ -60,7 +60,7 @@ std::string instances_text(const std::vector<std::string>& instances) {
     return out;
 }
 
-// What one instance shows of a problem; instances hardly differ in it.
+// The columns of a problem, taken from one instance; instances hardly differ in them.
 struct ListedProblem {
     RepositoryProblem problem;
     std::optional<Characteristics> characteristics;  // absent if there are errors

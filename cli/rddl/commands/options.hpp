@@ -3,7 +3,10 @@
 #pragma once
 
 #include "command_line/command_line.hpp"
+#include "commands/commands.hpp"
 #include "engines/load_simulator.hpp"
+#include "pictures/charts.hpp"
+#include "pictures/picture_options.hpp"
 #include "problems/problem_lookup.hpp"
 #include "rollouts/rollouts.hpp"
 #include "rollouts/violations.hpp"
@@ -72,6 +75,15 @@ void add_engine_options(Command& command, LoadOptions& options);
 // --policy; of a file its policy block or, where there is a place for it, a learned policy
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
                        std::filesystem::path* learned = nullptr);
+
+// --size
+void add_size_option(Command& command, int& width, int& height, const std::string& explanation);
+
+// What is drawn, and where it is written.
+void add_picture_options(Command& command, PictureOptions& options);
+
+// --png, --svg, --size
+void add_chart_options(Command& command, ChartFiles& files);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);

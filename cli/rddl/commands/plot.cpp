@@ -48,7 +48,7 @@ std::vector<Group> groups_of(const PlotOptions& options) {
             group.runs.push_back(read_progress(folder));
         }
     }
-    // A run that has no others keeps the name that it has; groups of one folder tell what they are.
+    // A single run keeps its name; a name that several groups share gets its details.
     std::map<std::string, int> uses;
     for (const Group& group : groups) uses[group.name] += 1;
     for (Group& group : groups)
@@ -59,8 +59,7 @@ std::vector<Group> groups_of(const PlotOptions& options) {
     return groups;
 }
 
-// What is a step to one solver is a generation to another: beside each other, they have but time
-// in common.
+// A step of one solver is a generation of another: side by side, they have only time in common.
 std::string steps_title(const std::vector<Group>& groups) {
     std::size_t searches = 0, all = 0;
     for (const Group& group : groups)
@@ -105,10 +104,10 @@ Command plot_command() {
     command.name = "plot";
     command.summary = "Draw the learning curves of runs";
     command.details =
-        "Runs of 'rddl train' whose names end in '_' and their seeds, and else are the same, are "
+        "Runs of 'rddl train' whose names differ only in the seed at their end (NAME_SEED) are "
         "one\n"
         "curve, as are all runs of a solver on a problem in a folder: their mean, and a band of "
-        "the\nstandard deviation about it.\n\n"
+        "the\nstandard deviation around it.\n\n"
         "Examples:\n"
         "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
         "  rddl plot runs/a --y train/approx_kl --svg kl.svg";

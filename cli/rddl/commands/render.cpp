@@ -41,13 +41,13 @@ void require_pages_alone(const RenderOptions& options) {
 // The files that the trace was made with, as its header names them.
 ProblemFiles files_of_header(const std::string& line, const RenderOptions& options) {
     const Failure unknown(
-        fmt::format("the first line of '{}' does not tell which problem it is of", options.trace),
+        fmt::format("the first line of '{}' does not say which problem it is of", options.trace),
         "name the problem: rddl render TRACE DOMAIN INSTANCE");
     nlohmann::json header;
     try {
         header = parse_json(line);
     } catch (const RefusedJson&) {
-        throw Failure(fmt::format("'{}' is no trace: its first line is no JSON", options.trace),
+        throw Failure(fmt::format("'{}' is not a trace: its first line is not JSON", options.trace),
                       "'rddl run --trace FILE' writes traces");
     }
     const auto files = header.is_object() ? header.find("files") : header.end();
@@ -119,7 +119,7 @@ Command render_command() {
     command.details =
         "A trace is what 'rddl run --trace' writes, or any file in that form (docs/traces.md). "
         "Its\n"
-        "header tells which problem it is of; without one, or where the files have moved, name "
+        "header names its problem; without one, or where the files have moved, name "
         "the\n"
         "problem. docs/pictures.md shows what the pictures look like.\n\n"
         "Examples:\n"

@@ -66,7 +66,7 @@ bool all_faulted(const Summary& summary) {
     return summary.faulted > 0 && summary.faulted == summary.episodes;
 }
 
-// Who sees no summary learns of it here.
+// Reports faults to users who see no summary.
 void report_faults(const Summary& summary, const EpisodeFault& first) {
     if (summary.faulted == 0) return;
     const std::string_view severity = all_faulted(summary) ? "error" : "warning";
@@ -199,7 +199,7 @@ void draw_initial_states(const Rollouts& rollouts, PictureWriter& pictures) {
     }
 }
 
-// Of the episode, for people.
+// The name of the episode for people.
 std::string course_name(const RunOptions& options) {
     return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
                        options.rollouts.seed);
@@ -300,8 +300,8 @@ Command run_command() {
     add_policy_option(command, options->rollouts.policy, options->policy_file,
                       &options->rollouts.learned);
     RolloutOptions& rollouts = options->rollouts;
-    add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
-                                    1, 100'000'000);
+    add_number_option<std::int64_t>(command, "--episodes", "N", "Episodes to run (1)",
+                                    rollouts.episodes, 1, 100'000'000);
     add_seed_option(command, rollouts.seed, "Seed of all random numbers (0)");
     add_horizon_option(command, rollouts.horizon,
                        "Steps an episode; 0: no horizon (the instance's)");

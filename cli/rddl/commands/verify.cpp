@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What is left for stepping where compiling takes long, and for pyRDDLGym.
+// The time for stepping if compiling takes long, and pyRDDLGym's share.
 constexpr double least_seconds = 2;
 constexpr double pyrddlgym_share = 0.25;
 
@@ -132,8 +132,8 @@ void add_amount_options(Command& command, VerifyOptions& options) {
     add_number_option<std::int64_t>(command, "--steps", "N", "Steps, at most (20000)",
                                     options.steps, 1, std::int64_t{1} << 40);
     add_number_option<double>(command, "--seconds", "SECONDS",
-                              "Time for all of it, if compiling leaves some (10)", options.seconds,
-                              0.1, 1e6);
+                              "Time in total, as far as compiling leaves some (10)",
+                              options.seconds, 0.1, 1e6);
     add_seed_option(command, options.seed, "Seed of all random numbers (0)");
     add_text_option(command, "--states", "FILE",
                     "Step from the states of this file instead: a trace, or lines for rddl replay",
@@ -154,10 +154,9 @@ void add_compared_options(Command& command, VerifyOptions& options) {
         options.engines.lanes.push_back(std::stoi(count));
     };
     add_list_option(command, "--lanes", "N,...",
-                    "Environments in a pack; several are several compilations (16)", add_lanes)
+                    "Environments in a pack; each number is compiled by itself (16)", add_lanes)
         .choices = {"1", "8", "16", "32", "64"};
-    add_flag(command, "--no-pyrddlgym",
-             "Leave out pyRDDLGym; else it is compared where it is installed",
+    add_flag(command, "--no-pyrddlgym", "Leave out pyRDDLGym, which is compared if it is installed",
              [&options](const std::string&) { options.pyrddlgym = false; });
     add_number_option<std::int64_t>(command, "--pyrddlgym-steps", "N",
                                     "Steps of pyRDDLGym, at most (200)", options.pyrddlgym_steps, 1,
@@ -178,8 +177,7 @@ Command verify_command() {
         "All engines make the same steps, from states of episodes and from random states: the\n"
         "interpreter without and with all optimisations, and the compiled code, one environment\n"
         "by itself and packs of them. Status 0: all agree, 1: they differ; the first difference\n"
-        "is shown with its CPF and the optimisation that is to blame. docs/verify.md tells "
-        "more.\n\n"
+        "is shown with its CPF and the optimisation that causes it. See docs/verify.md.\n\n"
         "Examples:\n"
         "  rddl verify domain.rddl instance.rddl\n"
         "  rddl verify SysAdmin_MDP_ippc2011 1 --steps 1000000 --seconds 600 --lanes 1,8,16\n"
@@ -188,11 +186,11 @@ Command verify_command() {
     add_amount_options(command, *options);
     add_compared_options(command, *options);
     add_extern_option(command, options->load,
-                      "C++ header of the external functions; the interpreter takes a .so, too");
+                      "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options->load);
     add_cache_option(command, options->load);
     add_flag(command, "--json", "Print what was found as JSON", options->json);
-    add_flag(command, "--quiet", "Print nothing where all agree", options->quiet);
+    add_flag(command, "--quiet", "Print nothing if all agree", options->quiet);
     command.run = [options] {
         options->load.quiet = options->quiet || options->json;
         return verify(*options);

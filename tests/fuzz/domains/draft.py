@@ -81,7 +81,7 @@ class Draft(Tables):
         return type_
 
     def declare(self, stem: str, role: str, kind: str, *parameters: str, default: str | None = None) -> Fluent:
-        """Its values are random, but for a default that is given."""
+        """Declares a fluent with random values, except for a default that is given."""
         fluent = Fluent(self.fresh(stem), role, kind, parameters)
         fluent.magnitude, fluent.fraction = 10, 2
         if kind == "real" and self.problem.flavour != "plain" and self.chance(0.4):
@@ -149,7 +149,7 @@ class Draft(Tables):
         return real(self.pick(["(0.0 * %s)", "(-0.0 * %s)", "(%s * 0.0)", "(-(0.0 * %s))", "(0.0 - 0.0 * %s)"]), number)
 
     def signed(self, number: Expr) -> Expr:
-        """As often negative as positive, and often a zero."""
+        """A number that is as often negative as positive, and often a zero."""
         form = self.pick(["%s", "(-%s)", "(0.0 - %s)", "(%s - 0.5)", "(%s * -1.0)", "(%s + 0.0)", "(1.0 * %s)", "ZERO", "MASK"])
         if form == "ZERO":
             return self.zero(number)

@@ -1,0 +1,70 @@
+"""RDDL problems as environments of RLlib (pip install "ray[rllib]").
+
+    from rddlc import rllib
+    config = PPOConfig().environment("rddlc", env_config=rllib.env_config("MountainCar_ippc2023", 1))
+
+Importing this module registers "rddlc". A configuration is plain data: each process of a Ray cluster
+loads the problem itself, from names, or from the texts of files that it need not have.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ray.tune.registry import register_env
+
+from .. import _problem_of, make
+from ..environment import RDDLEnv
+
+NAME = "rddlc"
+FORMS: dict[str, Any] = {"observations": "flat", "actions": "box", "normalize": True}
+"""What RLlib's default models take; each may be told otherwise."""
+
+
+def env_config(
+    domain: str | os.PathLike[str],
+    instance: str | int | os.PathLike[str] | None = None,
+    **options: Any,
+) -> dict[str, Any]:
+    """The `env_config` of a problem: domain, instance and options as `rddlc.make` takes them. Of files
+    it holds the texts, so that machines of a cluster need not share a file system; headers of
+    external functions are named by their paths."""
+    problem = _problem_of(domain, instance, dict(options), RDDLEnv)
+    texts = {Path(file).name: Path(file).read_text() for file in problem.files}
+    if len(texts) < len(problem.files):  # two files of one name, in two folders
+        texts = {f"{place}-{Path(file).name}": Path(file).read_text()
+                 for place, file in enumerate(problem.files)}
+    return {"texts": texts, **options}
+
+
+def create_env(config: Mapping[str, Any]) -> RDDLEnv:
+    """An environment by an `env_config`: what `env_config` gives, or the arguments of `rddlc.make`."""
+    options = {**FORMS, **config}
+    texts = options.pop("texts", None)
+    if texts is None:
+        return make(options.pop("domain"), options.pop("instance", None), **options)
+    return make(*_files_of(texts), **options)
+
+
+def _files_of(texts: Mapping[str, str]) -> list[str]:
+    """The texts as files, which are written once for each user and content: domain, instance."""
+    content = hashlib.sha256(repr(sorted(texts.items())).encode()).hexdigest()[:16]
+    folder = Path(tempfile.gettempdir()) / f"rddlc-{os.getuid()}" / content
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, text in texts.items():
+        file = folder / name
+        if not file.exists():
+            fresh = folder / f"{name}.{os.getpid()}"
+            fresh.write_text(text)
+            fresh.replace(file)  # other processes write it, too
+        files.append(str(file))
+    return files
+
+
+register_env(NAME, create_env)

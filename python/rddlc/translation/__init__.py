@@ -1,0 +1,1 @@
+"""Between the engine's records and rows of numbers, and the spaces that Gymnasium's users see."""
