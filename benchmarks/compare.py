@@ -157,7 +157,7 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def compile_ahead(cases: list[Case], options: argparse.Namespace) -> None:
-    """Into rddl's cache, on all cores; what fails does so again when it is measured."""
+    """Compiles into rddl's cache, on all cores; a failure is repeated when it is measured."""
 
     def compile_one(case: Case) -> None:
         with contextlib.suppress(RuntimeError, OSError):

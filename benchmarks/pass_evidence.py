@@ -84,7 +84,8 @@ def count(options: argparse.Namespace) -> tuple[list[str], list[Firing], int]:
 
 
 def sample(firings: list[Firing], most: int) -> list[Firing]:
-    """Of each problem the instance where the pass fires most; of the problems, as many, evenly spread."""
+    """Picks for each problem the instance where the pass fires most; then as many problems as
+    wanted, evenly spread."""
     of_problem: dict[str, Firing] = {}
     for firing in firings:
         known = of_problem.get(firing.problem)

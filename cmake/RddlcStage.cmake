@@ -1,5 +1,5 @@
-# Walls between folders: each has an include folder of its own that holds nothing but a link to it, so what is
-# not said to be used cannot be included.
+# Walls between folders: each has an include folder of its own that holds only a link to it, so only folders
+# that it says it uses can be included.
 #
 #   rddlc_include_folder(<variable> <folder>)     the include folder that holds <folder>, by its name, alone
 #

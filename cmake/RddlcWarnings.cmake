@@ -12,7 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(rddlc_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds
     -Wno-maybe-uninitialized)
 endif()
-# For code that never runs long, such as that of the command lines: it compiles in half to two thirds of the time of -O2.
+# Options for code that never runs long, such as that of the command lines: it compiles in half to
+# two thirds of the time of -O2.
 add_library(rddlc_cold INTERFACE)
 target_compile_options(rddlc_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-Og>)
 if(RDDLC_SANITIZE)

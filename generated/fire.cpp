@@ -55,18 +55,13 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
 
 // ignites-rows, domain.rddl:58
 // clang-format off
-inline constexpr std::array<std::int64_t, 26> ignites_rows_ = {
-    0, 2, 5, 8, 11, 13, 16, 20, 24, 28, 31, 34, 38, 42, 46, 49, 52, 56, 60, 64, 67, 69, 72, 75, 78,
-    80
-};
-// clang-format on
-
-// ignites-n, domain.rddl:58
-// clang-format off
-inline constexpr std::array<std::int64_t, 80> ignites_n_ = {
-    0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 2, 1,
-    2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 3, 2, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4,
-    2, 3, 4, 3, 4, 3, 4, 4, 3, 4, 4, 3, 4, 4, 3, 4
+inline constexpr std::array<std::int64_t, 126> ignites_rows_ = {
+    0, 1, 2, 2, 2, 2, 4, 5, 5, 5, 5, 7, 8, 8, 8, 8, 10, 11, 11, 11, 11, 12, 13, 13, 13, 13, 14, 15,
+    16, 16, 16, 17, 19, 20, 20, 20, 21, 23, 24, 24, 24, 25, 27, 28, 28, 28, 29, 30, 31, 31, 31, 31,
+    32, 33, 34, 34, 34, 35, 37, 38, 38, 38, 39, 41, 42, 42, 42, 43, 45, 46, 46, 46, 47, 48, 49, 49,
+    49, 49, 50, 51, 52, 52, 52, 53, 55, 56, 56, 56, 57, 59, 60, 60, 60, 61, 63, 64, 64, 64, 65, 66,
+    67, 67, 67, 67, 68, 69, 69, 69, 69, 70, 72, 72, 72, 72, 73, 75, 75, 75, 75, 76, 78, 78, 78, 78,
+    79, 80
 };
 // clang-format on
 
@@ -180,12 +175,14 @@ struct Simulator {
                 scratch.ignites[c][r] = rddl::branch(
                     context, condition, [&] { return false; },
                     [&] {
-                        const Real product = rddl::product<Real>(
-                            rddl::row(ignites_rows_, c * 5 + r), [&](rddl::Index entry) {
-                                return rddl::select(
-                                    state.burning[ignites_n_[entry]][ignites_m_[entry]],
-                                    ignites_entries_[entry], 1.0);
-                            });
+                        const Real product = rddl::product<Real>(xpos_count, [&](rddl::Index n) {
+                            return rddl::product<Real>(
+                                rddl::row(ignites_rows_, (c * 5 + r) * 5 + n),
+                                [&](rddl::Index entry) {
+                                    return rddl::select(state.burning[n][ignites_m_[entry]],
+                                                        ignites_entries_[entry], 1.0);
+                                });
+                        });
                         const Real term = 1.0 - 0.9995 * product;
                         return rddl::sample::valid_bernoulli(context, {1, c * 5 + r}, term);
                     });

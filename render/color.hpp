@@ -17,7 +17,7 @@ constexpr Color rgb(unsigned hex) {
     return {((hex >> 16) & 0xff) / 255.0, ((hex >> 8) & 0xff) / 255.0, (hex & 0xff) / 255.0, 1};
 }
 
-// From `a` (0) to `b` (1).
+// The colour between `a` (0) and `b` (1).
 constexpr Color mix(Color a, Color b, double part) {
     return {a.red + (b.red - a.red) * part, a.green + (b.green - a.green) * part,
             a.blue + (b.blue - a.blue) * part, a.alpha + (b.alpha - a.alpha) * part};
@@ -41,9 +41,9 @@ inline constexpr Color paper = white;
 // The colours of series that stand side by side: the palette's colours in turn.
 Color series_color(std::size_t number);
 
-// From light (0) to dark (1), readable in grey and by everybody: a scale of blues.
+// A scale of blues from light (0) to dark (1), also readable in grey.
 Color sequential_color(double part);
-// From blue (-1) over nearly white (0) to vermilion (1).
+// A scale from blue (-1) over nearly white (0) to vermilion (1).
 Color diverging_color(double part);
 
 // Ink or white, whichever reads better on it.

@@ -35,7 +35,8 @@ cairo_font_face_t* read_font() {
 }  // namespace
 
 cairo_font_face_t* font_face() {
-    // For the whole process: FreeType's faces are not given back before cairo's caches are.
+    // The font lives as long as the process: FreeType's faces are not given back before cairo's
+    // caches are.
     static cairo_font_face_t* const face = read_font();
     return face;
 }

@@ -20,7 +20,7 @@ struct Box {
         return {x + horizontal, y + vertical, width - 2 * horizontal, height - 2 * vertical};
     }
 
-    // Parts along an edge; what is left is the box without them.
+    // Parts along an edge; the second one is the rest of the box.
     Box top(double amount) const { return {x, y, width, amount}; }
     Box below(double amount) const { return {x, y + amount, width, height - amount}; }
     Box lowest(double amount) const { return {x, bottom() - amount, width, amount}; }

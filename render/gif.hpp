@@ -17,8 +17,8 @@ namespace rddl::render {
 // are at most 255, else a good choice of them (palette.hpp).
 class GifWriter {
   public:
-    // The movie repeats for ever. Bytes go to `sink` with each frame; what it throws reaches the
-    // caller.
+    // The movie repeats for ever. Bytes go to `sink` with each frame; exceptions of `sink` reach
+    // the caller.
     GifWriter(int width, int height, Sink sink);
     ~GifWriter();
     GifWriter(const GifWriter&) = delete;
@@ -27,7 +27,7 @@ class GifWriter {
     // Shown for so many seconds. GIF counts hundredths: what is rounded is made good by the frames
     // that follow.
     void add(const Picture& picture, double seconds);
-    // Without it the file is cut off.
+    // A file without it is cut off.
     void finish();
 
   private:

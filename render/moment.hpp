@@ -120,7 +120,7 @@ class Moment {
     mutable std::unordered_map<const rddl_fluent*, std::unique_ptr<Values>> read_;
 };
 
-// The value as people write it: "true", "12", "0.25", the name of an object.
+// The value as text: "true", "12", "0.25", the name of an object.
 std::string value_text(const Values& values, std::size_t grounding);
 // A number with so many digits at most, in whatever locale the program is: applications set one.
 std::string rounded_text(double value, int digits);

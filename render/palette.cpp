@@ -57,7 +57,7 @@ struct Cut {
     double worst() const { return error[widest()]; }
 };
 
-// In two at the mean of the widest channel; there are colours on either side of it.
+// Splits the box at the mean of the widest channel; there are colours on either side of it.
 std::array<Cut, 2> halves(std::vector<Weighted>& colors, const Cut& cut) {
     const std::size_t c = cut.widest();
     const auto at = [&](std::size_t i) {

@@ -9,12 +9,12 @@
 
 namespace rddl::render {
 
-// From pixels to their place in a palette of at most so many colours.
+// Maps pixels to their place in a palette of at most so many colours.
 class Palette {
   public:
-    // All colours of `pixels` if there are few enough; else by median cut (P. Heckbert, Color image
-    // quantization for frame buffer display, SIGGRAPH 1982), where the box with the greatest
-    // squared error is cut next, and each colour goes to the nearest of the palette's at last.
+    // All colours of `pixels` if there are few enough; otherwise by median cut (P. Heckbert, Color
+    // image quantization for frame buffer display, SIGGRAPH 1982): the box with the greatest
+    // squared error is cut next, and at last each colour goes to the nearest of the palette's.
     Palette(std::span<const std::uint32_t> pixels, std::size_t most);
 
     const std::vector<std::uint32_t>& colors() const { return colors_; }

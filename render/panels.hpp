@@ -13,11 +13,11 @@
 
 namespace rddl::render {
 
-// In declaration order.
+// The state-fluents in declaration order.
 std::vector<const rddl_fluent*> state_fluents(const rddl_problem& problem);
 
 // The least and greatest value that numbers of a fluent take in the steps, and 0 and 1 for bools;
-// its bounds where it has two. Of no finite number: 0 and 1.
+// its bounds if it has two. The range without a finite number is 0 to 1.
 struct Range {
     double low = 0, high = 1;
 

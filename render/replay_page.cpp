@@ -14,7 +14,7 @@ namespace rddl::render {
 
 namespace {
 
-// Also safe within <script>.
+// The text is also safe within <script>.
 std::string json_text(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {

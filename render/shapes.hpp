@@ -1,4 +1,4 @@
-// Shapes that somebody else has computed, such as those of a scene file.
+// Shapes that another part has computed, such as those of a scene file.
 #pragma once
 
 #include "render/canvas.hpp"
@@ -9,7 +9,7 @@
 
 namespace rddl::render {
 
-// In a flat world whose y grows upwards.
+// A shape in a flat world whose y grows upwards.
 struct Shape {
     enum class Kind { Circle, Line, Rectangle, Polygon, Text };
 
@@ -26,8 +26,8 @@ struct Shape {
     std::string text;
 };
 
-// The part of the world that is shown, as large as it fits into `box`; what is not finite is left
-// out.
+// Draws the part of the world that is shown, as large as it fits into `box`; shapes that are not
+// finite are left out.
 void draw_shapes(Canvas& canvas, const Box& box, const Box& world, std::span<const Shape> shapes);
 
 // Reads "blue" or "#0072b2"; false for other words. color_names() lists all names.

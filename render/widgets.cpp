@@ -268,7 +268,7 @@ std::vector<int> order_of(const Values& follows) {
 }
 
 void trail(Canvas& canvas, std::span<const Point> points, Color color, double thickness) {
-    // In a few pieces of one strength each, so that long ones cost little.
+    // A trail consists of a few pieces of one strength each, so that long ones cost little.
     constexpr std::size_t pieces = 8;
     const std::size_t length = std::max<std::size_t>(points.size() / pieces, 1);
     for (std::size_t begin = 0; begin + 1 < points.size(); begin += length) {

@@ -12,7 +12,7 @@
 
 namespace rddl::render {
 
-// From a range of numbers to points, and back to marks with round numbers.
+// Maps a range of numbers to points, and to marks with round numbers.
 struct Scale {
     double low = 0, high = 1;   // numbers
     double begin = 0, end = 1;  // points
@@ -65,7 +65,7 @@ struct Entry {
     Color color;
 };
 void legend(Canvas& canvas, const Box& box, std::span<const Entry> entries, double size = 11);
-// At the right of the box instead; where room is short, with smaller letters and shorter names.
+// The same at the right of the box; smaller letters and shorter names if there is little room.
 void legend_at_right(Canvas& canvas, const Box& box, std::vector<Entry> entries);
 // The same for numbers and the like, which cannot be shortened. Returns false, and draws nothing,
 // if they do not fit.

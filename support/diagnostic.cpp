@@ -86,7 +86,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> did_you_mean(std::string_view name,
                                         const std::vector<std::string>& candidates) {
-    // Nobody misspells a name by much that is longer; the search takes the square of its length.
+    // Longer names are not compared: the search takes the square of the length.
     constexpr std::size_t longest_name = 100;
     if (name.size() > longest_name) return std::nullopt;
     const std::size_t tolerance = std::max<std::size_t>(1, name.size() / 3);
@@ -97,7 +97,7 @@ std::optional<std::string> did_you_mean(std::string_view name,
         const std::size_t shorter = std::min(candidate.size(), name.size());
         if (candidate == name || longer - shorter >= best_distance) continue;
         const std::size_t distance = edit_distance(name, candidate);
-        // A name that shares nothing with the candidate is no misspelling of it.
+        // A name that shares nothing with the candidate is not a misspelling of it.
         if (distance < best_distance && distance < longer) {
             best_distance = distance;
             best = candidate;

@@ -59,7 +59,7 @@ class Diagnostics {
     const std::vector<Diagnostic>& all() const { return diagnostics_; }
     bool is_error(const Diagnostic& diagnostic) const;
 
-    // By file and position; diagnostics without a place come first.
+    // Sorts by file and position; diagnostics without a place come first.
     void sort_by_position();
 
   private:

@@ -8,7 +8,7 @@
 
 namespace rddlc::document {
 
-// With a name, since Document is known to other files.
+// The namespace has a name, since Document is known to other files.
 namespace document_nodes {
 
 struct Text {
@@ -225,7 +225,7 @@ class Renderer {
         void look_at(Mode, const Flat& node, std::vector<Command>& todo) {
             todo.push_back({0, Mode::Flat, node.body.get()});
         }
-        // Where lines may be broken, the second choice has the shortest first line.
+        // If lines may be broken, the second choice has the shortest first line.
         void look_at(Mode mode, const Alternatives& node, std::vector<Command>& todo) {
             todo.push_back({0, mode, node.choices[mode == Mode::Flat ? 0 : 1].get()});
         }

@@ -29,13 +29,14 @@ Doc concat(std::vector<Doc> parts);
 Doc nest(Doc body);
 // Lines that begin inside begin where the body begins.
 Doc align(Doc body);
-// On one line if it fits, else each of its own lines is broken; always so if `broken`.
+// One line if it fits, otherwise each of its own lines is broken; always so if `broken`.
 Doc group(Doc body, bool broken = false);
-// The same without a choice. What cannot be on one line does not fit.
+// The same without a choice. A part that cannot be on one line does not fit.
 Doc flat(Doc body);
 // The first whose first line fits, or else the last.
 Doc alternatives(std::vector<Doc> choices);
-// Behind the text; what follows begins a line. Further lines continue the comment below it.
+// A comment behind the text; the next text begins a line. Further lines continue the comment below
+// it.
 Doc trailing_comment(std::vector<std::string> lines);
 // A comment on a line of its own.
 Doc own_line_comment(std::string text);

@@ -1,5 +1,5 @@
-// How a run of either program ends before its work is done. Whose fault that is, is told by the
-// type of what is thrown; support/program.hpp alone makes a message and an exit status of it.
+// Exceptions that end a run of either program before its work is done. The type of an exception
+// says whose fault it is; only support/program.hpp turns it into a message and an exit status.
 #pragma once
 
 #include <stdexcept>

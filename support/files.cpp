@@ -43,7 +43,7 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Which descriptor of this process a name such as /dev/fd/3 means.
+// The descriptor of this process that a name such as /dev/fd/3 means.
 std::optional<int> descriptor_named(const fs::path& path) {
     const fs::path folder = path.parent_path();
     if (folder != "/proc/self/fd" && folder != "/dev/fd") return std::nullopt;
@@ -54,8 +54,8 @@ std::optional<int> descriptor_named(const fs::path& path) {
     return number;
 }
 
-// Where symbolic links lead, to the one that names a descriptor at the furthest; nothing if they go
-// round in a circle.
+// The target of symbolic links, at the furthest the one that names a descriptor; nothing if they
+// form a loop.
 std::optional<fs::path> find_target(const fs::path& path) {
     constexpr int most_links = 40;  // as Linux has it
     fs::path target = path;
@@ -81,14 +81,14 @@ std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-// A name that nobody can foresee.
+// A name that cannot be predicted.
 fs::path temporary_name(const fs::path& target) {
     std::random_device random;
     return target.parent_path() / fmt::format(".rddlc-{:08x}{:08x}", random(), random());
 }
 
-// A file that gets its name later; -1 where the system or the file system has none, or could not
-// name it.
+// A file that gets its name later; -1 if the system or the file system has no such files, or could
+// not name it.
 int open_nameless([[maybe_unused]] const fs::path& folder, [[maybe_unused]] mode_t mode) {
 #ifdef O_TMPFILE
     const int descriptor = open_file(folder, O_WRONLY | O_TMPFILE, mode);
@@ -224,8 +224,8 @@ void OutputFile::open_stream() {
     if (descriptor_ < 0) throw UnwritableFile(path_, errno);
 }
 
-// Beside the target, so that renaming it is one step. Without a name where the system can do that:
-// of a process that is killed nothing is left then.
+// Opens a file beside the target, so that renaming it is one step. It has no name if the system can
+// do that: then a process that is killed leaves nothing.
 void OutputFile::open_temporary(mode_t mode) {
     descriptor_ = open_nameless(folder_of(target_), mode);
     is_nameless_ = descriptor_ >= 0;
@@ -237,7 +237,7 @@ void OutputFile::open_temporary(mode_t mode) {
     static_cast<void>(!::fchmod(descriptor_, older->st_mode & 0777));
 }
 
-// O_EXCL, so that nobody can prepare a link there.
+// O_EXCL prevents other users from preparing a link there.
 void OutputFile::open_named(mode_t mode) {
     do {
         temporary_ = temporary_name(target_);
@@ -248,7 +248,7 @@ void OutputFile::open_named(mode_t mode) {
     throw UnwritableFile(path_, errno);
 }
 
-// Only renaming replaces, so the name lasts for a moment.
+// Only renaming replaces a file, so the name lasts for a moment.
 void OutputFile::give_name() {
     do {
         temporary_ = temporary_name(target_);

@@ -17,17 +17,17 @@
 
 namespace rddlc {
 
-// False, too, for links in a circle and names that are too long: who reads the file tells so.
+// Also false for symlink loops and names that are too long: reading the file reports that.
 bool is_there(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 
-// The bytes of a file, which may be a pipe, and may have so many; "-" is no special name. Throws a
-// Failure "cannot read 'x': Is a directory".
+// The bytes of a file, which may be a pipe, and may have so many; "-" has no special meaning.
+// Throws a Failure "cannot read 'x': Is a directory".
 std::string read_file(const std::filesystem::path& path, std::size_t largest = std::string::npos);
 // The same of an open file, called `name` in messages, which may have so many bytes.
 std::string read_descriptor(int descriptor, std::string_view name,
                             std::size_t largest = std::string::npos);
-// What a text that people write may have: places in it have 32 bits, and devices have no end.
+// The limit of a text that users write: places in it have 32 bits, and devices have no end.
 inline constexpr std::size_t largest_text = std::size_t{1} << 28;
 
 // Why not to write: the system's reason, or that the file is in use by this very run.
@@ -75,12 +75,12 @@ class OutputFile {
     // Throws UnwritableFile, as the functions below do. `mode` is that of a new file, before umask.
     OutputFile(const std::filesystem::path& path, const UsedFiles& used, mode_t mode = 0666);
     static OutputFile standard_output(const UsedFiles& used);
-    // Without finish() nothing is left.
+    // Removes the file unless finish() was called.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    // Whether somebody may be reading while it is written.
+    // Whether another program may be reading while it is written.
     bool is_stream() const;
 
     void write(std::string_view text);

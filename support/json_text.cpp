@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_brackets = 256;  // within each other
 
-// Without nlohmann's "[json.exception...] ".
+// The message without nlohmann's "[json.exception...] ".
 std::string message_of(const nlohmann::json::exception& error) {
     const std::string_view what = error.what();
     const std::size_t end = what.find("] ");

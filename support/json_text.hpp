@@ -1,5 +1,5 @@
-// JSON as text, read and written. Programs that call these do not make nlohmann's parser and writer
-// anew in each of their files, which takes seconds a file to compile.
+// JSON as text, read and written. Callers do not compile nlohmann's parser and writer in each of
+// their files, which takes seconds a file.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,9 +12,9 @@
 
 namespace rddlc {
 
-// No JSON, or JSON that others may take: an object names a member twice, and nobody knows which one
-// is meant, a number is larger than any double, or so many brackets lie within each other that who
-// walks through them by recursion would run out of stack. what() is a sentence.
+// The text is not JSON, or is JSON that other programs may misread: an object names a member twice,
+// so that it is ambiguous, a number is larger than any double, or so many brackets lie within each
+// other that recursion would run out of stack. what() is a sentence.
 struct RefusedJson : std::runtime_error {
     explicit RefusedJson(const std::string& message, std::optional<std::size_t> place = {})
         : std::runtime_error(message), byte(place) {}
@@ -26,16 +26,15 @@ struct RefusedJson : std::runtime_error {
 nlohmann::json parse_json(std::string_view text);
 // Keeps the order of members.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
-// What other programs wrote: `discarded` (nlohmann's word) where it is no JSON.
+// JSON from other programs: `discarded` (nlohmann's word) if it is not JSON.
 nlohmann::json json_if_valid(std::string_view text);
 
-// The beginning of a value that somebody else wrote, for messages: ASCII without control
-// characters.
+// The beginning of a value from another program, for messages: ASCII without control characters.
 std::string json_excerpt(const nlohmann::json& value);
 
-// Names of files may hold bytes that are not UTF-8: these become U+FFFD. What is not visible, such
-// as a control character, is written as an escape, so that it does not drive a terminal.
-// Without line breaks.
+// Names of files may hold bytes that are not UTF-8: these become U+FFFD. Invisible characters, such
+// as control characters, are written as escapes, so that they do not drive a terminal. The line has
+// no line breaks.
 std::string json_line(const nlohmann::ordered_json& value);
 // Indented, with a line break at the end.
 std::string json_document(const nlohmann::ordered_json& value);

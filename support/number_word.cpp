@@ -33,6 +33,18 @@ bool reads_as_number(std::string_view word, Number& value) {
     return false;
 }
 
+// The largest ints are not written out.
+template <class Number>
+std::string text_of_bound(Number most) {
+    if (std::is_integral_v<Number> && most == std::numeric_limits<Number>::max())
+        return fmt::format("2^{} - 1", std::numeric_limits<Number>::digits);
+    return fmt::format("{}", most);
+}
+
+bool is_of_digits(std::string_view word) {
+    return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 }  // namespace
 
 template <class Number>
@@ -45,11 +57,12 @@ std::optional<Number> number_in_word(std::string_view word, Number least, Number
 template <class Number>
 std::string no_number_in_word(std::string_view word, Number least, Number most) {
     if (std::is_integral_v<Number> && most == std::numeric_limits<Number>::max() && least >= 0 &&
-        least <= 1)
+        least <= 1 && !is_of_digits(word))
         return fmt::format("'{}' is not {}", word,
                            least == 0 ? "an int from 0 on" : "a positive int");
     return fmt::format("'{}' is not {} from {} to {}", word,
-                       std::is_integral_v<Number> ? "an int" : "a number", least, most);
+                       std::is_integral_v<Number> ? "an int" : "a number", least,
+                       text_of_bound(most));
 }
 
 template std::optional<int> number_in_word(std::string_view, int, int);

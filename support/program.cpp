@@ -42,7 +42,7 @@ void flush_standard_output() {
     throw unwritable_standard_output(errno);
 }
 
-// What the system refuses, in words of ours. Only printing to standard output leaves that mark.
+// A failure of the system, in words of ours. Only printing to standard output leaves that mark.
 Failure failure_of(const std::system_error& error) {
     const int number = error.code().value();
     if (std::ferror(stdout)) return unwritable_standard_output(number);

@@ -1,4 +1,4 @@
-// What both programs do around their work.
+// Shared frame of both programs around their work.
 #pragma once
 
 #include "support/failure.hpp"
@@ -13,31 +13,31 @@
 
 namespace rddlc {
 
-// Runs `work` and gives the exit status of the program `name`. Whatever is thrown is told here, in
-// one place, as the fault of who made it: a Failure is the user's or the machine's, as are a lack
-// of memory and what the system refuses; all else is a mistake of our own. What could not be
-// written to standard output is a failure, too.
+// Runs `work` and returns the exit status of the program `name`. All exceptions are reported here,
+// in one place, with their cause: a Failure is the user's or the machine's, as are a lack of memory
+// and errors of the system; all else is a bug of ours. Output that could not be written to standard
+// output is also a failure.
 int run_program(std::string_view name, std::string_view version,
                 const std::function<ExitStatus()>& work);
 
 bool is_terminal(int descriptor);
-// Whether what is told is read on a terminal that understands escape codes: TERM is not "dumb".
+// Whether messages appear on a terminal that understands escape codes: TERM is not "dumb".
 bool tells_to_screen();
-// How many columns that terminal has; 0 if it does not tell.
+// The number of columns of that terminal; 0 if it does not report it.
 std::size_t screen_columns();
-// And by somebody who has not set NO_COLOR (https://no-color.org).
+// The same, and NO_COLOR is not set (https://no-color.org).
 bool tells_in_color();
 
-// What people read goes through tell() or print(), which leave nothing of it that drives a terminal
-// (printable() of utf8.hpp): names, paths and messages may be anybody's.
+// Texts for people go through tell() or print(), which leave nothing in them that drives a terminal
+// (printable() of utf8.hpp): names, paths and messages may come from strangers.
 //
-// Writes to standard error. If nobody can read that there is nobody to tell, so it never fails.
+// Writes to standard error. If that cannot be written, no report is possible, so it never fails.
 void tell(std::string_view text);
 // The same with escape codes of ours; all else in the text is printable().
 void tell_with_codes(std::string_view text);
 // Writes to standard output.
 void print(std::string_view text);
-// What another program may read, or a file: as it is, unless standard output is a terminal.
+// Prints data for other programs or files: as it is, unless standard output is a terminal.
 void print_data(std::string_view text);
 
 template <class... Arguments>

@@ -19,9 +19,9 @@ constexpr std::size_t tab_width = 4;
 constexpr std::size_t window_width = 110;  // longer lines are shown around the caret only
 constexpr std::string_view ellipsis = "...";
 
-// What a terminal shows for a piece of source, one element per column: tabs become blanks, what is
-// not visible a replacement character. Wide characters are followed by an empty element; accents
-// stand in the element of their character.
+// The display of a piece of source on a terminal, one element per column: tabs become blanks,
+// invisible characters a replacement character. Wide characters are followed by an empty element;
+// accents stand in the element of their character.
 void append_columns(std::vector<std::string>& columns, std::string_view text) {
     while (!text.empty()) {
         const Character character = first_character(text);

@@ -22,8 +22,8 @@ struct RenderOptions {
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderOptions& options);
 
-// What stands below them: how many there are, and how `program` explains the first error. Empty if
-// there is nothing to tell.
+// The lines below the diagnostics: their number, and how `program` explains the first error. Empty
+// if there is nothing to report.
 std::string closing_lines(const Diagnostics& diagnostics, std::string_view program);
 // "'rddl --explain E0203' explains it\n"
 std::string pointer_to_explanation(Code code, std::string_view program);

@@ -62,7 +62,7 @@ class Sources {
 
     Position position(Span span) const { return files_[span.file].position(span.begin); }
     std::string_view text(Span span) const;
-    // Without its comments and line breaks; blanks are single.
+    // The text without its comments and line breaks; blanks are single.
     std::string text_on_one_line(Span span) const;
     // "path:line:column", as compilers print it.
     std::string location(Span span) const;

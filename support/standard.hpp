@@ -1,4 +1,4 @@
-// Which RDDL is accepted.
+// The accepted variant of RDDL.
 #pragma once
 
 #include <optional>

@@ -29,8 +29,8 @@ constexpr bool begins_character(char byte) {
 
 bool is_utf8(std::string_view text);
 
-// What a terminal can be given: the text, with U+FFFD for each character that is not visible, line
-// breaks and tabs excepted. Texts that are not ours reach a terminal through this alone.
+// The text as a terminal may get it, with U+FFFD for each invisible character, line breaks and tabs
+// excepted. Texts that are not ours reach a terminal only through this.
 std::string printable(std::string_view text);
 // The same of what stands within a line.
 std::string printable_line(std::string_view text);

@@ -55,8 +55,8 @@ inline double greatest_difference(const rddl_simulator& a, const rddl_simulator&
     struct Side {
         Side(const rddl_simulator& its_simulator, const rddlc::workbench::RandomCourse& course)
             : simulator(its_simulator),
-              batch(rddlc::solvers::create_batch(its_simulator,
-                                                 rddlc::workbench::course_options(course.environments))),
+              batch(rddlc::solvers::create_batch(
+                  its_simulator, rddlc::workbench::course_options(course.environments))),
               rewards(static_cast<std::size_t>(course.environments)),
               terminated(rewards.size()),
               truncated(rewards.size()),
@@ -74,7 +74,7 @@ inline double greatest_difference(const rddl_simulator& a, const rddl_simulator&
         }
 
         const rddl_simulator& simulator;
-        rddlc::solvers::Batch batch;
+        rddlc::solvers::BatchHandle batch;
         std::vector<double> rewards;
         std::vector<std::uint8_t> terminated, truncated;
         std::vector<std::byte> states;

@@ -27,7 +27,7 @@ class Rollouts:
         self.actions = self._stacked(draw_course(env, seconds_to_draw))
 
     def measure(self, batch: int, seconds: float, cores: int) -> dict:
-        """Whole rollouts of the horizon; what compiles them is not counted."""
+        """Whole rollouts of the horizon; their compilation is not counted."""
         rollout = self._compiled_rollouts(batch)
         rollout(0)
         numbers = iter(range(1, 1 << 30))

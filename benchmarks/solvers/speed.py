@@ -69,7 +69,7 @@ def rollout_rate(rddl, repetitions):
 
 
 def first_policy(rddl, solver, *options):
-    """From two RDDL files to a policy that reaches the goal, with nothing compiled before."""
+    """The time from two RDDL files to a policy that reaches the goal, with nothing compiled before."""
     with tempfile.TemporaryDirectory() as folder:
         begin = time.monotonic()
         seconds = processor_seconds([rddl, "train", solver, *CAR, "--out", f"{folder}/run", "--quiet", "--stop-return", 100,

@@ -34,6 +34,7 @@ struct Option {
     std::function<void(const std::string& value)> take;
     std::vector<std::string> choices;      // the only values; empty: any
     std::vector<std::string> suggestions;  // some of any, which shells offer
+    std::vector<std::string> elsewhere;    // what other faces and programs call it
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left
     bool has_commas = false;  // between values of a list
@@ -72,7 +73,7 @@ std::vector<Option> common_options(bool is_program);
 // "-o" and "--output" of "-o,--output".
 std::vector<std::string> names_of(const Option& option);
 
-// Adders of the usual kinds. What they return may be adjusted until the next one is added.
+// Adders of the usual kinds. The returned option may be adjusted until the next one is added.
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
                      std::function<void(const std::string&)> take);
 Option& add_option(Command& command, const std::string& names, const std::string& value_name,

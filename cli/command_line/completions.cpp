@@ -154,7 +154,7 @@ std::string bash(const Command& program) {
 
 // ----------------------------------------------------------------------------------------- zsh
 
-// Between single quotes, in a specification of _arguments.
+// The text between single quotes, in a specification of _arguments.
 std::string zsh_text(const std::string& text) {
     return replaced(with_escapes(text, "\\[]:"), "'", "'\\''");
 }

@@ -1,7 +1,9 @@
 #include "command_line/command_line.hpp"
 #include "command_line/value_of.hpp"
 #include "support/diagnostic.hpp"
+#include "support/option_names.hpp"
 #include "support/program.hpp"
+#include "support/suggestion.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -93,17 +95,17 @@ void declare(Declared& declared) {
 }
 
 std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
-    const auto near = did_you_mean(name, known);
-    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+    return ending_with_name(did_you_mean(name, known));
 }
 
-std::vector<std::string> option_names(const Command& command) {
-    std::vector<std::string> names;
+std::vector<KnownOption> known_options(const Command& command) {
+    std::vector<KnownOption> known;
     for (const auto& options : {common_options(!command.commands.empty()), command.options})
         for (const Option& option : options)
             if (option.kind != OptionKind::Argument)
-                for (const std::string& name : names_of(option)) names.push_back(name);
-    return names;
+                for (const std::string& name : names_of(option))
+                    known.push_back({name, option.elsewhere});
+    return known;
 }
 
 std::vector<std::string> command_names(const Command& program) {
@@ -137,7 +139,7 @@ std::string message_of(const CLI::ParseError& error, const std::vector<std::stri
     if (unknown != left.end()) {
         const std::string name = unknown->substr(0, unknown->find('='));
         return fmt::format("unknown option '{}'{}", name,
-                           did_you_mean_text(name, option_names(chosen ? *chosen : program)));
+                           option_meant_text(name, known_options(chosen ? *chosen : program)));
     }
     if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
     return error.what();

@@ -21,7 +21,7 @@ constexpr const char* examples =
     "Examples:\n"
     "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
     "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
-    "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc domain.rddl instance.rddl --check       only check for errors\n"
     "  rddlc domain.rddl --check                     those of a domain, without an instance\n"
     "  rddlc --explain E0203                         what a diagnostic means\n\n"
     "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"
@@ -58,7 +58,7 @@ struct Arguments {
     bool verbose = false;
 };
 
-// For --help.
+// The list of passes for --help.
 std::string list_of_passes() {
     std::string text = "Optimisations, in their order:\n";
     for (const PassDescription& pass : all_passes())
@@ -221,7 +221,7 @@ Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
         last = *stage;
     }
     if (arguments.check_only) last = std::min(last, Stage::Check);
-    // A user who only wants to see a form does not wait for the stages after it.
+    // A user who only wants a form does not wait for the stages after it.
     if (!arguments.output.empty()) return last;
     const std::optional<Stage> wanted = last_wanted_stage(arguments, print);
     return wanted ? std::min(last, *wanted) : last;

@@ -79,7 +79,7 @@ bool check_call_arity(std::string_view name, std::size_t expected, const ast::Na
 
 enum class ResultRule {
     KeepNumber,  // int for bool and int, real for real
-    Round,       // int; of an int it is the int itself
+    Round,       // int; an int stays itself
     Ints,        // int operands, int result
     Reals,       // real operands, real result
 };

@@ -56,7 +56,7 @@ void keep_details(ir::Program& program) {
     program.step = std::move(kept);
 }
 
-// Nobody sees next states and observations here, and there are no episodes.
+// Next states and observations are unused here, and there are no episodes.
 void forget_the_rest(ir::Program& program) {
     for (ir::Buffer& buffer : program.buffers)
         if (buffer.storage == ir::Storage::Next || buffer.storage == ir::Storage::Observation ||
@@ -126,7 +126,7 @@ class DetailsBuilder {
         for (const ir::VariableId variable : variables) nodes.push_back(builder_.index(variable));
         return nodes;
     }
-    // Of the CPF.
+    // The place of the CPF.
     Span span_of(BufferId source) const {
         return std::ranges::find(program_.step, source, &ir::Definition::target)->span;
     }

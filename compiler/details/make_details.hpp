@@ -1,5 +1,5 @@
-// The program that tells what a step computes on its way (ir/details.hpp), from one as `ground`
-// leaves it.
+// The program for the intermediate values of a step (ir/details.hpp), made from the output of
+// `ground`.
 //
 //     scratch.slope = f(state.x)                  observation.slope = f(state.x)
 //     next.x = state.x + scratch.slope       =>   observation.precondition[c] = action.go[c] <= 1

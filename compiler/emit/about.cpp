@@ -1,3 +1,4 @@
+// Over 400 lines: one class, which describes a program in the order of simulator.h.
 #include "emit/about.hpp"
 
 #include "emit/constants.hpp"

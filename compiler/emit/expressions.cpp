@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of node.
 #include "emit/expressions.hpp"
 
 #include "emit/literals.hpp"

@@ -1,3 +1,5 @@
+// Over 400 lines: a function for each kind of statement, and for each way to break a long
+// expression.
 #include "emit/function_body.hpp"
 
 #include "emit/layout.hpp"

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each emitted function.
 #include "emit/functions.hpp"
 
 #include "emit/function_body.hpp"

@@ -11,7 +11,7 @@ namespace rddlc::format {
 
 using namespace document;
 
-// What stands above a declaration.
+// The comments and blank lines above a declaration.
 struct Lead {
     std::vector<CommentAbove> comments;
     bool blank_line_before = false;  // between the comments, if any, and the declaration

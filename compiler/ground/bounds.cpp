@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// By how much a strict inequality moves a real bound, as in pyRDDLGym.
+// The distance by which a strict inequality moves a real bound, as in pyRDDLGym.
 constexpr double strictness = 1e-5;
 
 // `fluent(indices) op limit` for all values of the variables.

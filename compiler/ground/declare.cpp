@@ -109,7 +109,6 @@ Declarations declare(const model::Model& model, bool only_moderate) {
     program.only_moderate = only_moderate;
     program.domain_name = model.domain_name;
     program.instance_name = model.instance_name;
-    program.fingerprint = model::fingerprint(model);
     program.horizon = model.horizon;
     program.discount = model.discount;
     program.max_nondef_actions = model.max_nondef_actions;

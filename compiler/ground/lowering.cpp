@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of expression.
 #include "ground/lowering.hpp"
 
 #include "ground/codes.hpp"
@@ -11,13 +12,13 @@
 namespace rddlc::grounding {
 namespace {
 
-// In operations (ir::Facts). Passes name what is used several times; this is for nested products,
-// which would grow exponentially until then.
+// The limit in operations (ir::Facts). Passes name values that are used several times; this is for
+// nested products, which would grow exponentially until then.
 constexpr double largest_repeated_cost = 200;
 // Selects inside each other that a 'switch' becomes.
 constexpr std::size_t longest_chain = 512;
 
-// What pyRDDLGym evaluates first when it is the right operand of * ^ |.
+// Whether pyRDDLGym evaluates it first when it is the right operand of * ^ |.
 bool is_simple(const model::Expr& expr) {
     if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
         return is_simple(*convert->operand);
@@ -74,7 +75,8 @@ ir::Computation Lowering::value_of(const model::Expr& expr) {
     return {std::exchange(prelude_, {}), value, expr.span};
 }
 
-// Inside loops, outermost first. A variable over a single object needs none: its index is 0.
+// The statement inside loops, outermost first. A variable over a single object needs no loop: its
+// index is 0.
 ir::Statement Lowering::looped(ir::Statement statement,
                                std::span<const ir::VariableId> variables) const {
     for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
@@ -137,7 +139,7 @@ ir::Place Lowering::new_place(const model::Expr& expr, std::string what,
     return {ir::SiteId{site}, row_major_index(scope)};
 }
 
-// With the numbers of a draw of other branches, if there is one left.
+// A draw that shares its numbers with a draw of other branches, if one is left.
 ir::Place Lowering::new_draw(const model::Expr& expr, std::string what) {
     const ir::Place place = new_place(expr, std::move(what));
     const auto shared = std::ranges::find_if(
@@ -304,7 +306,7 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
             return builder_.select(condition, then_value, rest);
         }
     }
-    // In the second branch the first factor is not zero, which the other one need not ask again.
+    // The first factor is not zero in the second branch, which the other one need not ask again.
     const auto* asks = std::get_if<ir::Select>(&program_[other].form);
     if (asks && asks->condition == test(first)) other = asks->else_value;
     const ir::NodeId left = right_first ? other : first;
@@ -312,8 +314,8 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
     return builder_.select(test(first), first, builder_.apply(Operator::Multiply, {left, right}));
 }
 
-// What may fault keeps its place in a lazy branch, and what the instance fixes stays an expression
-// that bounds and passes can evaluate.
+// An expression that may fault keeps its place in a lazy branch, and one that the instance fixes
+// stays an expression that bounds and passes can evaluate.
 bool Lowering::may_be_named(ir::NodeId value) const {
     const ir::Facts& facts = builder_.facts(value);
     return scope_.empty() && !facts.uniform && (!facts.may_fault || branches_ == 0);
@@ -355,8 +357,8 @@ ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     return choice(subject, labels, std::span(values).subspan(1), values.front());
 }
 
-// Labels fall. Of more than a chain should have, each half is a choice for itself: what follows
-// recurses on expressions.
+// Labels fall. A long chain is halved, and each half is a choice for itself: later passes recurse
+// on expressions.
 ir::NodeId Lowering::choice(ir::NodeId subject, std::span<const ir::NodeId> labels,
                             std::span<const ir::NodeId> values, ir::NodeId rest) {
     if (labels.size() > longest_chain) {

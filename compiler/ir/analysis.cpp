@@ -1,3 +1,4 @@
+// Over 400 lines: one traversal and the questions about its results.
 #include "ir/analysis.hpp"
 
 #include "ir/cost_model.hpp"
@@ -68,7 +69,7 @@ class Collector {
                                                        : object_range(buffer);
     }
 
-    // Of a fluent whose values are objects.
+    // The range of a fluent whose values are objects.
     std::optional<Range> object_range(const Buffer& buffer) const {
         if (!buffer.fluent) return std::nullopt;
         const auto type = program_.fluents[*buffer.fluent].object_type;
@@ -215,7 +216,8 @@ class Collector {
 
     // ------------------------------------------------------------------- zeros and their signs
 
-    // Of reals. What underflows is a zero, whose sign is that of what was rounded.
+    // The sign of real zeros: an underflow gives a zero with the sign of the number that was
+    // rounded.
     bool is_never_negative_zero(const Constant& constant) const {
         return !is_negative_zero(constant.value);
     }
@@ -247,7 +249,7 @@ class Collector {
                 return has_no_sign(a);
             case Operator::Sqrt:
                 return never_negative_zero(a);
-            // Of equal numbers they take the first.
+            // Equal operands give the first one.
             case Operator::Minimum:
                 return never_negative_zero(a) &&
                        (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
@@ -276,7 +278,7 @@ class Collector {
         return range && range->lower >= 0;
     }
 
-    // Of the operators that may fault.
+    // Whether an operator that may fault is defined for these operands.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();

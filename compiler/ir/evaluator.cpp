@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of node and statement.
 #include "ir/evaluator.hpp"
 
 #include "ir/analysis.hpp"
@@ -38,7 +39,8 @@ void choose_counts(const TableArguments& multinomial, rddl::Place place, Outcome
 // Constant tables for which these bytes leave no room are looked up where they are.
 constexpr std::size_t most_packed = std::size_t{1} << 25;
 
-// To write out all elements would take much longer than to look up those that somebody reads.
+// Writing out all elements of such a table would take much longer than looking up those that are
+// read.
 bool is_sparse(const Table& table) {
     return table.size() > 64 * (std::ssize(table.exceptions()) + 1024);
 }
@@ -388,7 +390,7 @@ bool Evaluator::apply<bool>(const Apply& form, Frame& frame) const {
     unreachable_operator();
 }
 
-// The right operands of And and Or cannot fault (verify.hpp), so nobody notices a short circuit.
+// The right operands of And and Or cannot fault (verify.hpp), so a short circuit changes nothing.
 bool Evaluator::apply_to_bools(const Apply& form, Frame& frame) const {
     const bool a = value<bool>(form.operands.front(), frame);
     if (form.op == Operator::Not) return !a;
@@ -480,7 +482,7 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
 
 // ---------------------------------------------------------------------------------- draws
 
-// With outcomes, a draw is made all the same, to record what is wrong with its parameters.
+// A draw with outcomes is also made, to record faults of its parameters.
 template <class T>
 T Evaluator::draw(const Sample& form, Frame& frame) const {
     const rddl::Place here = place(form.place, frame);

@@ -21,10 +21,10 @@ class Interpreter {
     explicit Interpreter(Program program, ExternalFunctions functions = {});
 
     const Program& program() const { return *program_; }
-    // As Evaluator::round_by.
+    // See Evaluator::round_by.
     void round_by(Rounding& rounding) { evaluator_.round_by(rounding); }
 
-    // In bytes.
+    // Sizes in bytes.
     std::size_t state_size() const { return state_size_; }
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }
@@ -45,8 +45,8 @@ class Interpreter {
                 std::byte* next, std::byte* observation, Context& context,
                 Outcomes* outcomes) const;
 
-    // Of a program for moderate values only: are all reals of the state and the action moderate
-    // that it takes to be? Any other program may step from anywhere.
+    // Whether all reals of the state and the action are moderate that a program for moderate values
+    // assumes so. Any other program may step from anywhere.
     bool may_step_from(const std::byte* state, const std::byte* action) const;
 
     // Does any termination condition hold?

@@ -35,14 +35,14 @@ bool compare(Operator op, T a, T b) {
     }
 }
 
-// On one or two bools; `b` is ignored by Not.
+// Applies an operator to one or two bools; `b` is ignored by Not.
 bool apply_logic(Operator op, bool a, bool b);
-// On one or two ints, to int. `place` is used by Power.
+// Applies an operator to one or two ints, to int. `place` is used by Power.
 std::int64_t apply_int(Operator op, std::int64_t a, std::int64_t b, rddl::Place place,
                        Context& context);
-// On one real, to int: Sign, Round, Floor, Ceil.
+// Applies an operator to one real, to int: Sign, Round, Floor, Ceil.
 std::int64_t apply_to_int(Operator op, double a);
-// On one or two reals, to real. `place` is used by LnGamma, Gamma and Defined.
+// Applies an operator to one or two reals, to real. `place` is used by LnGamma, Gamma and Defined.
 double apply_real(Operator op, double a, double b, rddl::Place place, Context& context);
 
 // Draws, by the type of their value. A distribution of one parameter ignores `b`.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t most_trials = 1'000'000;
 
-// The first one with a positive probability from `begin` on; the size if there is none.
+// The first one with a positive probability from `begin` on; the size if all are 0.
 std::size_t next_possible(const std::vector<double>& probabilities, std::size_t begin) {
     const auto found = std::find_if(probabilities.begin() + static_cast<std::ptrdiff_t>(begin),
                                     probabilities.end(), [](double p) { return p > 0; });

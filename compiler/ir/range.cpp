@@ -10,7 +10,7 @@
 namespace rddlc::ir {
 namespace {
 
-// The smallest range that holds all corners; none if one of them is nan.
+// The smallest range that holds all corners; nothing if one of them is nan.
 std::optional<Range> hull(std::initializer_list<double> corners) {
     for (double corner : corners) {
         if (std::isnan(corner)) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<Range> multiply(Range a, Range b) {
 
 // A zero in the divisor makes nan possible.
 std::optional<Range> divide(Range a, Range b) {
-    if (b.lower <= 0 && b.upper >= 0) return std::nullopt;
+    if (!excludes_zero(b)) return std::nullopt;
     return hull({a.lower / b.lower, a.lower / b.upper, a.upper / b.lower, a.upper / b.upper});
 }
 
@@ -36,7 +36,7 @@ bool is_whole_number(double value) {
     return value == std::floor(value);
 }
 bool is_positive(Range range) {
-    return range.lower > 0 && std::isfinite(range.upper);
+    return excludes_zero(range) && range.lower > 0 && std::isfinite(range.upper);
 }
 
 double magnitude(Range range) {
@@ -46,7 +46,7 @@ Range symmetric(double magnitude) {
     return {-magnitude, magnitude};
 }
 
-// With room for what functions and long sums round.
+// The range with room for the rounding of functions and long sums.
 Range padded(Range range) {
     const double slack = 1e-9 * magnitude(range);
     return {range.lower >= 0 ? std::max(0.0, range.lower - slack) : range.lower - slack,
@@ -76,7 +76,8 @@ bool is_finite(const Range& range) {
 }
 
 bool excludes_zero(const std::optional<Range>& range) {
-    return range && (range->lower > 0 || range->upper < 0);
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    return range && (range->lower >= least || range->upper <= -least);
 }
 
 Range join(Range a, Range b) {
@@ -190,7 +191,7 @@ std::optional<Range> range_of(Distribution distribution,
         case Distribution::Binomial:
         case Distribution::NegativeBinomial:
         case Distribution::Geometric:
-            return std::nullopt;  // the last five are no reals
+            return std::nullopt;  // the last five are not real
     }
     return std::nullopt;
 }

@@ -23,7 +23,8 @@ Range join(Range a, Range b);
 
 // A number beyond all floats is not finite, since simulators may compute with them (--real=float).
 bool is_finite(const Range& range);
-// Whether it is known that a number is not zero.
+// Whether it is known that a number is not zero. One that is smaller than all floats counts as zero
+// for the same reason.
 bool excludes_zero(const std::optional<Range>& range);
 
 // The range of `op` on reals, where it is known. Functions of the runtime may be off by some last

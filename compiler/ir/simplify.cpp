@@ -113,7 +113,7 @@ class Simplifier {
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
 
-    // Of equal numbers they take the first: max[0.0, x] is x only if that is greater than 0.
+    // Equal operands give the first one: max[0.0, x] is x only if x is greater than 0.
     std::optional<NodeId> extremum() {
         if (a_ == b_) return a_;
         const NodeId b = without_zero(b_);

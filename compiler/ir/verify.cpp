@@ -1,3 +1,4 @@
+// Over 400 lines: a rule of the IR after the other, for each kind of node and statement.
 #include "ir/verify.hpp"
 
 #include "ir/analysis.hpp"
@@ -56,9 +57,8 @@ class Verifier {
         }
         std::map<Likeness, int> counts;
         for (const Buffer& buffer : program_.buffers) ++counts[likeness(buffer, buffer.storage)];
-        const bool makes_states = std::ranges::any_of(program_.buffers, [](const Buffer& buffer) {
-            return buffer.storage == Storage::Next;
-        });
+        const bool makes_states = std::ranges::any_of(
+            program_.buffers, [](const Buffer& buffer) { return buffer.storage == Storage::Next; });
         for (const Buffer& buffer : program_.buffers) {
             if (buffer.storage == Storage::State && makes_states)
                 require(counts[likeness(buffer, Storage::Next)] == 1, "'{}' has no next state",
@@ -86,7 +86,7 @@ class Verifier {
         require(buffer.values.all_of(typed), "'{}' has values of another type", buffer.name);
     }
 
-    // What a buffer and that of its next value have in common, apart from the storage.
+    // The common properties of a buffer and that of its next value, apart from the storage.
     using Likeness = std::tuple<std::string_view, std::vector<std::int64_t>, Scalar, Storage>;
     static Likeness likeness(const Buffer& buffer, Storage storage) {
         return {buffer.name, buffer.shape, buffer.scalar, storage};
@@ -185,7 +185,7 @@ class Verifier {
         }
     }
 
-    // For complaints: to print every node would take the square of their number.
+    // The text for complaints: printing every node would take the square of their number.
     std::string text_unless(bool ok, NodeId id) const { return ok ? "" : print(program_, id); }
 
     void numbers_fit(const Site& site) {
@@ -389,7 +389,7 @@ class Verifier {
 
     // --------------------------------------------------------------------- statements
 
-    // What is known where a statement stands.
+    // The names that a statement may use.
     struct Scope {
         std::set<VariableId> variables;
         std::set<LocalId> locals;
@@ -631,7 +631,7 @@ class Verifier {
     std::vector<Facts> facts_;
     StorageSet computed_;                               // what the current block computes
     std::map<BufferId, int> defined_;                   // and in which body
-    int body_ = 0;                                      // how many have been looked at
+    int body_ = 0;                                      // how many have been checked
     std::vector<std::vector<VariableId>> bound_below_;  // sorted, by NodeId::index
     std::map<LocalId, Scalar> let_types_;
     std::vector<std::string> complaints_;

@@ -167,8 +167,8 @@ struct Cpf {
     Span span;
 };
 
-// A policy block: how to choose the action. What it declares are state-fluents (its memory),
-// derived-fluents and non-fluents, among which param-fluents are.
+// A policy block: how to choose the action. It declares state-fluents (its memory), derived-fluents
+// and non-fluents, among which param-fluents are.
 struct Policy {
     std::string name;
     FluentId first_fluent;  // from there on, Model::fluents are the policy's own
@@ -200,7 +200,7 @@ struct Model {
     std::vector<Expr> state_invariants;
     std::vector<Expr> terminations;
 
-    std::int64_t horizon = 0;  // 0: none (pos-inf)
+    std::int64_t horizon = 0;  // 0: no horizon (pos-inf)
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;  // absent: no limit (pos-inf)
 

@@ -32,7 +32,7 @@ std::uint64_t cube(std::uint64_t n) {
     return n * n * n;
 }
 
-// Of the first n numbers, from 1 on.
+// The sum of the cubes of the first n numbers, from 1 on.
 std::uint64_t sum_of_cubes(std::uint64_t n) {
     const std::uint64_t sum = n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n;
     return sum * sum;

@@ -38,7 +38,8 @@ class Table {
     const Value& operator[](std::int64_t index) const;
     void set(std::int64_t index, Value value);
 
-    // Every element that is not among the exceptions, which are by index, none identical to it.
+    // The value of every element that is not among the exceptions, which are by index and all
+    // differ from it.
     const Value& common() const { return common_; }
     const std::map<std::int64_t, Value>& exceptions() const { return *exceptions_; }
     bool has_common() const { return std::ssize(*exceptions_) < size_; }
@@ -47,7 +48,7 @@ class Table {
     bool is_uniform() const;
     std::vector<Value> dense() const;
 
-    // Of each value that occurs.
+    // Whether it holds of each value that occurs.
     template <class Holds>
     bool all_of(const Holds& holds) const {
         if (has_common() && !holds(common_)) return false;
@@ -66,7 +67,7 @@ class Table {
         std::make_shared<std::map<std::int64_t, Value>>();  // shared: not changed in place
 };
 
-// Of the same size and elements, bit by bit.
+// Whether both have the same size and elements, bit by bit.
 bool identical(const Table& a, const Table& b);
 // Equal for tables that are identical. Takes the time of the exceptions.
 std::uint64_t hash_of(const Table& table);

@@ -82,7 +82,7 @@ bool is_extension(Operator op);
 bool is_comparison(Operator op);
 // Less to GreaterEqual.
 bool is_order(Operator op);
-// Of a comparison: `a op b` is `b mirrored(op) a`.
+// The mirrored comparison: `a op b` is `b mirrored(op) a`.
 Operator mirrored(Operator op);
 
 // True for operators that fault on some operands: Power on ints, LnGamma, Gamma, Defined.

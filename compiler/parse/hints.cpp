@@ -1,5 +1,7 @@
 #include "parse/hints.hpp"
 
+#include "support/suggestion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +32,7 @@ std::string in_small_letters(std::string_view word) {
     return small;
 }
 
-// As other languages call it.
+// The distribution that another language calls by this name.
 std::string distribution_meant_by(std::string_view name) {
     const std::string small = in_small_letters(name);
     if (small == "gaussian" || small == "gauss") return "Normal";
@@ -199,8 +201,7 @@ std::vector<std::string> expected_words(const SyntaxError& error) {
 
 std::string misspelt_word(const SyntaxError& error) {
     if (!is(&error.found(), Parser::ID) && !is(&error.found(), Parser::FLUENT_KIND)) return "";
-    const auto meant = did_you_mean(error.found().getText(), expected_words(error));
-    return meant ? fmt::format("did you mean '{}'?", *meant) : "";
+    return hint_of_name(did_you_mean(error.found().getText(), expected_words(error)));
 }
 
 // rddlsim writes "$s1" for an object; in RDDL of pyRDDLGym '$' calls an external function.
@@ -228,7 +229,7 @@ struct SectionMeant {
     std::string_view word, section;
 };
 
-// What other readers or people call the sections of a domain.
+// Names of a domain's sections in other readers and common language.
 constexpr std::array sections_meant = {
     SectionMeant{"terminal", "termination"},
     SectionMeant{"terminals", "termination"},

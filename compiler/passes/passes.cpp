@@ -41,8 +41,7 @@ namespace {
 
 enum Trait : unsigned {
     only_fast_math = 1,
-    rounds_sums = 2,
-    leaves_out_zeros = 4,  // what is multiplied by zero, where it is finite
+    leaves_out_zeros = 2,  // what is multiplied by zero, where it is finite
 };
 
 struct Pass {
@@ -88,7 +87,7 @@ constexpr Pass in_order[] = {
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
      passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
-     passes::make_aggregations_sparse, rounds_sums | leaves_out_zeros},
+     passes::make_aggregations_sparse, leaves_out_zeros},
     {"tabulate_counts", "what a count, or another small int, decides becomes a table",
      passes::tabulate_counts},
     {"straighten_rows", "only with --fast-math: rows of tables that are nearly lines become lines",
@@ -134,8 +133,7 @@ std::vector<PassDescription> all_passes() {
     for (const Pass& pass : in_order) {
         const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
         if (known == passes.end())
-            passes.push_back(
-                {pass.name, pass.summary, pass.has(only_fast_math), pass.has(rounds_sums)});
+            passes.push_back({pass.name, pass.summary, pass.has(only_fast_math)});
     }
     return passes;
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double most_exact = 9007199254740992.0;  // 2^53: up to here an int is a double
 
-// A number of Python or numpy that is no array.
+// A number of Python or numpy that is not an array.
 std::optional<double> number_of(PyObject* given) {
     if (PyFloat_Check(given)) return PyFloat_AS_DOUBLE(given);
     if (!PyLong_Check(given)) return std::nullopt;

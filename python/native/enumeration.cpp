@@ -50,7 +50,7 @@ class Enumeration {
         do {
             if (combinations % 256 == 0 && PyErr_CheckSignals() != 0) throw nb::python_error();
             if (++combinations > most)
-                throw Refused(fmt::format(
+                throw Failure(fmt::format(
                     "a step has more than {} combinations of what it draws: allow more by "
                     "most_outcomes, or say samples=1000 for an estimate",
                     most));
@@ -73,7 +73,7 @@ class Enumeration {
             causes |= RDDL_TRUNCATED_INVARIANT;
         if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
         if (context.fault)
-            throw Refused("one of the outcomes has no result: sample() reports the fault");
+            throw Failure("one of the outcomes has no result: sample() reports the fault");
         const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
         Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
         mass.probability += outcomes.probability();
@@ -95,7 +95,7 @@ Enumeration enumeration_of(const workbench::LoadedProblem& problem, const nb::ob
     options.engine = workbench::Engine::Interpreter;
     options.externs = {externs.begin(), externs.end()};
     Compilation compilation = workbench::compile_problem(problem.files, options);
-    if (compilation.diagnostics.has_errors()) throw Refused("the problem's files have changed");
+    if (compilation.diagnostics.has_errors()) throw Failure("the problem's files have changed");
     workbench::ExternalLibrary library =
         workbench::external_library(*compilation.program, problem.files, options);
     return Enumeration(*std::move(compilation.program), std::move(library));

@@ -1,7 +1,7 @@
 #include "native/learners.hpp"
 
 #include "learning/learned_policy.hpp"
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 #include "native/long_calls.hpp"
 #include "native/options.hpp"
 #include "native/paths.hpp"
@@ -49,7 +49,7 @@ class Policy {
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
-    void act(Batch& batch, bool begins) {
+    void act(EnvPool& batch, bool begins) {
         const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
         if (begins || is_bound || !actor_ || running_.size() != count) {
@@ -91,9 +91,9 @@ class Policy {
     }
 
   private:
-    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
-    bool bind(const Batch& batch) {
+    bool bind(const EnvPool& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
         const Simulator simulator = batch.shared_simulator();
         solvers::Policy policy = make_(*simulator);
@@ -114,7 +114,7 @@ class Policy {
     std::vector<std::int32_t> violated_;
 };
 
-// Whether an update shall end early: what a learner's options ask.
+// Whether an update has to end early: the `stops` of a learner's options.
 using Stop = std::shared_ptr<std::atomic<bool>>;
 
 std::function<bool()> asks(const Stop& stop) {
@@ -213,6 +213,15 @@ std::string formula_of_text(const LoadedProblem& problem, const std::string& tex
     return solvers::program_formula(found->scope, found->genome);
 }
 
+nb::bytes policy_of_file(const nb::object& path) {
+    const std::string text = workbench::policy_text(path_of(path));
+    return nb::bytes(text.data(), text.size());
+}
+
+std::string solver_of_text(const std::string& text) {
+    return solvers::is_program(text) ? "cgp" : "ppo";
+}
+
 void write_policy(const nb::object& path, const std::string& text) {
     UsedFiles used;
     write_file(path_of(path), text, used);
@@ -241,7 +250,7 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 }  // namespace
 
 void add_learners(nb::module_& module) {
-    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+    nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
         .def("act", &Policy::act, nb::arg("batch"), nb::arg("begins"))
         .def(
             "evaluate",
@@ -265,6 +274,10 @@ void add_learners(nb::module_& module) {
     module.def("ppo_options", [] { return options_help(ppo_keywords()); });
     module.def("cgp_options", [] { return options_help(cgp_keywords()); });
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
+    module.def("policy_of_file", policy_of_file, nb::arg("path"),
+               "What a policy file holds, or that of the folder of a run.");
+    module.def("solver_of_text", solver_of_text, nb::arg("text"),
+               "\"ppo\" or \"cgp\": what has learned the policy of a file's text.");
     module.def("write_file", write_policy, nb::arg("path"), nb::arg("text"));
     module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),
                nb::arg("random"), nb::arg("seed"));

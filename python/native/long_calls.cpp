@@ -1,6 +1,6 @@
 #include "native/long_calls.hpp"
 
-#include "native/problem.hpp"
+#include "support/failure.hpp"
 
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ bool LongCalls::is_main_thread() {
 }
 
 void LongCalls::finish() {
-    if (is_busy_) throw Refused("another thread is in a call of this environment or learner");
+    if (is_busy_) throw Failure("another thread is in a call of this environment or learner");
     if (!left_.valid()) return;
     std::future<void> left = std::move(left_);
     if (left_in_ != ::getpid()) return forget(std::move(left));

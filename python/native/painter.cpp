@@ -1,6 +1,6 @@
 #include "native/painter.hpp"
 
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 #include "native/paths.hpp"
 #include "native/problem.hpp"
 
@@ -39,7 +39,7 @@ class Painter {
           height_(side(height)),
           canvas_(width_, height_) {}
 
-    void begin(Batch& batch, std::int64_t horizon) {
+    void begin(EnvPool& batch, std::int64_t horizon) {
         steps_.clear();
         horizon_ = horizon;
         std::tie(std::ignore, episode_) = batch.progress(0);
@@ -47,9 +47,9 @@ class Painter {
     }
 
     // Adds the step that the batch has just made.
-    void add_step(Batch& batch, const std::string& end) {
+    void add_step(EnvPool& batch, const std::string& end) {
         render::Step& last = steps_.back();
-        const Batch::Arrays& arrays = batch.arrays();
+        const EnvPool::Arrays& arrays = batch.arrays();
         last.action = arrays.actions;
         last.reward = arrays.rewards[0];
         add(batch, last.total + last.reward);
@@ -90,7 +90,7 @@ class Painter {
     }
 
   private:
-    // From the first step that is remembered, each with its picture drawn.
+    // Visits all moments from the first step that is remembered, each with its picture drawn.
     template <class Visit>
     void for_each_moment(Visit&& visit) {
         std::deque<render::Step> shown;
@@ -124,7 +124,7 @@ class Painter {
 
     render::Moment moment() const { return {world_, steps_, episode_, horizon_}; }
 
-    void add(Batch& batch, double total) {
+    void add(EnvPool& batch, double total) {
         render::Step step;
         step.number = batch.progress(0).first;
         step.state.resize(static_cast<std::size_t>(simulator_->problem->state_size));

@@ -18,7 +18,7 @@ namespace rddlc::python {
 
 namespace {
 
-// Without a branch for each entry: the compiler puts several into a vector register.
+// The loop has no branch for each entry: the compiler puts several into a vector register.
 template <class T>
 bool are_within(const T* entries, std::int64_t count, std::span<const RowLimits> limits) {
     const std::size_t width = limits.size();
@@ -73,7 +73,7 @@ std::optional<std::int64_t> whole_of(nb::handle given) {
 
 }  // namespace
 
-RowWriter::RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits,
+RowWriter::RowWriter(EnvPool& batch, std::int64_t first, std::vector<RowLimits> limits,
                      bool categories, RowChanges changes)
     : batch_(batch),
       first_(first),
@@ -163,7 +163,7 @@ void add_row_writer(nb::module_& module) {
                           "does not take.")
         .def(
             "__init__",
-            [](RowWriter* self, Batch& batch, std::int64_t first,
+            [](RowWriter* self, EnvPool& batch, std::int64_t first,
                const std::vector<std::tuple<float, float, float>>& limits, bool categories,
                std::tuple<std::vector<std::int64_t>, std::vector<float>, std::vector<float>>
                    changes) {

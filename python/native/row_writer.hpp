@@ -1,7 +1,7 @@
 // Actions of many environments, checked and written in one pass.
 #pragma once
 
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 
 #include <nanobind/nanobind.h>
 
@@ -28,7 +28,7 @@ struct RowChanges {
 // are int64, or numbers, which are float or double. With `changes` each category is one of these.
 class RowWriter {
   public:
-    RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories,
+    RowWriter(EnvPool& batch, std::int64_t first, std::vector<RowLimits> limits, bool categories,
               RowChanges changes);
 
     // False, and nothing is changed, for rows of another kind or size, and those with an entry
@@ -44,7 +44,7 @@ class RowWriter {
     void copy(const T* entries);
     void change(const std::int64_t* entries);
 
-    Batch& batch_;
+    EnvPool& batch_;
     std::int64_t first_;
     std::vector<RowLimits> limits_;
     bool categories_;

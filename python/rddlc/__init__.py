@@ -87,10 +87,13 @@ def make_vec(
 ) -> RDDLVectorEnv:
     """A `gymnasium.vector.VectorEnv` of `num_envs` environments in one batch; problems as in `make`.
 
-    instance_name, engine, externs, extended, details, horizon, normalize: as in `make`.
+    instance_name, engine, externs, extended, details, horizon, normalize, render_size, visualizer: as
+        in `make`.
     observations: "flat" (default): float32 (num_envs, features); "dict": arrays (num_envs, *shape).
     actions: "simplified" (default), "box", or "dict" of arrays.
     autoreset_mode: "NextStep" (default), "SameStep" or "Disabled", or a Gymnasium AutoresetMode.
+    enforce_action_constraints, action_mask: as in `make`; a mask is (num_envs, sum of categories).
+    render_mode: None, "rgb_array" or "ansi": render() has a picture of each environment.
     threads: 0: one for each core.
     copy: whether arrays are copies; else they may be the engine's own memory, which the next step
         changes.

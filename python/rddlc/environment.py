@@ -1,9 +1,12 @@
-"""One environment of a problem."""
+"""One environment of a problem.
+
+Over 400 lines: one class with the whole interface of gymnasium.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import deepcopy
 from typing import Any
 
@@ -12,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native, causes
-from .arguments import one_of, options_of_reset, seed_of, seed_or_none, whole, whole_or_none
-from .errors import ActionError, ArgumentError, EpisodeOver, Error
+from .arguments import one_of, options_of_reset, seed_of, seed_or_none, size_of, whole_or_none
+from .errors import ArgumentError, EpisodeOver, Error
 from .model import Model
+from .preconditions import check_preconditions
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
@@ -23,6 +27,7 @@ from .translation.choice_actions import ChoiceActions
 from .translation.dictionary_actions import SingleActions
 from .translation.legal import go_on_from, legal_space
 from .translation.masks import ActionMasks
+from .translation.named_values import state_from
 from .translation.protocols import ActionWriter, ObservationReader
 from .translation.readers import dictionary_reader, observation_reader
 
@@ -65,12 +70,12 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             "action_mask": action_mask,
             "horizon": whole_or_none("horizon", horizon, 0),
             "render_mode": render_mode,
-            "render_size": _size_of(render_size),
+            "render_size": size_of(render_size),
             "visualizer": visualizer,
         }
         self.problem = problem
         self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self._batch = _native.Batch(
+        self._batch = _native.EnvPool(
             problem.simulator,
             horizon=batch_horizon(horizon),
             records=observations == "dict",
@@ -79,7 +84,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._seed: int | None = None
         # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
-        self._own: _native.Batch | None = None  # a batch that has the episode's own
+        self._own: _native.EnvPool | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
@@ -148,8 +153,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     @property
     def max_allowed_actions(self) -> int:
         """How many action values may differ from their default."""
-        limit = self.model.limited_actions
-        return sum(fluent.count for fluent in self.model.actions) if limit is None else limit
+        return self.model.max_allowed_actions
 
     @property
     def state(self) -> dict[str, Any]:
@@ -199,7 +203,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self._ended or self._seed is None:
             raise self._no_step()
         if self._enforces:
-            self._check_preconditions(action)
+            check_preconditions(self.problem, self._batch, self._writer, action)
         self._writer.step(action)
         ended = self._causes.item()
         info: dict[str, Any] = {}
@@ -225,23 +229,6 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self._tells_mask:
             info["action_mask"] = self._masks.for_space()
 
-    def _check_preconditions(self, action: Any) -> None:
-        record = self._writer.record(action)
-        if self._batch.violated_preconditions(record)[0] >= 0:
-            raise ActionError(self._why_violated(record))
-
-    def _why_violated(self, action: NDArray[np.uint8]) -> str:
-        if self.problem.has_details:
-            self._batch.actions[:] = action
-            return self._batch.explain_violation(0)
-        batch = _native.Batch(self.problem.detailed, values=False)
-        batch.reset()
-        record = np.zeros(self.model.state_size, np.uint8)
-        self._batch.read_state(0, record)
-        batch.write_state(0, record, self.timestep)
-        batch.actions[:] = action
-        return batch.explain_violation(0)
-
     def action_masks(self) -> NDArray[np.bool_]:
         """(sum of categories,): which values of a Discrete or MultiDiscrete action satisfy the
         preconditions, each while the others have their default (sb3-contrib's MaskablePPO)."""
@@ -254,6 +241,11 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         record = np.zeros(self.model.state_size, np.uint8)
         self._batch.read_state(0, record)
         return State(record.tobytes(), self.timestep, self._ended, self.problem.state_form.problem)
+
+    def state_from(self, values: Mapping[str, Any], *, steps: int = 0) -> State:
+        """The state of these values, by the names of `env.state`, grounded or not; the others have
+        their initial value. steps: made so far."""
+        return state_from(self.problem, values, steps)
 
     def set_state(self, state: State, *, seed: int | None = None, replay: bool = False) -> None:
         """The episode continues from there, with new random numbers each time: a planner that tries
@@ -328,7 +320,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self._renderer.show()
 
     def _repr_html_(self) -> str:
-        """In a notebook an environment is a picture of its state."""
+        """Notebooks show an environment as a picture of its state."""
         if self._seed is None:
             return f"<code>{self}</code>: call reset() to see its state"
         renderer = self._renderer
@@ -338,13 +330,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return renderer.image_tag()
 
     def replay_page(self) -> str:
-        """The episode so far as a page that replays it (docs/pictures.md), an HTML file of its own;
-        of environments with a render_mode."""
+        """Returns the episode so far as a page that replays it (docs/pictures.md), an HTML file of
+        its own; for environments with a render_mode."""
         return self._remembered().page()
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
-        """Writes the episode so far (since the last set_state, if there was one), but no more than its
-        last 1,000 steps, as a movie; of environments with a render_mode."""
+        """Writes the episode so far (since the last set_state, if there was one), but no more than
+        its last 1,000 steps, as a movie; for environments with a render_mode."""
         self._remembered().write_gif(path)
 
     def _remembered(self) -> Renderer:
@@ -382,7 +374,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self.spec,
         )
 
-    def _take(self, other: RDDLEnv, batch: _native.Batch) -> None:
+    def _take(self, other: RDDLEnv, batch: _native.EnvPool) -> None:
         self._batch = batch
         self._connect()
         self._seed, self._ended, self._luck = other._seed, other._ended, other._luck
@@ -417,11 +409,3 @@ def _unpickled(
     go_on_from(env.action_space, action_space)
     env.spec = spec
     return env
-
-
-def _size_of(given: Any) -> tuple[int, int]:
-    """Width and height in pixels; the painter knows how many there may be."""
-    if not isinstance(given, (Sequence, np.ndarray)) or isinstance(given, str) or len(given) != 2:
-        raise ArgumentError(f"render_size is {given!r}, which is not a width and a height")
-    most = (1 << 31) - 1
-    return whole("render_size", given[0], -most, most), whole("render_size", given[1], -most, most)

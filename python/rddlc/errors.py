@@ -1,13 +1,11 @@
 """Errors that rddlc raises. All are `Error`s."""
 
-from ._native import CompileError, Error
+from ._native import ArgumentError, CompileError, Error
+
+for each in ArgumentError, CompileError, Error:
+    each.__module__ = "rddlc"
 
 __all__ = ["ActionError", "ArgumentError", "CompileError", "Error", "EpisodeOver"]
-
-
-class ArgumentError(Error, ValueError, TypeError):
-    """An impossible argument, or a name that does not exist; it has changed nothing. It is also one
-    of Python's own errors, for programs that catch these."""
 
 
 class ActionError(Error):

@@ -9,14 +9,13 @@ from __future__ import annotations
 import html
 import math
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from . import _native
-from .arguments import SEEDS, seed_of, thread_count, whole, whole_or_none
+from .arguments import SEEDS, seed_of, shown, thread_count, whole, whole_or_none
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
 from .problems import Problem
@@ -71,15 +70,6 @@ class Evaluation:
         return f"return {returns.mean:.6g} +- {returns.half_width:.3g} ({self.episodes} episodes)"
 
 
-@contextmanager
-def _refusals() -> Iterator[None]:
-    """An option that is refused is an argument that cannot be."""
-    try:
-        yield
-    except _native.Refused as refused:
-        raise ArgumentError(str(refused)) from None
-
-
 @dataclass(frozen=True)
 class _Best:
     text: str
@@ -89,6 +79,7 @@ class _Best:
 class Learner:
     """The common part of PPO and CGP."""
 
+    solver: ClassVar[str]
     extension: ClassVar[str]
     total: ClassVar[str]  # the option for the amount of training
 
@@ -253,15 +244,22 @@ class Learner:
     def save(self, path: str | os.PathLike[str], *, best: bool = False) -> Path:
         """Writes the policy file: of the policy as it is now, or of the `best` one. Adds the
         extension if the name has no extension."""
-        file = Path(os.fsdecode(path))
+        file = Path(_native.path_text(path))
         file = file if file.suffix else file.with_suffix(self.extension)
         _native.write_file(file, (self.best if best else self).policy_text)
         return file
 
     @classmethod
     def load(cls: type[L], path: str | os.PathLike[str], env_or_problem: Solvable) -> L:
-        """From a policy file, to predict and evaluate."""
-        return cls._of_text(Path(os.fsdecode(path)).read_bytes(), env_or_problem)
+        """From a policy file, or that of the folder of a run, to predict and evaluate."""
+        learner = cls._of_text(_native.policy_of_file(path), env_or_problem)
+        solver = _native.solver_of_text(learner.policy_text)
+        if solver != cls.solver:
+            raise ArgumentError(
+                f"{shown(path)} is a policy that {solver.upper()} has learned: "
+                f"rddlc.{solver.upper()}.load() reads it"
+            )
+        return learner
 
     @classmethod
     def _of_text(cls: type[L], text: str | bytes, env_or_problem: Solvable) -> L:
@@ -295,15 +293,14 @@ class PPO(Learner):
 
     __doc__ = (__doc__ or "") + _native.ppo_options()
 
-    extension, total = ".json", "steps"
+    solver, extension, total = "ppo", ".json", "steps"
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
         super().__init__(env_or_problem, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        with _refusals():
-            return _native.ppo(self.problem.simulator, options)
+        return _native.ppo(self.problem.simulator, options)
 
 
 class CGP(Learner):
@@ -316,15 +313,14 @@ class CGP(Learner):
 
     __doc__ = (__doc__ or "") + _native.cgp_options()
 
-    extension, total = ".cgp", "generations"
+    solver, extension, total = "cgp", ".cgp", "generations"
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
         super().__init__(env_or_problem, **options)
         self._new_native({"generations": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        with _refusals():
-            return _native.cgp(self.problem.simulator, options)
+        return _native.cgp(self.problem.simulator, options)
 
     @property
     def formula(self) -> str:
@@ -335,5 +331,5 @@ class CGP(Learner):
         return self.formula
 
     def _repr_html_(self) -> str:
-        """In a notebook it is its formula."""
+        """Notebooks show its formula."""
         return f"<pre>{html.escape(self.formula)}</pre>"

@@ -82,7 +82,7 @@ class Model:
     instance: str
     types: dict[str, ObjectType]
     fluents: dict[str, Fluent]
-    """In declaration order."""
+    """The fluents in declaration order."""
     horizon: int
     """Steps; 0: no horizon."""
     discount: float
@@ -120,8 +120,14 @@ class Model:
     @property
     def limited_actions(self) -> int | None:
         """How many action values may differ from their default, if not all of them may."""
+        limit = self.max_allowed_actions
+        return limit if limit < sum(fluent.count for fluent in self.actions) else None
+
+    @property
+    def max_allowed_actions(self) -> int:
+        """How many action values may differ from their default."""
         count = sum(fluent.count for fluent in self.actions)
-        return self.max_nondef_actions if 0 <= self.max_nondef_actions < count else None
+        return min(self.max_nondef_actions, count) if self.max_nondef_actions >= 0 else count
 
 
 def model_of(described: dict[str, Any]) -> Model:

@@ -1,4 +1,4 @@
-"""From files, or a name of rddlrepository, to a simulator."""
+"""Loads simulators from files, or from a name of rddlrepository."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from . import _native
-from .arguments import one_of, whole_or_none
+from .arguments import flag, one_of, text, whole_or_none
 from .errors import ArgumentError
 from .model import Model, model_of
 from .states import StateForm
@@ -66,11 +66,11 @@ class Problem:
         if isinstance(externs, (str, bytes, os.PathLike)):
             raise ArgumentError(f"externs is a list of headers, not {externs!r}")
         self._options: dict[str, Any] = {
-            "instance_name": instance_name,
+            "instance_name": text("instance_name", instance_name),
             "engine": engine,
-            "externs": tuple(os.fsdecode(each) for each in externs),
-            "extended": extended,
-            "details": details,
+            "externs": tuple(_native.path_text(each) for each in externs),
+            "extended": flag("extended", extended),
+            "details": flag("details", details),
         }
         self.engine = _engine_at_hand(engine)
         self.simulator = self._load(

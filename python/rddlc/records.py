@@ -34,7 +34,8 @@ class Column:
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """From the constraints, or else of what there is: 0 and 1, or the objects' indices."""
+        """The bounds from the constraints, or else those of the type: 0 and 1, or the objects'
+        indices."""
         fluent = self.fluent
         if fluent.objects is not None:
             return 0.0, float(len(fluent.objects) - 1)
@@ -58,7 +59,7 @@ class Column:
 
 
 def columns_of(fluents: Sequence[Fluent]) -> list[Column]:
-    """In declaration order, and row-major within a fluent: as in matrices of values."""
+    """The columns in declaration order, and row-major within a fluent: as in matrices of values."""
     return [
         Column(name, fluent, grounding)
         for fluent in fluents

@@ -81,8 +81,8 @@ class Transitions:
         self._outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
         self._applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
 
-    def _new_batch(self, environments: int) -> _native.Batch:
-        return _native.Batch(
+    def _new_batch(self, environments: int) -> _native.EnvPool:
+        return _native.EnvPool(
             self.problem.simulator,
             environments=environments,
             horizon=batch_horizon(self.horizon),
@@ -194,34 +194,34 @@ class Transitions:
         return tuple(action for action, which in enumerate(violated) if which < 0)
 
     @property
-    def _many(self) -> _native.Batch:
+    def _many(self) -> _native.EnvPool:
         return self._kept("samples", self._options["samples"])
 
     @property
-    def _all_actions(self) -> _native.Batch:
+    def _all_actions(self) -> _native.EnvPool:
         return self._kept("actions", self.action_count)
 
-    def _kept(self, name: str, environments: int) -> _native.Batch:
-        batches: dict[str, _native.Batch] = self.__dict__.setdefault("_batches", {})
+    def _kept(self, name: str, environments: int) -> _native.EnvPool:
+        batches: dict[str, _native.EnvPool] = self.__dict__.setdefault("_batches", {})
         if name not in batches:
             batches[name] = self._new_batch(environments)
             batches[name].set_seed(self._options["seed"])
             batches[name].reset()
         return batches[name]
 
-    def _step(self, batch: _native.Batch, state: State, action: NDArray[np.uint8]) -> None:
+    def _step(self, batch: _native.EnvPool, state: State, action: NDArray[np.uint8]) -> None:
         self._enter(batch, state)
         batch.actions[:] = action
         batch.step()
 
-    def _enter(self, batch: _native.Batch, state: State) -> None:
+    def _enter(self, batch: _native.EnvPool, state: State) -> None:
         record = self.problem.state_form.record_of(state)
         count = len(batch.rewards)
         batch.write_states(
             np.arange(count), np.tile(record, (count, 1)), np.full(count, state.steps)
         )
 
-    def _state_of(self, batch: _native.Batch, place: int, cause: int) -> State:
+    def _state_of(self, batch: _native.EnvPool, place: int, cause: int) -> State:
         record = np.zeros(self.problem.model.state_size, np.uint8)
         batch.read_state(place, record)
         steps = batch.progress(place)[0]

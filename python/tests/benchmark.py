@@ -80,7 +80,7 @@ def of_batch(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
 
 def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
     """The batch engine without Python's spaces: records that stay as they are."""
-    batch = rddlc._native.Batch(
+    batch = rddlc._native.EnvPool(
         problem.simulator, environments=ENVIRONMENTS, threads=1, autoreset=1, values=False
     )
 
@@ -92,7 +92,7 @@ def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
 
 
 def seconds_of_make(words: list[str]) -> float:
-    """From the cache, in this process, the best of five."""
+    """The time of loading from the cache, in this process, the best of five."""
     times = []
     for _ in range(5):
         begin = time.process_time()

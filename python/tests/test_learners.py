@@ -204,16 +204,16 @@ class Learners(unittest.TestCase):
     def test_options_beyond_their_ranges_are_refused_by_their_keywords(self) -> None:
         problem = example("network").problem
         ppo: dict[str, list[Any]] = {
-            "minibatch": [0, -3, "many", None, 1.5], "epochs": [-1, 0], "clip": [float("nan"), -1],
+            "minibatch": [0, -3, "many", None, 1.5, True], "steps": [1.5], "epochs": [-1, 0], "clip": [float("nan"), -1, 0, 10.5],
             "gamma": [2, float("inf")], "rollout": [0], "environments": [0, 2**40], "stack": [0, 2000],
             "threads": [0], "hidden": [[0], [64, -1], []], "recurrent": [-1], "segment": [1],
-            "learning_rate": [-1], "squash": ["maybe", 1], "seed": [-1, 2**64], "memory_limit": [0],
+            "learning_rate": [-1, 0, 0.0], "squash": ["maybe", 1], "seed": [-1, 2**64], "memory_limit": [0],
             "log_std": [99], "preset": ["x"], "noise": [3], "value_clip": [-1],
         }  # fmt: skip
         cgp: dict[str, list[Any]] = {
             "nodes": [-1, 0], "children": [0, -2], "islands": [0, 99_999], "levels_back": [-1],
             "episodes": [0], "constants": [-1, 1e9], "measure": ["best"], "lifted": [None],
-            "restart_after": [-1], "time": ["perhaps"], "compat": [True], "functions": [[]],
+            "restart_after": [-1], "time": ["perhaps"], "compat": [True], "functions": [[], ["no such"], "add\0"],
         }  # fmt: skip
         for learner, wrong in ((rddlc.PPO, ppo), (rddlc.CGP, cgp)):
             for keyword, values in wrong.items():
@@ -221,6 +221,51 @@ class Learners(unittest.TestCase):
                     with self.subTest(keyword=keyword, value=value):
                         with self.assertRaisesRegex(rddlc.ArgumentError, f"^{keyword}: "):
                             learner(problem, **{keyword: value})
+
+    def test_what_is_wrong_with_an_option_is_said(self) -> None:
+        problem = example("network").problem
+        wrong: list[tuple[dict[str, Any], str]] = [
+            ({"minibatch": True}, "minibatch: 'True' is not an int from 1 to"),
+            ({"schedule": True}, "schedule: 'True' is not one of linear"),
+            ({"seed": 2**64}, r"seed: '18446744073709551616' is not an int from 0 to 2\^64 - 1"),
+            ({"clip": 0}, "clip: '0' is not a number above 0, up to 10"),
+            ({"preset": "fast\0"}, "preset: 'fast"),
+            ({"preset": "\udc80"}, r"preset: ''\\udc80''"),
+            ({"preset": "\x1b[31m"}, "preset: '\ufffd\\[31m'"),
+        ]
+        for options, message in wrong:
+            with self.subTest(message=message), self.assertRaisesRegex(rddlc.ArgumentError, message):
+                rddlc.PPO(problem, **options)
+
+    def test_names_of_other_programs_and_of_the_command_line_mean_a_keyword(self) -> None:
+        problem = example("network").problem
+        ppo = {
+            "lr": "learning_rate", "envs": "environments", "n_envs": "environments",
+            "num_envs": "environments", "n_steps": "rollout", "ent_coef": "entropy",
+            "batch_size": "minibatch", "n_epochs": "epochs", "clip_range": "clip", "vf_coef": "value_weight",
+            "max_grad_norm": "gradient_norm", "net_arch": "hidden", "gama": "gamma",
+            "total_timesteps": "steps", "entropy_coeff": "entropy", "lambda_": "gae_lambda",
+            "sgd_minibatch_size": "minibatch", "num_sgd_iter": "epochs", "learning_rat": "learning_rate",
+        }  # fmt: skip
+        cgp = {"gens": "generations", "cols": "nodes", "population_size": "children", "fitness": "measure"}
+        for learner, names in ((rddlc.PPO, ppo), (rddlc.CGP, cgp)):
+            for name, keyword in names.items():
+                with self.subTest(name=name):
+                    with self.assertRaisesRegex(rddlc.ArgumentError, f"did you mean '{keyword}'"):
+                        learner(problem, **{name: 1})
+        with self.assertRaisesRegex(rddlc.ArgumentError, "no option 'zebra'$"):
+            rddlc.PPO(problem, zebra=1)
+
+    def test_a_policy_of_the_other_learner_is_refused(self) -> None:
+        problem = example("network").problem
+        with tempfile.TemporaryDirectory() as name:
+            formula = rddlc.CGP(problem, children=4).learn(1).save(Path(name) / "x.cgp")
+            network = rddlc.PPO(problem, environments=4, rollout=16, minibatch=32).learn(64).save(Path(name) / "x.json")
+            self.assertIsInstance(rddlc.CGP.load(formula, problem), rddlc.CGP)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.cgp'.* CGP .*rddlc\.CGP\.load"):
+                rddlc.PPO.load(formula, problem)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.json'.* PPO .*rddlc\.PPO\.load"):
+                rddlc.CGP.load(network, problem)
 
     def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
         problem = example("network").problem

@@ -1,4 +1,4 @@
-// Two links that hang from a bar; a torque at the joint between them shall swing the end above the
+// Two links that hang from a bar; a torque at the joint between them has to swing the end above the
 // line (R. Sutton, NIPS 1996). Angles count from hanging down, the second from the first.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"

@@ -10,7 +10,7 @@ namespace rddl::render::cart_pole {
 
 namespace {
 
-// Between -1 and 1, to the right where it is positive.
+// The push between -1 and 1, to the right if it is positive.
 double push(const Moment& moment) {
     if (!moment.acts()) return 0;
     if (moment.has("force-side|push-right"))

@@ -21,7 +21,7 @@ constexpr std::size_t most_panels = 24;
 constexpr std::size_t many_panels = 7;  // these share their axis and what colours mean
 constexpr double names_size = 9;
 
-// Else rows of cells.
+// Other fluents are drawn as rows of cells.
 bool has_lines(const rddl_fluent& fluent) {
     return fluent.scalar != RDDL_BOOL && fluent.count <= most_lines;
 }
@@ -85,7 +85,7 @@ void draw_time_axis(Canvas& canvas, const Panel& panel, bool with_title) {
                     {.size = 9, .color = colors::muted, .align = Align::Right});
 }
 
-// A line for each grounding. What is an object keeps its value for the whole step.
+// Draws a line for each grounding. An object keeps its value for the whole step.
 void draw_lines(Canvas& canvas, const Panel& panel) {
     const Box& plot = panel.plot;
     const bool steps = panel.objects_of_range() != nullptr;

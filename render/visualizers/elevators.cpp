@@ -1,4 +1,5 @@
-// A building with its elevators: where they are, whether they are open, and who waits where.
+// A building with its elevators: where they are, whether they are open, and which people wait on
+// which floor.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 
@@ -69,7 +70,7 @@ void draw_floors(Canvas& canvas, const Building& building, const Values& at) {
     }
 }
 
-// The cabin, and where inside is room for people.
+// Draws the cabin; returns the place for people inside.
 Box draw_cabin(Canvas& canvas, const Box& shaft, const Moment& moment, int elevator) {
     const Box cabin = shaft.inset(8, std::min(shaft.height * 0.08, 5.0));
     const bool closed = moment["elevator-closed"].is(elevator);

@@ -1,4 +1,4 @@
-// Rovers on their way to minerals; those that are worth more are darker, those harvested hollow.
+// Rovers on their way to minerals; minerals of more value are darker, harvested ones hollow.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 

@@ -43,7 +43,7 @@ std::vector<Box> places(const Box& area, const std::vector<int>& depth) {
     return boxes;
 }
 
-// From 0 to 1 of what is there.
+// The released part of the water, from 0 to 1.
 double released_part(const Moment& moment, int i) {
     if (!moment.acts() || !moment.has("release")) return 0;
     const Values& release = moment["release"];

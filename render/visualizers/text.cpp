@@ -1,4 +1,4 @@
-// The values of a state in words, in as many columns as are needed; what has changed stands out.
+// The values of a state in words, in as many columns as are needed; changes are marked.
 #include "render/state_text.hpp"
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"

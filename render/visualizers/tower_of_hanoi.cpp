@@ -1,4 +1,4 @@
-// Disks on rods; the rod on which they shall end is green.
+// Disks on rods; the target rod is green.
 #include "render/visualizers/visualizers.hpp"
 #include "render/widgets.hpp"
 

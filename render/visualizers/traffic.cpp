@@ -55,7 +55,7 @@ Lane lane_of(const Plane& plane, const Street& street, double offset, double gap
             uy};
 }
 
-// From the end of a lane to the beginning of another, as cars go.
+// Draws the way from the end of a lane to the beginning of another, as cars go.
 void draw_turn(Canvas& canvas, const Lane& from, const Lane& to, double gap, double thickness) {
     const Point a = from.end, d = to.begin;
     const double reach = std::min(0.7 * gap, 0.7 * std::hypot(d.x - a.x, d.y - a.y));
@@ -117,7 +117,7 @@ void draw_queue(Canvas& canvas, const Lane& lane, const Queue& queue, double wid
     canvas.line(lane.at(1 - queue.part), lane.end, colors::vermilion, width * 0.8);
 }
 
-// At the side of the road, where no turn goes.
+// The number stands at the side of the road, where no turn goes.
 void tell_queue(Canvas& canvas, const Lane& lane, const Queue& queue, double width) {
     const double length = std::hypot(lane.end.x - lane.begin.x, lane.end.y - lane.begin.y);
     const double back = std::max(queue.part, std::min(20 / std::max(length, 1.0), 1.0));

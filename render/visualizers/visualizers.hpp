@@ -6,7 +6,7 @@
 
 namespace rddl::render {
 
-// For any problem.
+// Visualizers for any problem.
 namespace automatic {
 extern const Visualizer visualizer;
 }
@@ -20,7 +20,7 @@ namespace text {
 extern const Visualizer visualizer;
 }
 
-// For problems of some domains.
+// Visualizers for problems of some domains.
 namespace acrobot {
 extern const Visualizer visualizer;
 }

@@ -11,10 +11,11 @@
 
 namespace rddlc::solvers {
 
-using Batch = std::unique_ptr<rddl_batch, void (*)(rddl_batch*)>;
+using BatchHandle = std::unique_ptr<rddl_batch, void (*)(rddl_batch*)>;
 
-inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_options& options) {
-    Batch batch(simulator.create(&simulator, &options), simulator.destroy);
+inline BatchHandle create_batch(const rddl_simulator& simulator,
+                                const rddl_batch_options& options) {
+    BatchHandle batch(simulator.create(&simulator, &options), simulator.destroy);
     if (!batch) throw Failure("not enough memory for so many environments", "try a smaller batch");
     return batch;
 }

@@ -72,7 +72,7 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
         chosen, actions);
 }
 
-// For so many environments from `first` on.
+// Runs so many environments from `first` on.
 void ProgramActor::run(const Program& program, std::size_t number, std::int64_t first,
                        std::int64_t count, const float* observations, std::int64_t steps) {
     const int columns = scope_.observations.column_count();

@@ -73,7 +73,7 @@ class Evaluator {
     const ObservationSpace& space_;
     std::int64_t room_, episodes_;
     const Stops* stops_;
-    Batch batch_;
+    BatchHandle batch_;
     ProgramActor actor_;
     std::vector<float> observations_, actions_;
     std::vector<float> first_, least_, most_;  // of observations, where the reach is asked for

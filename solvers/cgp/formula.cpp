@@ -1,3 +1,4 @@
+// Over 400 lines: one formula in five languages, side by side.
 #include "solvers/cgp/formula.hpp"
 
 #include <fmt/format.h>

@@ -14,7 +14,7 @@ namespace rddlc::solvers {
 
 struct Node {
     Function function = Function::Zero;
-    std::array<int, 3> arguments{};  // addresses; those beyond the arity mean nothing
+    std::array<int, 3> arguments{};  // addresses; entries beyond the arity mean nothing
     bool operator==(const Node&) const = default;
 };
 

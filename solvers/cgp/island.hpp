@@ -18,8 +18,8 @@
 
 namespace rddlc::solvers {
 
-// A program that the record shall be beaten by plays so many more episodes, which are the same for
-// all of them.
+// A program that may beat the record plays this many more episodes, which are the same for all such
+// programs.
 inline constexpr std::int64_t confirmations = 64;
 
 // How many programs play how many episodes of the first round, of the others and to confirm a
@@ -46,7 +46,7 @@ inline bool sees_more(const Fitness& a, const Fitness& b) {
     if (beats(a, b) || beats(b, a)) return beats(a, b);
     return a.reach > b.reach;
 }
-// For a record: of equals the smaller.
+// The order of records: the smaller of equally good programs is better.
 inline bool is_better(const Fitness& a, const Fitness& b) {
     if (beats(a, b) || beats(b, a)) return beats(a, b);
     return a.nodes < b.nodes;
@@ -287,7 +287,7 @@ class Island {
             }
         }
         mean_of_children_ = count > 0 ? sum / count : 0;
-        // As long as no program beats the first one, programs grow and shrink freely.
+        // Programs grow and shrink freely as long as no program beats the first one.
         replaced_ = explores             ? !sees_more(fitness_, all[best])
                     : options_.parsimony ? !is_better(fitness_, all[best])
                                          : !beats(fitness_, all[best]);

@@ -13,9 +13,13 @@ using Option = LearnerOption<O>;
 constexpr std::int64_t most_generations = std::int64_t{1} << 40;
 
 Option functions_option() {
-    Option option{{"--functions", "functions", "NAME,...",
+    Option option{{"--functions",
+                   "functions",
+                   "NAME,...",
                    "Functions, or groups of them: arith, trig, logic (default: these), round, unit",
-                   true, true},
+                   {"function_set"},
+                   true,
+                   true},
                   {},
                   {}};
     option.set = [](O& o, const std::vector<std::string>& words) {
@@ -44,15 +48,18 @@ Option generations_option(OptionText text, Member member, std::int64_t least) {
 OptionTable<O> make_table() {
     return {
         generations_option(
-            {"--gens", "generations", "N", "Generations (1000)", false},
+            {"--gens", "generations", "N", "Generations (1000)", {"n_generations"}, false},
             [](auto& o) -> auto& { return o.generations; }, 1),
         int_option(
-            {"--lambda", "children", "N",
-             "Children (32, or 8 if anything is drawn at random; 4 with --compat)"},
+            {"--lambda",
+             "children",
+             "N",
+             "Children (32, or 8 if anything is drawn at random; 4 with --compat)",
+             {"lambda_", "population_size", "n_offspring"}},
             [](auto& o) -> auto& { return o.children; }, 1, 1 << 16),
         int_option(
-            {"--cols", "nodes", "N", "Nodes (100)"}, [](auto& o) -> auto& { return o.nodes; }, 1,
-            1 << 20),
+            {"--cols", "nodes", "N", "Nodes (100)", {"columns", "n_columns"}},
+            [](auto& o) -> auto& { return o.nodes; }, 1, 1 << 20),
         int_option(
             {"--constants", "constants", "N", "Constants (4)"},
             [](auto& o) -> auto& { return o.constants; }, 0, 1 << 10),
@@ -81,7 +88,7 @@ OptionTable<O> make_table() {
              {"cvar", Measure::WorstFifth}}),
         generations_option(
             {"--restart", "restart_after", "N",
-             "Restart after so many generations without progress (300)"},
+             "Restart after so many generations without progress (300); 0: never"},
             [](auto& o) -> auto& { return o.restart_after; }, 0),
         generations_option(
             {"--tune", "tune_every", "N",
@@ -107,13 +114,22 @@ OptionTable<O> make_table() {
                                [](auto& o) -> auto& { return o.skdecide; },
                                {{"none", false}, {"skdecide", true}}),
         int_option(
-            {"--islands", "islands", "N", "Populations (1, or one on each rank of MPI)", false},
+            {"--islands", "islands", "N", "Populations (1, or one on each rank of MPI)", {}, false},
             [](auto& o) -> auto& { return o.islands; }, 1, 1 << 12),
         generations_option(
-            {"--migrate", "migrate_every", "N", "Generations between migrations (50)"},
+            {"--migrate",
+             "migrate_every",
+             "N",
+             "Generations between migrations (50); 0: none",
+             {"migration"}},
             [](auto& o) -> auto& { return o.migrate_every; }, 0),
         int_option(
-            {"--threads", "threads", "T", "Threads, at most one for each island (1)", false},
+            {"--threads",
+             "threads",
+             "T",
+             "Threads, at most one for each island (1)",
+             {"n_jobs", "num_threads"},
+             false},
             [](auto& o) -> auto& { return o.threads; }, 1, most_threads)};
 }
 

@@ -209,9 +209,9 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
     ProgramScope& scope = found->scope;
     Genome& genome = found->genome;
     const auto other = [&] {
-        return Failure(
-            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
-                        instance, simulator.problem->instance));
+        return Failure(fmt::format(
+            "it was learned in {}, whose observations or actions differ from those of {}", instance,
+            simulator.problem->instance));
     };
     if (lines.number("inputs", 0, many) != scope.input_count()) throw other();
     for (ProgramInput& input : scope.inputs) {

@@ -19,7 +19,7 @@ struct FoundProgram {
 std::string program_text(const rddl_simulator& simulator, const ProgramScope& scope,
                          const Genome& genome);
 
-// For people: the formula, or the nodes of a delayed program.
+// The formula for readers, or the nodes of a delayed program.
 std::string program_formula(const ProgramScope& scope, const Genome& genome);
 
 // Whether it may be a program: of ours, or of scikit-decide.

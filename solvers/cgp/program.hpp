@@ -25,10 +25,9 @@ class Program {
     int slots() const { return slots_ + (delayed_ ? slots_ : 0); }
     // Equal programs have equal numbers.
     std::uint64_t hash() const;
-    // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
-    // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
-    // A delayed program finds there what the step before has left, or zeros where an episode
-    // begins.
+    // Lanes of input i stand at inputs + i * input_row; unused inputs are not read. `values` has
+    // room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes. A delayed
+    // program finds there the values of the step before, or zeros where an episode begins.
     void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
              double* outputs) const;
 

@@ -13,7 +13,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// Numbers that people read: three digits.
+// Rounds numbers for display: three digits.
 double rounded(double x) {
     if (x == 0 || !std::isfinite(x)) return 0;
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);
@@ -118,7 +118,7 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
     options.thread_count = 1;
     options.seed = seed;
     options.autoreset = RDDL_AUTORESET_SAME_STEP;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     RandomPolicy policy(*simulator.problem, seed);
     RandomActions random(simulator, policy, environments);
     random.set_stops(&stops);

@@ -68,8 +68,8 @@ ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, boo
 void read_inputs(const ProgramScope& scope, const float* features, const std::vector<int>& used,
                  double* sums, double* inputs, std::ptrdiff_t stride);
 
-// From what a program writes, output o of unit u at values[(o * units + u) * stride], to a row of
-// what a Chooser takes: the action space's numbers of reals and logits.
+// Converts the outputs of a program, output o of unit u at values[(o * units + u) * stride], to a
+// row of a Chooser's inputs: the action space's numbers of reals and logits.
 void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff_t stride,
                    float* row);
 

@@ -74,8 +74,8 @@ struct CgpProgress {
 
 class CgpSearch {
   public:
-    // The simulator must outlive this. Ranks share the islands; what they find does not depend on
-    // how many ranks there are. Throws a Failure where there are fewer islands than ranks.
+    // The simulator must outlive this. Ranks share the islands; the results do not depend on the
+    // number of ranks. Throws a Failure if there are fewer islands than ranks.
     CgpSearch(const rddl_simulator& simulator, const CgpOptions& options, const Ranks& ranks = {});
     ~CgpSearch();
 

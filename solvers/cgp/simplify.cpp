@@ -176,7 +176,7 @@ class Simplifier {
     std::map<Term, int> places_;
 };
 
-// Without the terms that no output needs.
+// The formula without the terms that no output needs.
 Formula without_rest(const Formula& all) {
     std::vector<bool> needed(all.terms.size());
     for (const int output : all.outputs) needed[static_cast<std::size_t>(output)] = true;

@@ -122,7 +122,7 @@ ProgramScope skdecide_scope(const rddl_simulator& simulator) {
     for (const RealHead& head : scope.actions.reals)
         if (head.range != RealHead::Range::Bounded)
             throw Failure(fmt::format(
-                "programs of scikit-decide act within bounds, and the action '{}' has no two",
+                "programs of scikit-decide act within bounds, and the action '{}' lacks one",
                 scope.actions.names[static_cast<std::size_t>(head.column)]));
     const auto is_of_one_value = [](const CategoryHead& head) {
         return head.group.empty();

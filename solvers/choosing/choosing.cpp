@@ -23,7 +23,7 @@ rddl::philox::Block<std::uint64_t> words_of(const ChoiceKey& key, std::uint32_t 
         Key<std::uint64_t>{key.seed & 0xFFFFFFFF, (key.seed >> 32) ^ 0x50504F});
 }
 
-// In (0, 1).
+// A number in (0, 1).
 float unit(std::uint64_t word) {
     return (static_cast<float>((word & 0xFFFFFFFF) >> 8) + 0.5f) * 0x1p-24f;
 }

@@ -1,4 +1,4 @@
-// From the outputs of a policy's network to actions: at random as it says, or the likeliest.
+// The action distribution: from the outputs of a policy's network to actions, sampled or likeliest.
 #pragma once
 
 #include "solvers/batches/stops.hpp"
@@ -53,8 +53,8 @@ class Chooser {
     Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
             double correlation, std::int64_t environments);
 
-    // For each environment i: reads a row of outputs, writes what was chosen and the row of action
-    // values. key_of(i) is asked for a ChoiceKey.
+    // Reads a row of outputs for each environment i, writes the chosen indices and numbers and the
+    // row of action values. key_of(i) is asked for a ChoiceKey.
     template <class KeyOf>
     void choose(rddl_batch* batch, const float* outputs, int output_row,
                 const Deviations& deviations, KeyOf key_of, const Chosen& chosen, float* actions) {

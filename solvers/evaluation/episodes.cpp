@@ -218,7 +218,7 @@ class EpisodeBatch {
     const rddl_problem& problem_;
     const EpisodeOptions& options_;
     std::int64_t first_;
-    Batch batch_;
+    BatchHandle batch_;
     std::vector<Episode> episodes_;
     std::vector<double> discounts_;
     std::vector<double> rewards_;

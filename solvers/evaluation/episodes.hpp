@@ -68,7 +68,7 @@ struct Recorder {
     virtual ~Recorder() = default;
     virtual void before_step(const rddl_batch& batch) = 0;
     virtual void after_step(const rddl_batch& batch) = 0;
-    // After a step, for each environment that was running; `i` is its place in the batch.
+    // Called after a step, for each environment that was running; `i` is its place in the batch.
     virtual void add(std::size_t i, std::int64_t episode, std::int64_t step,
                      const std::byte* action, double reward, std::uint8_t causes) = 0;
     // The batch is over. Called for one batch after the other, in the order of their episodes.

@@ -68,8 +68,8 @@ struct Sequence {
     const std::uint8_t* begins;   // of each row; 1: there is nothing to remember
 };
 
-// For one instruction set. `x` has rows of `x_row` numbers, `after` of `after_row`, all others are
-// padded: states have padded_units numbers.
+// The functions of one instruction set. `x` has rows of `x_row` numbers, `after` of `after_row`,
+// all others are padded: states have padded_units numbers.
 template <class Real>
 struct GruFunctions {
     // One step: the states `after` it, given those `before` it.

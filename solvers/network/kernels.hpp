@@ -50,8 +50,8 @@ struct Added {
     }
 };
 
-// From row r and column c on, `rows` x `vectors` vectors of sums stay in registers. As a call of a
-// function it would take a tenth longer.
+// Keeps `rows` x `vectors` vectors of sums, from row r and column c on, in registers. As a call of
+// a function it would take a tenth longer.
 template <int rows, int vectors, int bytes, class Real, class Sums>
 [[gnu::always_inline]] inline void product_block(int r, int c, int depth, Strided<Real> a,
                                                  const Real* b, std::ptrdiff_t b_row,
@@ -128,7 +128,7 @@ inline Real dot_product(int count, const Real* a, const Real* b) {
 }
 
 // The results of a layer of few outputs: x w + bias, where w has a row of `inputs` numbers for each
-// output. What pads rows of results becomes 0.
+// output. The padding of rows of results becomes 0.
 template <class Real>
 inline void few_results(int count, int inputs, int outputs, const Real* x, const Real* w,
                         const Real* bias, Real* to, int row) {

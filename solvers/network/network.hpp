@@ -77,8 +77,8 @@ Network make_network(int inputs, const std::vector<int>& hidden, int outputs, in
 // Samples that go through all layers together, so that what they need stays in a processor's cache.
 inline constexpr int tile = 64;
 
-// For one instruction set. `x` has rows of `x_row` numbers, all other rows are padded; `count` is
-// at most a tile. Activations are layer by layer, in each `count` rows.
+// The functions of one instruction set. `x` has rows of `x_row` numbers, all other rows are padded;
+// `count` is at most a tile. Activations are layer by layer, in each `count` rows.
 template <class Real>
 struct NetworkFunctions {
     // Results of the last layer stand at layers.back().values * count.

@@ -19,7 +19,7 @@ struct Course {
     const std::uint8_t* ends;  // 1: an episode ended with that step
 };
 
-// Writes the advantages, and the returns that values shall estimate: advantage + value.
+// Writes the advantages, and the returns that values should estimate: advantage + value.
 inline void estimate_advantages(const Course& course, double gamma, double lambda,
                                 float* advantages, float* returns) {
     double advantage = 0;

@@ -66,7 +66,7 @@ class Collector {
     double gamma_;
     bool bootstraps_;
     std::int64_t first_, count_, origin_;
-    Batch batch_;
+    BatchHandle batch_;
     Chooser chooser_;
     StateNoise state_noise_;
     Memories memories_;

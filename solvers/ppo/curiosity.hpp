@@ -30,8 +30,8 @@ class Seen {
         std::copy_n(features, row_, most_.data() + environment * row_);
     }
 
-    // By how much the ranges grow, in deviations of each feature, as a mean over features. The
-    // newest observation counts; the time and older observations do not.
+    // The growth of the ranges, in deviations of each feature, as a mean over features. The newest
+    // observation counts; the time and older observations do not.
     float widen(std::size_t environment, const float* features, const float* factors) {
         float* const least = least_.data() + environment * row_;
         float* const most = most_.data() + environment * row_;

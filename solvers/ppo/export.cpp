@@ -75,7 +75,7 @@ GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
         append(arrays.state, rows_of(state_weights(gru, part, parameters)));
         append(arrays.bias, {parameters + part.bias, parameters + part.bias + gru.units});
     }
-    // Only the candidate has one for what it reads of the state.
+    // Only the candidate has a second bias, for the state that it reads.
     const float* const read = parameters + gru.state_bias();
     for (const int p : order)
         append(arrays.bias, p == 0 ? std::vector<float>(read, read + gru.units)
@@ -83,7 +83,7 @@ GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
     return arrays;
 }
 
-// For each output 1 where it ends with tanh, else 0.
+// Holds 1 for each output that ends with tanh, else 0.
 std::vector<float> squashed_outputs(const PpoModel& model) {
     std::vector<float> squashed(static_cast<std::size_t>(model.policy.outputs()));
     for (std::size_t r = 0; r < model.actions.reals.size(); ++r)

@@ -47,7 +47,7 @@ class Learner {
         std::vector<std::uint8_t> masks;
         std::vector<float> policy_activations, value_activations, scratch, d_outputs, d_values;
     };
-    // And for a chunk of them.
+    // The buffers for a chunk of samples.
     struct Workplace {
         Tile tile;
         std::vector<std::uint32_t> samples;

@@ -37,7 +37,7 @@ struct PpoModel {
     std::size_t deviations_begin() const { return policy.parameters + value.parameters; }
     const float* value_parameters() const { return parameters.data() + value_begin(); }
     const float* log_deviations() const { return parameters.data() + deviations_begin(); }
-    // Units of the last hidden layer, of which noise is made that depends on the state; else 0.
+    // Units of the last hidden layer if the noise depends on the state; else 0.
     int noisy_units() const {
         return noise == Noise::Sde && actions.real_count() > 0 ? hidden.back() : 0;
     }

@@ -57,8 +57,8 @@ struct PpoOptions {
     int recurrent = 0;
     int segment = 32;
     ObservationOptions observations;
-    // Whether what follows the horizon is estimated; absent: unless the policy sees the time, when
-    // the horizon is a fact of the problem and no accident.
+    // Whether the value after the horizon is estimated; absent: unless the policy sees the time,
+    // when the horizon is a fact of the problem and no accident.
     std::optional<bool> bootstraps;
     std::uint64_t seed = 0;
     int threads = 1;

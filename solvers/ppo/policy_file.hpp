@@ -1,8 +1,6 @@
-// Policies of PPO as JSON (docs/solvers.md describes it), and as policies.
+// Policies of PPO as JSON (docs/solvers.md describes it).
 #pragma once
 
-#include "solvers/choosing/choosing.hpp"
-#include "solvers/policies/policy.hpp"
 #include "solvers/ppo/model.hpp"
 #include "support/memory.hpp"
 
@@ -25,9 +23,5 @@ std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& mod
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text,
                                                 std::int64_t memory_limit = default_memory_limit);
-
-// Chooses what is likeliest, or at random as it has learned. The simulator must outlive it.
-Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
-                  bool random, std::uint64_t seed, std::string name);
 
 }  // namespace rddlc::solvers

@@ -1,6 +1,7 @@
 #include "solvers/ppo/trainee.hpp"
 
 #include "solvers/ppo/option_table.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 

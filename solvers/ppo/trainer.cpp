@@ -1,3 +1,4 @@
+// Over 400 lines: one class, the state of a training, in the order of an update.
 #include "solvers/ppo/trainer.hpp"
 
 #include "solvers/files/checkpoint.hpp"
@@ -354,7 +355,7 @@ struct PpoTrainer::State {
             learn(rate);
         } catch (const Failure& failure) {
             throw Failure(fmt::format("after {} steps {}", progress.steps, failure.what()),
-                          "try a lower --lr, or look for rewards and observations that are huge");
+                          "try a lower --lr, or check for huge rewards and observations");
         }
         progress.learn_seconds = seconds_since(begin);
         progress.steps += static_cast<std::int64_t>(experience.count()) * ranks.count;

@@ -40,9 +40,8 @@ void take_words(int argc, char** argv, const std::vector<ProgramOption>& options
         }
         const auto option = std::ranges::find(options, word, &ProgramOption::name);
         if (option == options.end()) {
-            std::vector<std::string> known;
-            for (const ProgramOption& each : options) known.push_back(each.name);
-            throw Failure(unknown_option(word, known), {}, usage_error);
+            throw Failure(unknown_option(word, {options.begin(), options.end()}, Face::CommandLine),
+                          {}, usage_error);
         }
         if (option->value.empty()) {
             given[word] = "on";

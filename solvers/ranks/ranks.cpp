@@ -28,7 +28,7 @@ int processes_started() {
     return std::getenv("PMIX_RANK") ? 0 : 1;
 }
 
-// Beside the program, as it is installed and as it is built; else where rddlc was installed.
+// Looks beside the program, both installed and built; then in the folder where rddlc was installed.
 const RanksModule* load_module() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);

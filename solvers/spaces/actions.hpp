@@ -89,6 +89,9 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops = {
 std::optional<Groups> groups_without_limit(const rddl_simulator& simulator, int least_bools,
                                            const Stops& stops = {});
 
+// The columns of action values.
+std::vector<rddl_column> action_columns(const rddl_simulator& simulator);
+
 // Reals with two bounds become squashed.
 void squash_bounded(ActionSpace& space);
 

@@ -46,7 +46,7 @@ struct ObservationSpace {
 ObservationSpace observation_space(const rddl_simulator& simulator,
                                    const ObservationOptions& options);
 
-// The name that people give a value: "rlevel(t1)", "turn".
+// The name of a value for readers: "rlevel(t1)", "turn".
 std::string grounded_name(const rddl_simulator& simulator, std::int32_t fluent,
                           std::int64_t grounding);
 

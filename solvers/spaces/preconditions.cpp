@@ -85,7 +85,7 @@ class Trial {
 
     const rddl_simulator& simulator_;
     const ActionRecords& records_;
-    Batch batch_;
+    BatchHandle batch_;
     RandomPolicy policy_;
     std::size_t columns_;
     std::vector<float> values_;

@@ -4,19 +4,16 @@
 #include "solvers/files/archive.hpp"
 #include "solvers/files/fingerprint.hpp"
 #include "solvers/training/checkpoint_file.hpp"
+#include "solvers/training/run_folder.hpp"
 #include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 
@@ -38,44 +35,6 @@ std::string time_text(double seconds) {
     const auto whole = static_cast<long long>(seconds);
     return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
                         : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
-}
-
-// The folder of a run, which one process writes at a time.
-class RunFolder {
-  public:
-    RunFolder() = default;
-    ~RunFolder() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    RunFolder(const RunFolder&) = delete;
-    RunFolder& operator=(const RunFolder&) = delete;
-
-    // Throws a Failure where another process holds it. File systems without locks let all pass.
-    void hold(const std::filesystem::path& folder) {
-        descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
-            errno == EWOULDBLOCK)
-            throw Failure(
-                fmt::format("another run writes into the folder '{}' now", folder.string()),
-                "wait for its end, or name another one with --out");
-    }
-
-  private:
-    int descriptor_ = -1;
-};
-
-// The first episode of which the return is not finite, in a sentence.
-std::string what_is_not_finite(const Rollouts& rollouts) {
-    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
-        const Episode& episode = rollouts.episodes[e];
-        if (episode.not_finite_step >= 0)
-            return fmt::format("the reward of step {} of episode {} is not finite",
-                               episode.not_finite_step, e);
-        if (!std::isfinite(episode.undiscounted_return))
-            return fmt::format("the rewards of episode {} add up to {}", e,
-                               episode.undiscounted_return);
-    }
-    return "the returns add up to more than a number holds";
 }
 
 class Training {

@@ -72,7 +72,7 @@ struct TrainingResult {
     std::string not_finite;  // where the last evaluation's return is not: what has made it so
 };
 
-// How many digits people read: "1.5 M", "812".
+// A count in few digits: "1.5 M", "812".
 std::string count_text(double count);
 
 // ".cgp" or ".json": of policy files in the folder of a run.

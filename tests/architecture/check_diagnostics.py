@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CODE = re.compile(r"\b([EW][0-9]{4})\b")
 # "inline constexpr Code wrong_arity{'E', 203};"
 CONSTANT = re.compile(r"\bCode\s+(\w+)\{'([EW])',\s*([0-9]+)\}")
-# In tests/robustness: no code of rddlc, and to explain it is refused.
+# Codes in tests/robustness that do not exist: explaining them is refused.
 NO_CODES = {"E9999"}
 
 

@@ -30,7 +30,7 @@ PASSES = Library("compiler/passes", "The passes", "passes", {"report.hpp"})
 
 
 def table(page: str, section: str) -> dict[str, set[str]]:
-    """What each folder uses."""
+    """The folders that each folder uses."""
     text = page.split(f"## {section}\n", 1)[1].split("\n## ", 1)[0]
     return {folder: set(re.findall(r"`(\w+)`", uses)) for folder, uses in ROW.findall(text)}
 

@@ -182,7 +182,7 @@ void expect_trace(const Case& expected, const Compilation& compilation) {
 #endif
 }
 
-// From the step for moderate values on, if there is one: it makes most steps.
+// The text from the step for moderate values on, if there is one: it makes most steps.
 std::string usual_step(const std::string& text) {
     const std::size_t begin = text.find("namespace moderate {");
     return begin == text.npos ? text : text.substr(begin);

@@ -197,7 +197,7 @@ TEST(Messages, ValuesInTheInstance) {
 
 TEST(Messages, ABodyThatGoesOn) {
     EXPECT_EQ(report("r' = sum_{?x : t} [P(?x)] + 10;"),
-              "this belongs to the body of 'sum', which goes on to the end\n"
+              "this belongs to the body of 'sum', which extends to the end\n"
               "note at '[P(?x)]': the body does not end with these brackets\n"
               "hint: RDDL reads 'sum_{?x : t} [[P(?x)] + 10]'; '[sum_{?x : t} [P(?x)]] + 10' was "
               "probably "

@@ -141,7 +141,7 @@ TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
     }
     fs::permissions(folder, fs::perms::owner_all);
 
-    // An object that lies there from a time when they could is made anew.
+    // An object from a time when other users could write there is compiled again.
     const fs::path object = shared_objects(cache()).at(0);
     fs::permissions(object, fs::perms::others_write, fs::perm_options::add);
     EXPECT_EQ(run(run_it).status, 0);

@@ -1,4 +1,6 @@
 // The output of list, info, check, run and bench.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "program.hpp"
 
 #include <algorithm>

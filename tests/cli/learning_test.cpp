@@ -132,7 +132,7 @@ TEST_F(LearningProgram, CtrlCSavesAndEnds) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run/policy.json"));
 }
 
-// In the middle of an update, which is made anew: what comes of it is the same to the byte.
+// Ctrl-C comes in the middle of an update, which is made again: the result is the same to the byte.
 TEST_F(LearningProgram, GoesOnAfterCtrlCAsIfNothingHadHappened) {
     const std::string ppo =
         "ppo --steps 9600 --envs 16 --rollout 200 --minibatch 800 --epochs 60 "

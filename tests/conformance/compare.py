@@ -65,7 +65,7 @@ def compare_transitions(
 
 
 def compare_draws(problem: Problem, point: DrawPoint, found: Columns, findings: Findings) -> None:
-    """At one state and action: what is not random value by value, the rest in distribution."""
+    """Compares at one state and action: deterministic values one by one, the rest in distribution."""
 
     description_of_start = describe_start(point.state, point.action)
 

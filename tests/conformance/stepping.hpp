@@ -49,9 +49,9 @@ inline const char* difference(const Told& one, const Told& other) {
     return std::memcmp(one.rewards.data(), other.rewards.data(), size) == 0 ? nullptr : "rewards";
 }
 
-class Batch {
+class ObservedBatch {
   public:
-    Batch(const rddl_simulator& simulator, std::int64_t count, int lanes, int threads)
+    ObservedBatch(const rddl_simulator& simulator, std::int64_t count, int lanes, int threads)
         : told(*simulator.problem, static_cast<std::size_t>(count)),
           simulator_(simulator),
           count_(count) {
@@ -65,9 +65,9 @@ class Batch {
         batch_ = simulator.create(&simulator, &options);
         if (!batch_) give_up("no batch");
     }
-    Batch(const Batch&) = delete;
-    Batch& operator=(const Batch&) = delete;
-    ~Batch() { simulator_.destroy(batch_); }
+    ObservedBatch(const ObservedBatch&) = delete;
+    ObservedBatch& operator=(const ObservedBatch&) = delete;
+    ~ObservedBatch() { simulator_.destroy(batch_); }
 
     rddl_batch* get() { return batch_; }
     const rddl_simulator& simulator() const { return simulator_; }

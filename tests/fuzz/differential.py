@@ -110,7 +110,7 @@ def random_state(reference: Reference, random) -> dict:
 
 
 def random_action(reference: Reference, random) -> dict:
-    """At most max-nondef-actions values that are not the default."""
+    """Keeps to at most max-nondef-actions values that are not the default."""
     default = reference.default_action()
     wild = {f.name: random_values(f, random) for f in reference.problem.actions}
     return thin(reference, wild, default, random)

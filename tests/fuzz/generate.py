@@ -254,7 +254,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return parameters, body
 
     def remember(self, body: Expr, parameters: tuple[str, ...]) -> None:
-        """For later CPFs of the same parameters, which may say it again."""
+        """Keeps it for later CPFs of the same parameters, which may repeat it."""
         parts = [part for part in body.all() if part.parts and is_closed(part)]
         for part in self.rng.sample(parts, min(3, len(parts))):
             self.said.append((part, part.free_variables(), part.names()))
@@ -270,7 +270,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return Expr("int", form, (value,), 10)
 
     def tame_real(self, fluent: Fluent, depth: int) -> Expr:
-        """A number for a real fluent. What may not be finite gets an interm-fluent of its own."""
+        """A number for a real fluent. A value that may not be finite gets an interm-fluent of its
+        own."""
         exact = fluent.is_exact()
         value = self.as_real(self.affordable(lambda d: self.number(d, rough=not exact), depth))
         if value.finite and value.magnitude <= 10 and (value.fraction <= 2 or not exact):

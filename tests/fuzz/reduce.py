@@ -86,7 +86,7 @@ def without_initial_values(problem: Problem) -> Iterator[Problem]:
 
 
 def with_smaller_types(problem: Problem) -> Iterator[Problem]:
-    """Without its last members, half of them or one, unless the text names one."""
+    """Removes its last members, half of them or one, unless the text names one."""
     used = " ".join(str(e) for e in problem.expressions())
     for type_ in problem.types:
         for count in sorted({len(type_.members) // 2, 1}, reverse=True):

@@ -75,7 +75,7 @@ class Tables:
         return lambda index: len(index) < 2 or abs(index[0] - index[1]) == width
 
     def function_of_row(self, sizes):
-        """At most one in each row, or in each column."""
+        """A pattern with at most one in each row, or in each column."""
         axis = self.pick([0, -1])
         chosen = {}
 

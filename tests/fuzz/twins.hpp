@@ -55,7 +55,7 @@ std::vector<Situation> situations(const ir::Program& program, Values values, boo
 Story story(const ir::Program& program, const std::vector<Situation>& situations,
             std::uint64_t seed);
 
-// In how far two stories may differ. Bools, ints and objects must be equal in any case.
+// The allowed difference of two stories. Bools, ints and objects must be equal in any case.
 struct Tolerance {
     double relative = 0;      // of reals, or absolute of those below 1; 0: bit for bit
     bool not_finite = false;  // what is nan or infinite in either may be anything

@@ -57,7 +57,7 @@ TEST(DynamicsFingerprint, ChangesWithAllThatATrajectoryDependsOn) {
             << from << " -> " << to;
 }
 
-// Not only with the first values and objects, which are all that --print=model shows.
+// Later values and objects also count, though --print=model shows only the first ones.
 TEST(DynamicsFingerprint, ChangesWithTheLastValueOfALargeTable) {
     std::string objects = "b1";
     for (int i = 2; i <= 40; ++i) objects += ", b" + std::to_string(i);

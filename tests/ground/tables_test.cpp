@@ -77,7 +77,7 @@ TEST(Tables, MatricesWithoutAResultFaultWhereTheyAreUsed) {
     const rddl::FaultRecord fault = fault_of(program);
     EXPECT_EQ(fault.kind, rddl::FaultKind::Undefined);
     EXPECT_EQ(program.sites[fault.place.site].what,
-              "the matrix of 'inverse' is singular, or has elements that are no numbers");
+              "the matrix of 'inverse' is singular, or has elements that are not numbers");
     EXPECT_FALSE(fault_of(grounded(matrix_problem("if (x > 9) then " + singular + " else 1"))));
     EXPECT_TRUE(fault_of(grounded(matrix_problem("if (x < 9) then " + singular + " else 1"))));
     EXPECT_FALSE(fault_of(grounded(matrix_problem("det_{?a : obj, ?b : obj} (x - 2)"))));

@@ -51,7 +51,7 @@ class CommandTest(unittest.TestCase):
         return path
 
     def as_nobody(self) -> dict:
-        """For run_command: as somebody who may not read or write everything."""
+        """An argument of run_command: run as a user who may not read or write everything."""
         if os.geteuid() != 0:
             return {}
         os.chown(self.folder, NOBODY, NOBODY)

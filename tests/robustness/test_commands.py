@@ -39,7 +39,7 @@ class Output(CommandTest):
         self.assertEqual(self.names(), [])
 
     def test_write_protected(self):
-        """Not even by a new file of the same name."""
+        """A new file of the same name does not replace it."""
         nobody = self.as_nobody()
         self.write("sim.cpp", "mine").chmod(0o444)
         result = self.run_command(RDDLC, *PROBLEM, "-o", "sim.cpp", **nobody)

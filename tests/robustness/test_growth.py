@@ -72,7 +72,7 @@ class Room(CommandTest):
     def test_one_value_among_a_trillion(self):
         for variables in "?w, ?x, ?y, ?z", "?z, ?y, ?x, ?w":
             self.write("problem.rddl", problem(
-                "K(o, o, o, o) : { non-fluent, bool, default = false };", reward=f"sum_{{?w : o, ?x : o, ?y : o, ?z : o}} [K({variables}) * (s > 0.0)]",
+                "K(o, o, o, o) : { non-fluent, bool, default = false };", reward=f"sum_{{?w : o, ?x : o, ?y : o, ?z : o}} [K({variables}) * s]",
                 types="o : object;", objects=objects_of(1000), values="K(o1, o2, o3, o4);"))
             for words in [RDDLC, "--stop-after=emit"], [RDDL, "info"], [RDDL, "run", "--engine=interpreter"]:
                 self.assertEqual(self.run_small(*words).status, SUCCESS)

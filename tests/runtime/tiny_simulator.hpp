@@ -121,7 +121,7 @@ struct Simulator {
                 machines, [&](Index m) { return state.wear[m] < 13.0; }));
         return conditions.violated();
     }
-    // At most one repair at a time.
+    // The precondition: at most one repair at a time.
     template <class L>
     static typename L::Int violated_precondition(const State<L>&, const Action<L>& action,
                                                  Context<L>& context) {

@@ -1,5 +1,7 @@
 // CGP: programs, their formulas in all forms, and searches that depend on nothing but their
 // options.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "simulators.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"
@@ -282,7 +284,8 @@ class FormulaReader {
     bool good_ = true;
 };
 
-// Without one pair of brackets, those of a function's arguments left out, it is another formula.
+// The formula is another one without one pair of brackets, those of a function's arguments left
+// out.
 void expect_no_bracket_too_many(const std::string& text,
                                 const std::map<std::string, double>& names) {
     const std::string tree = FormulaReader(text, names).read()->tree;
@@ -526,7 +529,7 @@ TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     for (const int p : {0, 1}) {
         rddl_batch_options options{};
         options.environment_count = 1;
-        const Batch batch = create_batch(simulator, options);
+        const BatchHandle batch = create_batch(simulator, options);
         require_done(simulator, simulator.reset(batch.get(), nullptr, nullptr));
         double first[2], least[2], most[2], values[2];
         require_done(simulator, simulator.get_observation_values(batch.get(), RDDL_DOUBLE, values));

@@ -277,7 +277,7 @@ TEST(Choosing, DrawsAsItSays) {
     Chooser chooser(simulator, space, Noise::Ar1, 0.9, environments);
     rddl_batch_options options{};
     options.environment_count = environments;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     std::vector<float> outputs(environments, 0.5f), numbers(environments), shifts(environments),
         spreads(environments), log_probabilities(environments), actions(environments);
     const float log_deviation = std::log(0.7f);

@@ -170,7 +170,7 @@ TEST(Groups, MakeLegalActions) {
         rddl_batch_options options{};
         options.environment_count = environments;
         options.autoreset = RDDL_AUTORESET_SAME_STEP;
-        const Batch batch = create_batch(*simulator, options);
+        const BatchHandle batch = create_batch(*simulator, options);
         Chooser chooser(*simulator, space, Noise::White, 0, environments);
         const auto logits = static_cast<std::size_t>(space.logit_count);
         const auto columns = static_cast<std::size_t>(space.column_count);

@@ -2,6 +2,7 @@
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/collector.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 #include "solvers/ppo/unrolled.hpp"
@@ -144,7 +145,7 @@ TEST(Recurrent, PoliciesAreReadAsTheyWereWritten) {
 TEST(Recurrent, PoliciesOfWrongSizesAreRefused) {
     using nlohmann::json;
     PpoTrainer trainer(maze(), with_memory());
-    // In the order of the file, since spaces are compared as text.
+    // The members keep the order of the file, since spaces are compared as text.
     const auto text = nlohmann::ordered_json::parse(ppo_policy_text(maze(), trainer.model()));
     EXPECT_EQ(text["version"], 2);
     const auto refuses = [&](const char* pointer, const json& value,

@@ -1,4 +1,4 @@
-// From rows of progress.csv to curves.
+// Learning curves from rows of progress.csv.
 #include "learning/learning_curves.hpp"
 
 #include "support/failure.hpp"

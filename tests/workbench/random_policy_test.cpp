@@ -172,7 +172,7 @@ TEST(RandomPolicy, DoesNothingWhenNothingMayDiffer) {
 
 // ------------------------------------------------------------------------- legal actions
 
-// All that the policy proposes at one timestep to someone who never finds an action legal.
+// All proposals of the policy at one timestep to a caller that finds every action illegal.
 std::vector<ActionValues> proposals(solvers::RandomPolicy& policy, const ActionProblem& problem,
                                     std::int64_t environment) {
     std::vector<ActionValues> all{act(policy, problem, environment, 3)};

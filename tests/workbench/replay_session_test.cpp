@@ -185,7 +185,7 @@ TEST_F(Replay, RepeatsAStepInIndependentEnvironments) {
         EXPECT_TRUE(sample.contains("reward"));
     }
     EXPECT_EQ(distinct.size(), 600u);
-    // The next repetition draws anew, and the environment has not moved.
+    // The next repetition draws again, and the environment has not moved.
     const json again = answer(R"({"repeat": 1})")["samples"];
     EXPECT_EQ(distinct.count(again[0]["state"]["wear___mill"].get<double>()), 0u);
     EXPECT_EQ(answer(R"({"action": {}})")["state"]["repairs"], 1);

@@ -19,8 +19,8 @@ TEST(Progress, EstimatesNothingAtTheBeginning) {
     EXPECT_EQ(remaining_text(0.05, 0.1), "1.9 s left");
 }
 
-TEST(Table, AlignsColumns) {
-    Table table({{"name"}, {"count", Align::Right}, {"note"}});
+TEST(TextTable, AlignsColumns) {
+    TextTable table({{"name"}, {"count", Align::Right}, {"note"}});
     table.add_row({"a", "1", ""});
     table.add_row({"größe", "1,000", "x"});
     table.add_row({"b"});
@@ -31,14 +31,14 @@ TEST(Table, AlignsColumns) {
               " b\n");
 }
 
-TEST(Table, AlignsWideCharacters) {
-    Table table({{"name"}, {"note"}});
+TEST(TextTable, AlignsWideCharacters) {
+    TextTable table({{"name"}, {"note"}});
     table.add_row({"水位計", "x"});
     EXPECT_EQ(table.text(), "name    note\n水位計  x\n");
 }
 
-TEST(Table, OmitsEmptyTitles) {
-    Table table({{""}, {""}});
+TEST(TextTable, OmitsEmptyTitles) {
+    TextTable table({{""}, {""}});
     table.add_row({"a", "b"});
     EXPECT_EQ(table.text(), "a  b\n");
 }

@@ -1,5 +1,7 @@
 // The comparisons of `rddl verify` and the pass that it blames: with programs and engines that are
 // altered on purpose.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "engines/interpreted_simulator.hpp"
 #include "support/files.hpp"
 #include "verify/difference_place.hpp"

@@ -37,8 +37,9 @@ fs::path wanted_folder() {
 
 [[noreturn]] void refuse(const fs::path& folder, const char* why, std::string hint) {
     throw Failure(
-        fmt::format("compiled simulators are not kept in '{}': {}, and what lies there is run",
-                    folder.string(), why),
+        fmt::format(
+            "compiled simulators are not kept in '{}': {}, and code from there would be run",
+            folder.string(), why),
         std::move(hint));
 }
 
@@ -65,7 +66,7 @@ fs::path cache_folder() {
     if (may_others_write(status))
         refuse(
             folder, "others may write to the folder",
-            fmt::format("empty it and say chmod go-w '{}', or {}", folder.string(), other_folder));
+            fmt::format("empty it and run chmod go-w '{}', or {}", folder.string(), other_folder));
     return folder;
 }
 

@@ -16,7 +16,7 @@ struct CompiledSimulator {
     CachedObject object;
 };
 
-// From a shared object; null if the file is not one of this ABI version.
+// Loads a simulator from a shared object; null if the file is not one of this ABI version.
 std::shared_ptr<const rddl_simulator> load_object(const std::filesystem::path& object);
 
 // Fails without a C++ compiler.

@@ -25,8 +25,8 @@ struct ExternalLibrary {
         {};  // by ExternalId; null if the program calls no external functions
 };
 
-// All that the program calls, each of which accepts its calls; else fails. Headers are compiled,
-// and kept as simulators are.
+// All functions that the program calls, each of which accepts its calls; otherwise fails. Headers
+// are compiled, and kept as simulators are.
 ExternalLibrary external_library(const ir::Program& program, const ProblemFiles& files,
                                  const LoadOptions& options);
 

@@ -58,8 +58,8 @@ CompileOptions front_end_options(const ProblemFiles& files, Stage last, const Lo
 
 // The compilation from which the engine makes a simulator; its diagnostics say whether it can.
 Compilation compile_problem(const ProblemFiles& files, const LoadOptions& options);
-// From a compilation without errors. Fails without a C++ compiler. Costs are those after compiling;
-// load_seconds is 0.
+// Loads a compilation without errors. Fails without a C++ compiler. Costs are those after
+// compiling; load_seconds is 0.
 LoadedProblem load_compilation(Compilation compilation, const ProblemFiles& files,
                                const LoadOptions& options);
 

@@ -1,4 +1,4 @@
-// A problem described for people and for programs.
+// The description of a problem for readers and for programs.
 #pragma once
 
 #include "engines/load_simulator.hpp"
@@ -20,6 +20,9 @@ struct ProblemDescription {
     Simulator simulator;         // for bounds, offsets and sizes
     solvers::Refusals refusals;  // of learners
 };
+
+// Fails on errors in the files, which are printed.
+ProblemDescription describe(const ProblemFiles& files);
 
 // Tables, at most about 100 columns wide.
 std::string description_text(const ProblemDescription& description);

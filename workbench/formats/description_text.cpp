@@ -33,7 +33,7 @@ std::string choices_text(const rddl_simulator& simulator) {
 
 std::string general_section(const ProblemDescription& d) {
     const rddl_problem& problem = *d.simulator->problem;
-    Table table({{""}, {""}});
+    TextTable table({{""}, {""}});
     table.add_row({"domain", fmt::format("{} ({})", problem.domain, d.files.domain.string())});
     const std::filesystem::path& instance = d.files.instance.value_or(d.files.domain);
     table.add_row({"instance", fmt::format("{} ({})", problem.instance, instance.string())});
@@ -59,7 +59,7 @@ std::string object_list(const model::Type& type) {
 
 std::string objects_section(const model::Model& model) {
     if (model.types.empty()) return {};
-    Table table({{"type"}, {"kind"}, {"objects", Align::Right}, {""}});
+    TextTable table({{"type"}, {"kind"}, {"objects", Align::Right}, {""}});
     for (const model::Type& type : model.types)
         table.add_row({type.name, type.enumerated ? "enumerated" : "object",
                        grouped(static_cast<long long>(type.objects.size())), object_list(type)});
@@ -86,7 +86,7 @@ std::string default_text(const model::Model& model, const model::Fluent& fluent)
     return shortened(model::text_of(model, fluent.range, *fluent.default_value), 12);
 }
 
-// "[0, 100]"; of groundings that differ, the range that holds them all and a star.
+// "[0, 100]"; if groundings differ, the range that holds them all and a star.
 std::string bounds_text(const rddl_fluent& fluent) {
     if (!fluent.lower || !fluent.upper || fluent.count == 0) return "";
     const auto [least_lower, most_lower] =
@@ -106,15 +106,15 @@ std::string role_text(Role role) {
 }
 
 std::string fluents_section(const ProblemDescription& d) {
-    Table table({{"fluent"},
-                 {"role"},
-                 {"parameters"},
-                 {"shape"},
-                 {"count", Align::Right},
-                 {"range"},
-                 {"default"},
-                 {"bounds"},
-                 {"line", Align::Right}});
+    TextTable table({{"fluent"},
+                     {"role"},
+                     {"parameters"},
+                     {"shape"},
+                     {"count", Align::Right},
+                     {"range"},
+                     {"default"},
+                     {"bounds"},
+                     {"line", Align::Right}});
     bool any_differ = false;
     for (std::size_t f = 0; f < d.model.domain_fluents().size(); ++f) {
         const model::Fluent& fluent = d.model.fluents[f];
@@ -139,7 +139,7 @@ std::string policy_section(const ProblemDescription& d) {
                     policy->source.line, policy->stochastic ? "stochastic" : "deterministic",
                     counted(policy->memory_size, "byte"));
     if (d.model.policy_fluents().empty()) return text;
-    Table table({{"fluent"}, {"role"}, {"parameters"}, {"shape"}, {"range"}, {"default"}});
+    TextTable table({{"fluent"}, {"role"}, {"parameters"}, {"shape"}, {"range"}, {"default"}});
     for (const model::Fluent& fluent : d.model.policy_fluents())
         table.add_row({fluent.name, role_text(fluent.role), parameters_text(d.model, fluent),
                        shape_text(d.model, fluent), model::text_of(d.model, fluent.range),
@@ -152,13 +152,13 @@ std::string policy_section(const ProblemDescription& d) {
 std::string sizes_section(const ProblemDescription& d) {
     const rddl_problem& problem = *d.simulator->problem;
     const Characteristics& c = d.characteristics;
-    Table table({{"record"},
-                 {"values", Align::Right},
-                 {"bool", Align::Right},
-                 {"int", Align::Right},
-                 {"object", Align::Right},
-                 {"real", Align::Right},
-                 {"bytes", Align::Right}});
+    TextTable table({{"record"},
+                     {"values", Align::Right},
+                     {"bool", Align::Right},
+                     {"int", Align::Right},
+                     {"object", Align::Right},
+                     {"real", Align::Right},
+                     {"bytes", Align::Right}});
     const auto add = [&](const char* name, const ValueKinds& kinds, std::int64_t bytes) {
         table.add_row({name, grouped(kinds.total()), grouped(kinds.bools), grouped(kinds.ints),
                        grouped(kinds.objects), grouped(kinds.reals), grouped(bytes)});
@@ -191,7 +191,7 @@ std::string learner_text(const std::optional<std::string>& refusal) {
 }
 
 std::string characteristics_section(const Characteristics& c, const solvers::Refusals& refusals) {
-    Table table({{""}, {""}});
+    TextTable table({{""}, {""}});
     const auto add = [&](const char* what, const std::string& text) {
         std::string title = what;
         for (const std::string& line : wrapped(text, text_width - 16)) {

@@ -23,8 +23,8 @@ class LineReader {
     LineReader(const LineReader&) = delete;
     LineReader& operator=(const LineReader&) = delete;
 
-    // Without its line break; nothing at the end of the input and on an interrupt. Throws a
-    // LongLine as soon as the line is too long; fails if one has no end.
+    // The next line without its line break; nothing at the end of the input and on an interrupt.
+    // Throws a LongLine as soon as the line is too long; fails if a line has no end.
     std::optional<std::string> next();
 
   private:

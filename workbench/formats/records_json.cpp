@@ -2,6 +2,7 @@
 
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
+#include "support/suggestion.hpp"
 
 #include <rddl/interface/describe.hpp>
 
@@ -112,7 +113,7 @@ std::optional<std::string> read_object(const RecordEntry& entry, const json& val
     const char* const* const found = std::find(begin, end, name);
     if (found == end) {
         const auto near = did_you_mean(name, std::vector<std::string>(begin, end));
-        return wrong_value(entry, value, near ? fmt::format("; did you mean '{}'?", *near) : "");
+        return wrong_value(entry, value, ending_with_name(near));
     }
     store<std::int64_t>(record, entry.offset, found - begin);
     return {};
@@ -252,8 +253,7 @@ std::string RecordLayout::unknown_name(const std::string& name) const {
     for (const RecordEntry& entry : entries_)
         if (candidates.size() < few) candidates.push_back(entry.name);
     const auto near = did_you_mean(name, candidates);
-    return fmt::format("no {}-fluent is called '{}'{}", what_, name,
-                       near ? fmt::format("; did you mean '{}'?", *near) : "");
+    return fmt::format("no {}-fluent is called '{}'{}", what_, name, ending_with_name(near));
 }
 
 void write_real(std::string& out, double value) {

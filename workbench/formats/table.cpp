@@ -15,13 +15,13 @@ void trim_trailing_blanks(std::string& text) {
 
 }  // namespace
 
-void Table::add_row(std::vector<std::string> cells) {
+void TextTable::add_row(std::vector<std::string> cells) {
     cells.resize(columns_.size());
     for (std::string& cell : cells) cell = printable_line(cell);
     rows_.push_back(std::move(cells));
 }
 
-std::string Table::text(std::size_t indent) const {
+std::string TextTable::text(std::size_t indent) const {
     std::vector<std::string> titles;
     for (const Column& column : columns_) titles.push_back(column.title);
     std::vector<std::size_t> widths(columns_.size(), 0);

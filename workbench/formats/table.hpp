@@ -13,9 +13,9 @@ struct Column {
     Align align = Align::Left;
 };
 
-class Table {
+class TextTable {
   public:
-    explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+    explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
     // One cell a column; missing cells are empty.
     void add_row(std::vector<std::string> cells);

@@ -17,7 +17,7 @@ namespace rddlc::workbench {
 
 namespace {
 
-// For people, of the header.
+// The description of the episode in the header.
 std::string course_in(const nlohmann::json& header) {
     const auto policy = header.find("policy"), seed = header.find("seed");
     if (policy == header.end() || !policy->is_string()) return {};
@@ -38,7 +38,7 @@ double reward_in(const nlohmann::json& line) {
     return number_in_json(*found).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-// In a word or some: "terminated", "horizon, invariant".
+// The causes of the end in words: "terminated", "horizon, invariant".
 std::string end_in(const nlohmann::json& line) {
     std::string text;
     if (const auto causes = line.find("causes"); causes != line.end() && causes->is_array())
@@ -116,7 +116,7 @@ std::optional<TraceStep> TraceSteps::read_object(const nlohmann::json& line) {
         return std::nullopt;
     }
     if (!line.contains("state") && !line.contains("next_state") && !line.contains("action"))
-        fail("the line is not a step:  it has no state and no action");
+        fail("the line is not a step: it has no state and no action");
     TraceStep step;
     step.number = count_in(line, "step", next_number_);
     if (step.number < next_number_)

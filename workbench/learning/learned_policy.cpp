@@ -5,6 +5,7 @@
 #include "formats/trace_steps.hpp"
 #include "learning/learning_curves.hpp"
 #include "solvers/cgp/policy_file.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/training/training.hpp"
 #include "support/failure.hpp"
@@ -34,7 +35,8 @@ std::string policy_text(const std::filesystem::path& path) {
                                   path.string()),
                       {}, usage_error);
     if (!is_there(file))
-        throw Failure(fmt::format("there is no policy in the folder '{}'", path.string()),
+        throw Failure(fmt::format("there is no {} in the folder '{}'", file.filename().string(),
+                                  path.string()),
                       "'rddl train' writes policy.json or policy.cgp into the folder of a run",
                       usage_error);
     return read_file(file, largest_policy);
@@ -42,17 +44,16 @@ std::string policy_text(const std::filesystem::path& path) {
 
 std::filesystem::path policy_file(const std::filesystem::path& path) {
     if (!is_folder(path)) return path;
+    if (const std::string solver = solver_of_run(path); !solver.empty())
+        return path / ("policy" + solvers::policy_extension(solver));
     const std::filesystem::path formula = path / "policy.cgp", network = path / "policy.json";
-    if (!is_there(formula)) return network;
-    if (!is_there(network)) return formula;
-    const std::string solver = solver_of_run(path);
-    if (solver.empty())
+    if (is_there(formula) && is_there(network))
         throw Failure(
             fmt::format("the folder '{}' holds policy.cgp and policy.json, and no run.json "
                         "that says which of them its run has learned",
                         path.string()),
             "name one of the two files", usage_error);
-    return path / ("policy" + solvers::policy_extension(solver));
+    return is_there(formula) ? formula : network;
 }
 
 bool is_learned_policy(const std::filesystem::path& path) {

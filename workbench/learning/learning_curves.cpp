@@ -45,7 +45,7 @@ struct Points {
     std::vector<double> x, y;
 };
 
-// Without the rows that have no number, and in the order of x.
+// The points without the rows that have no number, in the order of x.
 Points points_of(const RunProgress& run, const std::string& x, const std::string& y) {
     const std::vector<double>& xs = column_of(run, x);
     const std::vector<double>& ys = column_of(run, y);
@@ -167,32 +167,54 @@ std::string without_seed(const std::string& name, std::uint64_t seed) {
     return has_seed ? name.substr(0, name.size() - ending.size()) : name;
 }
 
-std::string solver_of_run(const fs::path& folder) {
-    const fs::path file = folder / "run.json";
-    if (!is_there(file)) return {};
-    const auto run = json_if_valid(read_file(file, largest_text));
-    if (!run.is_object() || !run.contains("solver")) return {};
-    const auto& solver = run["solver"];
-    return solver == "cgp" || solver == "ppo" ? solver.get<std::string>() : "";
+namespace {
+
+fs::path run_file(const fs::path& folder) {
+    return folder / "run.json";
 }
 
-std::optional<RunDescription> description_of(const fs::path& folder) {
-    const fs::path file = folder / "run.json";
+// The object of run.json, whose texts are texts; absent where there is no run.json.
+std::optional<nlohmann::json> run_in(const fs::path& folder) {
+    const fs::path file = run_file(folder);
     if (!is_there(file)) return std::nullopt;
+    const auto fail = [&](const std::string& why) {
+        throw Failure(fmt::format("'{}' is not the JSON of a run: {}", file.string(), why));
+    };
     nlohmann::json run;
     try {
         run = parse_json(read_file(file, largest_text));
     } catch (const RefusedJson& refused) {
-        throw Failure(
-            fmt::format("'{}' is not the JSON of a run: {}", file.string(), refused.what()));
+        fail(refused.what());
     }
-    if (!run.is_object() || !run.contains("seed") || !run["seed"].is_number_unsigned())
-        throw Failure(fmt::format("'{}' does not state the seed of a run", file.string()));
+    if (!run.is_object()) fail("it is not an object");
+    for (const char* const name : {"solver", "domain", "instance"})
+        if (run.contains(name) && !run[name].is_string())
+            fail(fmt::format("'{}' is a text, not {}", name, json_excerpt(run[name])));
+    return run;
+}
+
+}  // namespace
+
+std::string solver_of_run(const fs::path& folder) {
+    const auto run = run_in(folder);
+    if (!run) return {};
+    const std::string solver = run->value("solver", "");
+    if (solver == "ppo" || solver == "cgp") return solver;
+    throw Failure(
+        fmt::format("'{}' does not state the solver of a run: '{}' is neither ppo nor cgp",
+                    run_file(folder).string(), solver));
+}
+
+std::optional<RunDescription> description_of(const fs::path& folder) {
+    const auto run = run_in(folder);
+    if (!run) return std::nullopt;
+    if (!run->contains("seed") || !(*run)["seed"].is_number_unsigned())
+        throw Failure(
+            fmt::format("'{}' does not state the seed of a run", run_file(folder).string()));
     std::string what;
     for (const char* const name : {"solver", "domain", "instance"})
-        if (run.contains(name) && run[name].is_string())
-            what += (what.empty() ? "" : " ") + run[name].get<std::string>();
-    return RunDescription{what, run["seed"].get<std::uint64_t>()};
+        if (run->contains(name)) what += (what.empty() ? "" : " ") + run->value(name, "");
+    return RunDescription{what, (*run)["seed"].get<std::uint64_t>()};
 }
 
 }  // namespace rddlc::workbench

@@ -27,7 +27,7 @@ std::string build_text(const LoadCosts& costs) {
 
 void print_costs(const BenchReport& report) {
     const LoadCosts& costs = report.costs;
-    Table table({{""}, {""}});
+    TextTable table({{""}, {""}});
     table.add_row({"rddlc", seconds_text(costs.compile_seconds)});
     if (report.engine == Engine::Compiled) {
         table.add_row({"C++ compiler", build_text(costs)});
@@ -49,12 +49,12 @@ void print_costs(const BenchReport& report) {
 }
 
 void print_measurements(const std::vector<Measurement>& all) {
-    Table table({{"environments", Align::Right},
-                 {"lanes", Align::Right},
-                 {"threads", Align::Right},
-                 {"steps/s", Align::Right},
-                 {"one step", Align::Right},
-                 {"speed-up", Align::Right}});
+    TextTable table({{"environments", Align::Right},
+                     {"lanes", Align::Right},
+                     {"threads", Align::Right},
+                     {"steps/s", Align::Right},
+                     {"one step", Align::Right},
+                     {"speed-up", Align::Right}});
     for (const Measurement& m : all)
         table.add_row({grouped(m.environments), std::to_string(m.lanes), std::to_string(m.threads),
                        rate_text(m.steps_per_second()), seconds_text(1 / m.steps_per_second()),
@@ -77,11 +77,11 @@ std::optional<double> best_rival(const std::vector<Measurement>& ours, const Mea
 }
 
 void print_peers(const BenchReport& report) {
-    Table table({{"against"},
-                 {"environments", Align::Right},
-                 {"threads", Align::Right},
-                 {"steps/s", Align::Right},
-                 {"rddlc is faster by", Align::Right}});
+    TextTable table({{"against"},
+                     {"environments", Align::Right},
+                     {"threads", Align::Right},
+                     {"steps/s", Align::Right},
+                     {"rddlc is faster by", Align::Right}});
     for (const PeerFigures& peer : report.peers) {
         const auto best =
             std::max_element(peer.measurements.begin(), peer.measurements.end(), is_slower);

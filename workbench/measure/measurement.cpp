@@ -64,7 +64,7 @@ Measurement measure(const rddl_simulator& simulator, const RandomCourse& course,
     Outcomes outcomes(course.environments);
     Measurement result{course.environments, stepping.lanes, stepping.threads, 0, 0, 0};
     do {
-        const solvers::Batch batch = solvers::create_batch(simulator, options);
+        const solvers::BatchHandle batch = solvers::create_batch(simulator, options);
         simulator.step(batch.get(), course.of_step(0), &outcomes.transition);
         // One clock within the other: a thread has no more processor time than there is time.
         const auto begin = Clock::now();
@@ -82,7 +82,7 @@ std::optional<double> memory_per_environment(const rddl_simulator& simulator,
                                              std::int64_t environments) {
     const auto bytes_of = [&](std::int64_t count) -> std::optional<double> {
         const auto before = allocated_bytes();
-        const solvers::Batch batch = solvers::create_batch(simulator, course_options(count));
+        const solvers::BatchHandle batch = solvers::create_batch(simulator, course_options(count));
         const auto after = allocated_bytes();
         if (!before || !after) return std::nullopt;
         return static_cast<double>(*after) - static_cast<double>(*before);

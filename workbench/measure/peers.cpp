@@ -34,7 +34,7 @@ const Peer& peer_named(std::string_view name) {
                          [&](const Peer& peer) { return peer.name == name; });
 }
 
-// Beside the running program if it is installed, else in the source tree.
+// The file beside the running program if it is installed, else in the source tree.
 fs::path program_file(const Peer& peer) {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
@@ -45,7 +45,7 @@ fs::path program_file(const Peer& peer) {
                   "install rddl with its share folder");
 }
 
-// The last line; what stands before it are the libraries' messages.
+// The last line; the lines before it are the libraries' messages.
 nlohmann::json last_answer(const std::string& output) {
     const std::size_t end = output.find_last_not_of('\n');
     if (end == std::string::npos) return nullptr;

@@ -52,7 +52,7 @@ RandomCourse draw_course(const rddl_simulator& simulator, std::int64_t environme
 
     rddl_batch_options options = course_options(environments);
     options.thread_count = 0;
-    const solvers::Batch batch = solvers::create_batch(simulator, options);
+    const solvers::BatchHandle batch = solvers::create_batch(simulator, options);
     solvers::RandomPolicy policy(*simulator.problem, 0);
     solvers::RandomActions random(simulator, policy, environments);
     std::vector<std::uint8_t> causes(static_cast<std::size_t>(environments));

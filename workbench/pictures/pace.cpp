@@ -25,8 +25,8 @@ double seconds_per_step(const rddl::render::World& world) {
                   "say --fps N", usage_error);
 }
 
-// So that no more than so many states of an episode are shown, the first and the last one among
-// them.
+// Chooses the stride so that no more than so many states of an episode are shown, the first and the
+// last one among them.
 std::int64_t stride_for(std::int64_t horizon, std::int64_t most_frames) {
     if (horizon < most_frames) return 1;
     const std::int64_t gaps = most_frames - 1;

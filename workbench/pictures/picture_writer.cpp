@@ -6,6 +6,7 @@
 #include "scenes/scene.hpp"
 #include "support/diagnostic.hpp"
 #include "support/program.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <render/moment.hpp>
@@ -34,14 +35,12 @@ render::Visualizer choose_visualizer(const PictureOptions& options, const Proble
         std::vector<std::string> names;
         for (const auto* visualizer : render::visualizers()) names.emplace_back(visualizer->name);
         const auto near = did_you_mean(name, names);
-        throw Failure(
-            fmt::format("there is no visualizer '{}'", name),
-            near ? fmt::format("did you mean '{}'?", *near) : "--visualizer list prints all",
-            usage_error);
+        throw Failure(fmt::format("there is no visualizer '{}'", name),
+                      near ? hint_of_name(near) : "--visualizer list prints all", usage_error);
     }
     if (const auto missing = render::missing_fluent(*found, world); !missing.empty()) {
         tell(
-            "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem has not; "
+            "rddl: warning: the visualizer '{}' draws a fluent '{}', which this problem lacks; "
             "it is drawn by 'auto'\n",
             name, missing.substr(0, missing.find('|')));
         return *render::find_visualizer("auto");

@@ -1,4 +1,4 @@
-// From lines of a trace to files of pictures.
+// Converts lines of a trace to files of pictures.
 #pragma once
 
 #include "engines/load_simulator.hpp"
@@ -11,7 +11,7 @@
 
 namespace rddlc::workbench {
 
-// Whether rddl was built with the library that draws; else the commands say so.
+// Whether rddl was built with the library that draws; otherwise the commands say so.
 bool can_draw();
 // Fails if it was not.
 void require_pictures();

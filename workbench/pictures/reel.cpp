@@ -34,7 +34,7 @@ void Reel::add_line(std::string_view line) {
     }
     if (!step) return;
     if (pending_) take(std::move(*std::exchange(pending_, std::nullopt)), false);
-    // At once, for somebody may be watching.
+    // The state is shown at once, since a user may be watching.
     if (steps_->has_last())
         take(std::move(*step), false);
     else

@@ -92,7 +92,8 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height,
     for (std::string& word : format_options(file_)) command.push_back(std::move(word));
     command.push_back(made_.string());
 
-    // Not a file, for the disk may be full. Who says too much is not heard, but does not wait.
+    // A pipe takes the messages, since the disk may be full. Excess messages are dropped and do not
+    // block.
     Connection pictures, log;
     fcntl(log.theirs, F_SETFL, O_NONBLOCK);
     const int error = start(command, pictures.theirs, log.theirs, process_);

@@ -1,4 +1,4 @@
-// In place of the other files of this folder, where rddl is built without the library that draws.
+// Replaces the other files of this folder if rddl is built without the library that draws.
 #include "pictures/charts.hpp"
 #include "pictures/picture_writer.hpp"
 #include "support/failure.hpp"

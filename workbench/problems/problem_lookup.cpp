@@ -44,7 +44,7 @@ bool instance_before(const std::string& a, const std::string& b) {
     return key(a) < key(b);
 }
 
-// For folders without an info: archive/[competitions/]CONTEXT/A/B is A_B_context, as the info of
+// Names folders without an info: archive/[competitions/]CONTEXT/A/B is A_B_context, as the info of
 // the others says.
 void name_by_folder(RepositoryProblem& problem, const fs::path& relative) {
     std::vector<std::string> parts(relative.begin(), relative.end());

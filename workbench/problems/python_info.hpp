@@ -7,7 +7,7 @@
 
 namespace rddlc::workbench {
 
-// The string-valued members of the first dictionary in `text`; what is not a string is skipped.
+// The string-valued members of the first dictionary in `text`; other members are skipped.
 std::map<std::string, std::string> read_python_info(std::string_view text);
 
 }  // namespace rddlc::workbench

@@ -5,6 +5,7 @@
 #include "formats/trace.hpp"
 #include "support/diagnostic.hpp"
 #include "support/json_text.hpp"
+#include "support/suggestion.hpp"
 
 #include <rddl/random/random.hpp>
 
@@ -51,8 +52,7 @@ void check_members(const json& line) {
     for (const auto& [name, value] : line.items()) {
         if (contains(understood, name) || contains(ignored_members, name)) continue;
         const auto near = did_you_mean(name, {understood.begin(), understood.end()});
-        throw Refusal{fmt::format("unknown member '{}'{}", name,
-                                  near ? fmt::format("; did you mean '{}'?", *near) : "")};
+        throw Refusal{fmt::format("unknown member '{}'{}", name, ending_with_name(near))};
     }
 }
 
@@ -198,8 +198,8 @@ ReplaySession::Record ReplaySession::read_action(const json& values) const {
 
 // ------------------------------------------------------------------------------- acting on it
 
-solvers::Batch ReplaySession::create(std::int64_t first, std::int64_t count,
-                                     std::int64_t horizon) const {
+solvers::BatchHandle ReplaySession::create(std::int64_t first, std::int64_t count,
+                                           std::int64_t horizon) const {
     rddl_batch_options options{};
     options.environment_count = count;
     options.first_environment = first;
@@ -294,7 +294,7 @@ void ReplaySession::add_samples(std::string& out, const Record& action, std::int
             copies.insert(copies.end(), record.begin(), record.end());
         return copies;
     };
-    const solvers::Batch batch = create(next_sample_, count, 0);
+    const solvers::BatchHandle batch = create(next_sample_, count, 0);
     next_sample_ += count;
     simulator_.set_state(batch.get(), 0, count, copies_of(state()).data(), nullptr);
 

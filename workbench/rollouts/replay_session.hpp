@@ -68,7 +68,7 @@ class ReplaySession {
     Record read_state(const nlohmann::json& values, bool fresh) const;
     Record read_action(const nlohmann::json& values) const;
 
-    solvers::Batch create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
+    solvers::BatchHandle create(std::int64_t first, std::int64_t count, std::int64_t horizon) const;
     void prepare(const Request& request);
     void require_running() const;
     // Empty if the action is legal, else what is wrong; may replace it.
@@ -95,7 +95,7 @@ class ReplaySession {
     bool has_begun_ = false;        // some line was not blank
     std::int64_t environment_ = 0;  // identity of the one that is stepped
     std::int64_t next_sample_;      // identity of the next environment that draws a sample
-    solvers::Batch batch_;
+    solvers::BatchHandle batch_;
     Record initial_state_;
 };
 

@@ -25,7 +25,7 @@ struct ViolationText {
 
     // "PLACE: WHAT: CONDITION EXPLANATION"
     std::string line() const;
-    // In the form of the compiler's warnings and errors; `when` follows what happened.
+    // The text in the form of the compiler's warnings and errors; `when` follows the message.
     std::string diagnostic(const std::string& severity, const std::string& when) const;
 };
 

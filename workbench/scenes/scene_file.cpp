@@ -3,6 +3,7 @@
 #include "support/diagnostic.hpp"
 #include "support/failure.hpp"
 #include "support/json_text.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -95,7 +96,7 @@ class SceneReader {
             const auto near = did_you_mean(name, names);
             const auto key = key_.find(&member);
             fail(key == key_.end() ? span : key->second, fmt::format("unknown member '{}'", name),
-                 near ? fmt::format("did you mean '{}'?", *near) : "");
+                 hint_of_name(near));
         }
     }
 
@@ -122,7 +123,7 @@ class SceneReader {
     SceneNumber read_number(const Json& value) {
         if (value.is_number()) return value.get<double>();
         if (value.is_string()) return add_expression(value, place_of(value), SceneRange::Real);
-        fail(place_of(value), "here stands a number, or a text that is an RDDL expression");
+        fail(place_of(value), "expected a number, or a text with an RDDL expression");
     }
     // A length or a size.
     SceneNumber read_length(const Json& value) {
@@ -189,7 +190,7 @@ class SceneReader {
             if (render::read_color(text, color)) return {color};
             const auto near = did_you_mean(text, render::color_names());
             fail(place_of(value), fmt::format("'{}' is not a color", text),
-                 near ? fmt::format("did you mean '{}'?", *near)
+                 near ? hint_of_name(near)
                       : fmt::format("colors are {}, or #rrggbb",
                                     fmt::join(render::color_names(), ", ")));
         }
@@ -320,7 +321,7 @@ class SceneReader {
             const auto near =
                 did_you_mean(kind, {"circle", "line", "rectangle", "cell", "polygon", "text"});
             fail(place_of(kind_value), fmt::format("there is no shape '{}'", kind),
-                 near ? fmt::format("did you mean '{}'?", *near)
+                 near ? hint_of_name(near)
                       : "shapes are circle, line, rectangle, cell, polygon and text");
         }
         allow(shape, place_of(shape), names);

@@ -45,7 +45,7 @@ struct SceneColorChoice {
     ExpressionIndex condition;
     std::shared_ptr<const SceneColor> then_color, else_color;
 };
-// From light to dark between two values.
+// A scale from light to dark between two values.
 struct SceneColorScale {
     SceneNumber value, low, high;
 };

@@ -5,6 +5,7 @@
 #include "support/diagnostic.hpp"
 #include "support/failure.hpp"
 #include "support/files.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <render/moment.hpp>
@@ -160,7 +161,7 @@ class SceneCompiler {
             if (std::ranges::find(names, variable.type) != names.end()) continue;
             const auto near = did_you_mean(variable.type, names);
             fail(variable.span, fmt::format("there is no type of objects '{}'", variable.type),
-                 near ? fmt::format("did you mean '{}'?", *near) : "");
+                 hint_of_name(near));
         }
     }
 

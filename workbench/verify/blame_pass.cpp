@@ -20,7 +20,7 @@ std::string fault_text(const ir::Program& program, const rddl::FaultRecord& faul
                        span.file, span.begin, fault.place.index, fault.value);
 }
 
-// Without the one for moderate values beside it, which would make most steps.
+// The program without the one for moderate values beside it, which would make most steps.
 ir::Program alone(ir::Program program) {
     program.moderate.reset();
     return program;

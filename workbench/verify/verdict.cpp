@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// For looking which pass, left out, avoids a mistake of the emitted code.
+// The time of the search for the pass whose absence avoids an error of the emitted code.
 constexpr std::chrono::seconds search_time{60};
 
 // The first pass, from the last one on, without which the compiled engine agrees.

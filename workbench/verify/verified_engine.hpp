@@ -39,7 +39,7 @@ class VerifiedEnvironments {
     const std::vector<std::byte>& act();
     // The outcomes of all environments under their actions, environment by environment.
     std::vector<StepOutcome> step(const std::vector<std::byte>& actions);
-    // Without a step: states, and whether the episodes are over.
+    // The present states, and whether the episodes are over; makes no step.
     std::vector<StepOutcome> look() const;
 
     Record state(std::int64_t environment) const;
@@ -67,7 +67,7 @@ class VerifiedEnvironments {
 
     Simulator simulator_;
     std::int64_t count_;
-    std::vector<solvers::Batch> batches_;
+    std::vector<solvers::BatchHandle> batches_;
     std::vector<std::byte> policy_actions_;  // empty: it was not asked since the last step
 };
 

@@ -15,7 +15,7 @@ namespace rddlc::workbench {
 
 namespace {
 
-// Reals that passes may round differently agree to this, relatively.
+// Reals that --fast-math may round differently agree to this, relatively.
 constexpr double rounding_tolerance = 1e-9;
 
 constexpr std::size_t optimised = 1;  // index of the engine that compiled ones are compared with
@@ -38,7 +38,7 @@ Optimised optimise_watched(const ir::Program& plain, const PassOptions& options)
 
 bool rounds(const std::string& name) {
     return std::ranges::any_of(all_passes(), [&](const PassDescription& pass) {
-        return pass.name == name && (pass.rounds_sums || pass.only_fast_math);
+        return pass.name == name && pass.only_fast_math;
     });
 }
 

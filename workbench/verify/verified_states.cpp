@@ -118,7 +118,7 @@ bool RandomStates::happens(double probability) {
     return between(0, 1) < probability;
 }
 
-// Not std::uniform_real_distribution, whose numbers differ between libraries.
+// std::uniform_real_distribution is not used, since its numbers differ between libraries.
 double RandomStates::between(double low, double high) {
     return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
 }

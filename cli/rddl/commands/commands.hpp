@@ -3,7 +3,7 @@
 
 #include "command_line/command_line.hpp"
 
-// What commands are made of (workbench/).
+// The parts of commands are in workbench/.
 namespace rddlc::workbench {}
 
 namespace rddlc::cli {

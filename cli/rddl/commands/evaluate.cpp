@@ -5,14 +5,11 @@
 #include "formats/number_text.hpp"
 #include "formats/records_json.hpp"
 #include "formats/table.hpp"
-#include "learning/learned_policy.hpp"
-#include "learning/learning_curves.hpp"
 #include "pictures/charts.hpp"
-#include "solvers/evaluation/summary.hpp"
+#include "rollouts/evaluation.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,26 +33,6 @@ struct EvaluationOptions {
     ChartFiles chart;
 };
 
-struct Evaluation {
-    std::string policy;
-    solvers::Summary summary;
-    double seconds = 0;
-    std::int64_t steps = 0;
-};
-
-Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
-                    const EvaluationOptions& options) {
-    const solvers::Policy policy = policy_named(
-        simulator, name, options.random, options.episodes.seed, options.episodes.memory_limit);
-    if (!options.json) note_plans(policy, options.episodes.episodes);
-    const std::int64_t steps = solvers::steps_at_most(simulator, options.episodes);
-    Progress bar(name, options.episodes.episodes * std::max<std::int64_t>(steps, 1), !options.json);
-    const solvers::Watch watch{is_interrupted, [&](std::int64_t done) { bar.advance(done); }, {}};
-    const solvers::Rollouts rollouts =
-        solvers::run_episodes(simulator, policy, options.episodes, watch);
-    return {name, solvers::summary_of(rollouts), rollouts.seconds, rollouts.steps};
-}
-
 std::string interval_text(const solvers::Estimate& estimate) {
     const std::string mean = number_text(estimate.mean);
     return estimate.half_width > 0 ? fmt::format("{} ± {:.3g}", mean, estimate.half_width) : mean;
@@ -71,17 +48,17 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
                  const EvaluationOptions& options) {
     print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
           options.episodes.episodes, options.episodes.seed);
-    Table table({{"policy"},
-                 {"return", Align::Right},
-                 {"discounted", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right},
-                 {"length", Align::Right},
-                 {"ended", Align::Right},
-                 {"illegal", Align::Right},
-                 {"faults", Align::Right},
-                 {"steps/s", Align::Right}});
+    TextTable table({{"policy"},
+                     {"return", Align::Right},
+                     {"discounted", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right},
+                     {"length", Align::Right},
+                     {"ended", Align::Right},
+                     {"illegal", Align::Right},
+                     {"faults", Align::Right},
+                     {"steps/s", Align::Right}});
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
         table.add_row(
@@ -142,18 +119,6 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
     write_chart(chart, options.chart);
 }
 
-// The mean return of the last episodes while PPO learned, with random actions; nothing if the
-// policy is not a run that reports it.
-std::optional<double> learned_return(const std::string& policy) {
-    try {
-        const RunProgress run = read_progress(policy);
-        const std::vector<double>& returns = column_of(run, "rollout/ep_rew_mean");
-        if (!returns.empty() && std::isfinite(returns.back())) return returns.back();
-    } catch (const Failure&) {
-    }
-    return std::nullopt;
-}
-
 // Prints a note if the likeliest actions have a much lower return than random ones had.
 void hint_at_chance(const Evaluation& one) {
     const std::optional<double> learned = learned_return(one.policy);
@@ -181,7 +146,8 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     chosen.episodes.memory_limit = files.memory_limit;
     std::vector<Evaluation> all;
     for (const std::string& name : options.policies)
-        if (!is_interrupted()) all.push_back(evaluate(simulator, name, chosen));
+        if (!is_interrupted())
+            all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json));
     options.json ? print_json(files, all, options) : print_table(*simulator.problem, all, options);
     if (options.chart.any() && !all.empty()) draw(*simulator.problem, all, options);
     for (const Evaluation& one : all)

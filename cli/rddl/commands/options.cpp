@@ -108,9 +108,8 @@ void choose_policy(const std::string& name, Policy& policy,
     if (is_learned_policy(name)) {
         if (!learned)
             throw UsageError(
-                fmt::format("--policy: '{}' is a trace or what a solver has learned, which this "
-                            "command does not "
-                            "take; --states takes the states of a trace",
+                fmt::format("--policy: '{}' is a trace or a learned policy, which this "
+                            "command does not accept; --states takes the states of a trace",
                             name));
         policy = Policy::Learned;
         *learned = name;
@@ -128,7 +127,7 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
         command, "--policy", "POLICY",
         std::string("random (default): legal random actions; noop: default actions; rddl: the "
                     "policy block of the problem; FILE: the policy block in it") +
-            (learned ? ", what a solver has learned, or the actions of a trace (.jsonl): episode 0 "
+            (learned ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
                        "plays those of its episode 0 and so on, and after its last episode comes "
                        "its first one again"
                      : ""),
@@ -186,17 +185,17 @@ void add_picture_options(Command& command, PictureOptions& options) {
                               options.frames_per_second, 0.01, 1000);
     add_number_option<double>(command, "--real-time-factor", "X",
                               "X seconds of the problem in a second of the movie, where a "
-                              "non-fluent tells how long a step is",
+                              "non-fluent gives the length of a step",
                               options.real_time_factor, 1e-6, 1e6);
     add_number_option<std::int64_t>(command, "--max-frames", "N",
-                                    "At most so many pictures: every second, third, ... state of "
+                                    "Largest number of pictures: every second, third, ... state of "
                                     "a longer episode (1000)",
                                     options.most_frames, 1, most);
     add_number_option<std::int64_t>(command, "--environment", "K",
-                                    "Which episode, from 0 on (0; --watch shows all)",
+                                    "Number of the episode, from 0 on (0; --watch shows all)",
                                     options.episode, 0, most);
     add_number_option<std::int64_t>(command, "--step", "K",
-                                    "Which state a single picture shows (the last one)",
+                                    "State that a single picture shows (the last one)",
                                     options.step, 0, most);
 }
 

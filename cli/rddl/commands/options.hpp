@@ -1,5 +1,5 @@
-// Options that several subcommands share, so that they are spelled and explained alike. What they
-// write to outlives the command.
+// Options that several subcommands share, so that they are spelled and explained alike. The
+// variables that they write must outlive the command.
 #pragma once
 
 #include "command_line/command_line.hpp"
@@ -72,14 +72,14 @@ void add_cache_option(Command& command, LoadOptions& options);
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
 
-// --policy; of a file its policy block or, where there is a place for it, a learned policy
+// --policy; a file gives its policy block or, if `learned` is not null, a learned policy
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
                        std::filesystem::path* learned = nullptr);
 
 // --size
 void add_size_option(Command& command, int& width, int& height, const std::string& explanation);
 
-// What is drawn, and where it is written.
+// The pictures to draw, and their files.
 void add_picture_options(Command& command, PictureOptions& options);
 
 // --png, --svg, --size

@@ -116,7 +116,7 @@ Command replay_command() {
     const auto options = std::make_shared<ReplayCommandOptions>();
     Command command;
     command.name = "replay";
-    command.summary = "Make the steps that lines of JSON ask for";
+    command.summary = "Step the simulator from JSON input";
     command.details =
         "An input line is {\"action\": {...}, \"state\": {...}}, both optional; the state (or a\n"
         "part of it) is set before the step. The answer is {\"state\": {...}, \"observation\":\n"

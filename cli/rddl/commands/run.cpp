@@ -7,6 +7,7 @@
 #include "formats/trace.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
+#include "pictures/rollout_pictures.hpp"
 #include "rollouts/rollouts.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/json_text.hpp"
@@ -16,9 +17,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -48,7 +46,7 @@ std::string when(const auto& event) {
     return fmt::format("episode {}, step {}", event.episode, event.step);
 }
 
-// In the form of the compiler's messages; `count` illegal actions there were in all.
+// Reports in the form of the compiler's messages; `count` is the number of all illegal actions.
 void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
                            Preconditions preconditions, ViolationExplainer& explainer) {
     const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
@@ -89,11 +87,11 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
           name_of(options.rollouts.policy), options.rollouts.seed, name_of(options.load.engine));
-    Table table({{""},
-                 {"mean", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right}});
+    TextTable table({{""},
+                     {"mean", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right}});
     const auto add = [&](std::string what, const solvers::Estimate& s) {
         table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
                        number_text(s.minimum), number_text(s.maximum)});
@@ -189,29 +187,10 @@ void require_drawn_episode(const RunOptions& options) {
     require_different_files(options.pictures, options.trace);
 }
 
-// An episode that is over before its first step has no line in the trace; its state is drawn.
-void draw_initial_states(const Rollouts& rollouts, PictureWriter& pictures) {
-    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
-        const Episode& episode = rollouts.episodes[e];
-        if (episode.length == 0 && !(episode.causes & RDDL_FAULTED))
-            pictures.add_line(fmt::format(R"({{"episode":{},"state":{{}},"causes":{}}})", e,
-                                          causes_json(episode.causes)));
-    }
-}
-
-// The name of the episode for people.
+// The name of the episode in titles.
 std::string course_name(const RunOptions& options) {
     return fmt::format("policy {}, seed {}", name_of(options.rollouts.policy),
                        options.rollouts.seed);
-}
-
-// The lines of a text, without their line breaks.
-void for_each_line(std::string_view lines, const auto& take) {
-    while (!lines.empty()) {
-        const std::size_t end = std::min(lines.find('\n'), lines.size() - 1);
-        take(lines.substr(0, end));
-        lines.remove_prefix(end + 1);
-    }
 }
 
 ExitStatus run(const RunOptions& options) {
@@ -237,8 +216,7 @@ ExitStatus run(const RunOptions& options) {
     if (trace || pictures) {
         sink = [&](const std::string& lines) {
             if (trace) trace->write(lines);
-            if (pictures && !is_interrupted())
-                for_each_line(lines, [&](std::string_view line) { pictures->add_line(line); });
+            if (pictures && !is_interrupted()) draw_lines(lines, *pictures);
         };
         sink(header_line(options, problem, horizon));
     }

@@ -107,6 +107,25 @@ void add_common_options(Command& command, TrainOptions& options) {
     add_flag(command, "--quiet", "Print nothing", options.training.quiet);
 }
 
+Option& add_learner_option(Command& command, const solvers::OptionText& option,
+                           const std::function<void(const std::string&)>& take) {
+    if (option.value.empty())
+        return add_flag(command, option.name, option.help, [take](const std::string& word) {
+            take(word == "true" ? "on" : word == "false" ? "off" : word);
+        });
+    if (option.is_list)
+        return add_list_option(command, option.name, option.value, option.help, take);
+    Option& added = add_option(command, option.name, option.value, option.help, take);
+    added.choices = option.choices;
+    return added;
+}
+
+std::vector<std::string> names_elsewhere(const solvers::OptionText& option) {
+    std::vector<std::string> names = option.elsewhere;
+    names.push_back(option.keyword);
+    return names;
+}
+
 // All options of a learner's table.
 template <class Options>
 void add_learner_options(Command& command, const solvers::OptionTable<Options>& table,
@@ -123,16 +142,7 @@ void add_learner_options(Command& command, const solvers::OptionTable<Options>& 
                     throw UsageError(fmt::format("{}: {}", option.name, refused.what()));
                 }
             };
-        if (option.value.empty()) {
-            add_flag(command, option.name, option.help, [take](const std::string& word) {
-                take(word == "true" ? "on" : word == "false" ? "off" : word);
-            });
-        } else if (option.is_list) {
-            add_list_option(command, option.name, option.value, option.help, take);
-        } else {
-            add_option(command, option.name, option.value, option.help, take).choices =
-                option.choices;
-        }
+        add_learner_option(command, option, take).elsewhere = names_elsewhere(option);
     }
 }
 

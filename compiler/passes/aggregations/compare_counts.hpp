@@ -1,10 +1,10 @@
-// An exists or forall next to a sum of the same bools asks how many there are.
+// An exists or forall next to a sum of the same bools compares the sum.
 //
 //     select(exists[o in obj](state.p[o]), f(sum[o in obj](int(state.p[o]))), 0.0)
 //                                       =>
 //     select(sum[o in obj](int(state.p[o])) > 0, f(sum[o in obj](int(state.p[o]))), 0.0)
 //
-// So the objects are looked at once, or everything that depends on the number becomes one table.
+// So the objects are visited once, or everything that depends on the number becomes one table.
 #pragma once
 
 #include "ir/ir.hpp"

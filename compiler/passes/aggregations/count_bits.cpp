@@ -1,3 +1,4 @@
+// Over 400 lines: one pass, whose steps are of no use to others.
 #include "passes/aggregations/count_bits.hpp"
 
 #include "ir/evaluator.hpp"

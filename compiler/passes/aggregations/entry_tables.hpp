@@ -19,7 +19,7 @@ class EntryTables {
     ir::BufferId table(const std::string& name, ir::Scalar scalar,
                        const std::vector<ir::Value>& values, Span span);
 
-    // An index over so many entries. `depth` tells apart those that are bound inside each other.
+    // An index over so many entries. `depth` distinguishes those that are bound inside each other.
     ir::VariableId variable(std::int64_t count, std::size_t depth);
 
   private:

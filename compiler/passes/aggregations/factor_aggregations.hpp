@@ -1,5 +1,5 @@
-// What an inner variable does not change is taken out of its aggregation, so that what is left
-// inside depends on fewer variables and can become a table (hoist_aggregations).
+// Factors that an inner variable does not change are taken out of its aggregation, so that the rest
+// depends on fewer variables and can become a table (hoist_aggregations).
 //
 //     for p in provider
 //         next.sold[p] = sum[c in consumer](sum[i in item](int(buys[c, i] && by[p, i])))

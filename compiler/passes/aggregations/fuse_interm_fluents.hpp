@@ -1,5 +1,4 @@
-// What an interm- or derived-fluent is computed from stands where it is read, unless that repeats
-// work.
+// The expression of an interm- or derived-fluent replaces its reads, unless that repeats work.
 //
 //     for s in segment
 //         scratch.inside[s] = LEFT[s] <= state.x
@@ -7,8 +6,8 @@
 //         real(scratch.inside[s]))                         real(LEFT[s] <= state.x))
 //
 // So cheap ones may be read several times, others once for each element. A single value that is not
-// cheap keeps its name. One that may fault stays, because its reader might not evaluate it. The
-// buffer goes when remove_unused_buffers finds that nobody reads it.
+// cheap keeps its name. One that may fault stays, because its reader might not evaluate it.
+// remove_unused_buffers removes the unread buffer.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -29,6 +29,7 @@ struct Scope {
     Scope* outer = nullptr;  // null: not inside of any
     Relation relation = {};  // by axes that choose the row, then those of its columns
     std::size_t row_axes = 0;
+    bool has_row_an_entry = false;  // the rows are the entries of `outer`; else all there may be
     ir::NodeId entry = {};
     std::string name = {};  // of its tables
     Span span = {};
@@ -165,14 +166,14 @@ class Rewriting {
 
     // ---------------------------------------------------------------------- aggregations
 
-    // Reductions right inside each other by the same operator.
+    // Reductions right inside each other by the same operator, if their order does not matter.
     struct Nest {
         std::vector<ir::VariableId> variables;
         ir::NodeId body;
     };
     Nest nest_of(const ir::Reduce& outermost) const {
         Nest nest{{outermost.variable}, outermost.body};
-        while (true) {
+        while (program_[nest.body].type != ir::Scalar::Real) {
             const auto* inner = std::get_if<ir::Reduce>(&program_[nest.body].form);
             if (!inner || inner->op != outermost.op || inner->bounds) break;
             nest.variables.push_back(inner->variable);
@@ -185,10 +186,15 @@ class Rewriting {
         const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
         if (!neutral || reduce.bounds) return std::nullopt;
         Nest nest = nest_of(reduce);
-        const std::optional<Relation> found = pattern_.of(nest.body, *neutral);
-        if (!found) return std::nullopt;
-        if (found->tuples.empty()) return builder_.constant(*neutral);
+        std::vector<ir::NodeId> doubtful;
+        std::optional<Relation> found = pattern_.of(nest.body, *neutral);
+        if (!found && reduce.op == Reduction::Sum)
+            found = pattern_.of_term(reduce.body, doubtful);
+        if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
         Scope scope = scope_for(*found, nest, outer);
+        if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
+        if (found->tuples.empty())
+            return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
         // Objects that no table tells apart are left to loops inside.
         for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();
              ++variable) {
@@ -200,25 +206,60 @@ class Rewriting {
         entries_left_ -= scope.relation.count();
         ++report_["aggregations made sparse"];
         name(scope, nest.body);
-        return over_entries(reduce.op, nest.body, scope);
+        return with_terms_left_out(over_entries(reduce.op, nest.body, scope), doubtful, outer);
     }
 
-    Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) const {
+    // A term that is left out is zero times each of these: it is nan where one is not finite. Else
+    // it is a zero, which does not change a sum, since a sum is never -0.0.
+    ir::NodeId with_terms_left_out(ir::NodeId sum, const std::vector<ir::NodeId>& doubtful,
+                                   Scope& outer) {
+        for (const ir::NodeId factor : doubtful) {
+            const ir::NodeId zero = builder_.constant(0.0);
+            const ir::NodeId term =
+                builder_.apply(Operator::Multiply, {zero, rewritten(factor, outer)});
+            sum = builder_.apply(Operator::Add, {sum, term});
+        }
+        return sum;
+    }
+
+    static bool lacks_entries_in_each_row(const Scope& scope) {
+        const auto columns = volume(scope.columns());
+        if (!columns) return false;
+        std::int64_t row = -1, count = 0;
+        return std::ranges::none_of(scope.relation.tuples, [&](std::int64_t tuple) {
+            count = tuple / *columns == row ? count + 1 : 1;
+            row = tuple / *columns;
+            return count == *columns;
+        });
+    }
+
+    Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) {
         Scope scope{.outer = &outer};
         std::vector<Axis> axes;
         std::ranges::remove_copy_if(found.axes, std::back_inserter(axes), [&](const Axis& axis) {
             return std::ranges::find(nest.variables, axis.variable) != nest.variables.end();
         });
         scope.row_axes = axes.size();
+        scope.has_row_an_entry = outer.outer && std::ranges::is_permutation(axes, outer.axes());
+        if (scope.has_row_an_entry) axes.assign(outer.axes().begin(), outer.axes().end());
         for (const ir::VariableId variable : nest.variables) {
             if (found.has(variable)) axes.push_back({variable, program_[variable].size});
         }
         scope.relation = ordered(found, std::move(axes));
+        if (scope.has_row_an_entry) keep_rows_of_entries(scope);
         return scope;
     }
 
+    // The others are not evaluated.
+    static void keep_rows_of_entries(Scope& scope) {
+        const std::int64_t columns = *volume(scope.columns());
+        std::erase_if(scope.relation.tuples, [&](std::int64_t tuple) {
+            return !std::ranges::binary_search(scope.outer->relation.tuples, tuple / columns);
+        });
+    }
+
     bool is_worthwhile(const Scope& scope, ir::NodeId body) const {
-        const auto rows = volume(scope.rows()), columns = volume(scope.columns());
+        const auto rows = rows_of(scope), columns = volume(scope.columns());
         if (!rows || !columns || scope.columns().empty()) return false;
         const auto count = static_cast<double>(scope.relation.count());
         const auto row_count = static_cast<double>(*rows);
@@ -229,14 +270,15 @@ class Rewriting {
     }
 
     ir::NodeId over_entries(Reduction op, ir::NodeId body, Scope& scope) {
-        if (has_one_entry_a_row(scope)) {
+        const std::vector<ir::Value> begins = row_begins(scope);
+        if (has_one_entry_a_row(begins)) {
             scope.entry = row_of(scope);
             return builder_.aggregated(op, rewritten(body, scope));
         }
         const ir::VariableId variable = tables_.variable(scope.relation.count(), height_of(body));
         scope.entry = builder_.index(variable);
         if (scope.row_axes == 0) return builder_.reduce(op, variable, rewritten(body, scope));
-        const ir::Bounds bounds = bounds_of_row(scope);
+        const ir::Bounds bounds = bounds_of_row(scope, begins);
         const ir::NodeId term = rewritten(body, scope);
         if (const auto whole = of_equal_terms(op, term, bounds, variable)) return *whole;
         return builder_.reduce(op, variable, term, bounds);
@@ -261,17 +303,16 @@ class Rewriting {
     }
 
     // Then the row is the entry.
-    static bool has_one_entry_a_row(const Scope& scope) {
-        const std::int64_t columns = *volume(scope.columns());
-        for (std::int64_t row = 0; row < scope.relation.count(); ++row) {
-            if (scope.relation.tuples[static_cast<std::size_t>(row)] / columns != row) return false;
+    static bool has_one_entry_a_row(const std::vector<ir::Value>& begins) {
+        for (std::size_t row = 0; row < begins.size(); ++row) {
+            if (begins[row] != ir::Value(static_cast<std::int64_t>(row))) return false;
         }
-        return scope.relation.count() == *volume(scope.rows());
+        return true;
     }
 
-    ir::Bounds bounds_of_row(const Scope& scope) {
+    ir::Bounds bounds_of_row(const Scope& scope, const std::vector<ir::Value>& row_begins) {
         const ir::BufferId begins =
-            tables_.table(scope.name + "-rows", ir::Scalar::Int, row_begins(scope), scope.span);
+            tables_.table(scope.name + "-rows", ir::Scalar::Int, row_begins, scope.span);
         const ir::NodeId row = row_of(scope);
         const ir::NodeId one = builder_.constant(std::int64_t{1});
         const ir::NodeId next = builder_.apply(Operator::Add, {row, one});
@@ -279,6 +320,7 @@ class Rewriting {
     }
 
     ir::NodeId row_of(const Scope& scope) {
+        if (scope.has_row_an_entry) return scope.outer->entry;
         ir::NodeId row = builder_.constant(std::int64_t{0});
         for (const Axis& axis : scope.rows()) {
             const ir::NodeId size = builder_.constant(axis.size);
@@ -289,17 +331,25 @@ class Rewriting {
         return row;
     }
 
+    static std::optional<std::int64_t> rows_of(const Scope& scope) {
+        return scope.has_row_an_entry ? scope.outer->relation.count() : volume(scope.rows());
+    }
+
     // Where the entries of each row begin; at the end, how many there are.
     static std::vector<ir::Value> row_begins(const Scope& scope) {
         const std::vector<std::int64_t>& entries = scope.relation.tuples;
-        const std::int64_t rows = *volume(scope.rows()), columns = *volume(scope.columns());
+        const std::int64_t rows = *rows_of(scope), columns = *volume(scope.columns());
         std::vector<ir::Value> begins;
         begins.reserve(static_cast<std::size_t>(rows) + 1);
         auto entry = entries.begin();
-        for (std::int64_t row = 0; row <= rows; ++row) {
+        for (std::int64_t k = 0; k < rows; ++k) {
+            const std::int64_t row = scope.has_row_an_entry
+                                         ? scope.outer->relation.tuples[static_cast<std::size_t>(k)]
+                                         : k;
             while (entry != entries.end() && *entry / columns < row) ++entry;
             begins.emplace_back(std::int64_t{entry - entries.begin()});
         }
+        begins.emplace_back(std::int64_t{std::ssize(entries)});
         return begins;
     }
 

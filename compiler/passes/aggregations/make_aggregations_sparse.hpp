@@ -6,12 +6,23 @@
 //
 //     sum[entry in LINK-rows[c] .. LINK-rows[c + 1]](int(state.up[LINK-d[entry]]))
 //
-// Which objects contribute is what constant tables and comparisons of objects decide
-// (sparsity_pattern.hpp). What is fixed for an entry, such as a weight, becomes a table of entries;
-// so the dense tables go when remove_unused_buffers finds that nobody reads them. Nested
-// aggregations become one. Entries are in the order of the objects, and what is left out would have
-// added 0, multiplied by 1 and so on. So values stay the same, except that nested sums and products
-// of reals are rounded in another order.
+// Constant tables and comparisons of objects decide which objects contribute
+// (sparsity_pattern.hpp). Values that are fixed for an entry, such as a weight, become a table of
+// entries; then remove_unused_buffers removes the unread dense tables. Nested aggregations become
+// one. Those of reals stay nested, since partial sums are rounded: an outer one runs over the
+// objects that have entries, an inner one over the entries of such an object.
+//
+//     sum[x in cell](sum[y in cell](RATE[x, y] * real(state.on[y])))
+//                                       =>
+//     sum[entry-2 in cell](sum[entry in RATE-rows[entry-2] .. RATE-rows[entry-2 + 1]](
+//         RATE-entries[entry] * real(state.on[RATE-y[entry]])))
+//
+// Entries are in the order of the objects, and the omitted ones would have added 0, multiplied by 1
+// and so on. A zero times a factor that may be inf would have added nan; if the factor is the same
+// for all objects, one such term stands for all omitted ones:
+//
+//     sum[y in cell](RATE[x, y] * state.s)   =>   sum[entry in ...](RATE-entries[entry] * state.s)
+//                                                     + 0.0 * state.s
 #pragma once
 
 #include "ir/ir.hpp"

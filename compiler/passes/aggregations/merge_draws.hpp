@@ -4,11 +4,11 @@
 //                                       =>
 //     sample bernoulli@0[c](select(state.up[c], P[c], 0.1))
 //
-// Packs, of which some lanes take each branch, then draw once. Where the parameters of one draw may
-// be wrong, its place stays, so that the fault is told of the right one. A draw that something else
-// needs, too, such as the condition, stays as it is: a site draws for one node.
+// Packs, of which some lanes take each branch, then draw once. If the parameters of one draw may be
+// wrong, its place stays, so that the fault is reported for the right one. A draw that is also used
+// elsewhere, such as in the condition, stays as it is: a site draws for one node.
 //
-// Where the condition looks at the same objects as the probability, a constant goes along:
+// If the condition reads the same objects as the probability, a constant branch is merged as well:
 //
 //     select(up-neighbours == 0, false, sample bernoulli@0[c](f(up-neighbours)))
 //                                       =>

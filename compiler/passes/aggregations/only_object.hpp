@@ -1,4 +1,4 @@
-// Which object fulfils a condition, where at most one can.
+// Finds the object that fulfils a condition, if at most one can.
 #pragma once
 
 #include "ir/builder.hpp"
@@ -20,8 +20,8 @@ class OnlyObjects {
     OnlyObjects(ir::Program& program, ir::Builder& builder)
         : program_(program), builder_(builder) {}
 
-    // Of the objects that the variable runs over. Neither part depends on the variable, draws anew
-    // or may fault. None if several objects may fulfil the condition.
+    // The one of the objects that the variable runs over. Neither part depends on the variable,
+    // draws again or may fault. Nothing if several objects may fulfil the condition.
     std::optional<OnlyObject> fulfilling(const Condition& condition, ir::VariableId variable);
 
   private:

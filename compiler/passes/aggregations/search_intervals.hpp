@@ -1,5 +1,5 @@
-// What depends on the interval in which a number lies becomes a search among the ends of the
-// intervals.
+// An expression that depends on the interval of a number becomes a binary search among the ends of
+// the intervals.
 //
 //     sum[s in segment](SLOPE[s] * real(state.x >= LEFT[s] && state.x < RIGHT[s]))
 //                                          =>

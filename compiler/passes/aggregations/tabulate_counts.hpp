@@ -1,4 +1,4 @@
-// What depends on constants and one count, or another int of a small range, becomes a table.
+// An expression of constants and one count, or another int of a small range, becomes a table.
 //
 //     1.0 / (1.0 + exp(4.5 - real(sum[e in row](int(state.burning[e])))))
 //                                       =>

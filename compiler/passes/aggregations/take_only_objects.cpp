@@ -41,7 +41,7 @@ class Indexing {
         if (has_place_of(variable, nest.body)) return std::nullopt;
         for (const Condition& condition : decisive_conditions(builder_, nest.body, *neutral)) {
             const auto object = find_(program_, builder_, condition, variable);
-            if (!object) continue;
+            if (!object || adds_in_another_order(nest, object->index)) continue;
             return taken(nest, variable, condition, *object, *neutral);
         }
         return std::nullopt;
@@ -49,7 +49,7 @@ class Indexing {
 
     // ------------------------------------------------------------------------- the nest
 
-    // An aggregation and those of the same kind right inside of it. Their order does not matter.
+    // An aggregation and those of the same kind right inside of it.
     struct Nest {
         Reduction op;
         std::vector<ir::VariableId> inner;
@@ -63,6 +63,12 @@ class Indexing {
             nest.body = inner->body;
         }
         return nest;
+    }
+
+    // An object for each of the inner ones gives one sum in place of a sum for each object; in
+    // which order reals are added matters.
+    bool adds_in_another_order(const Nest& nest, ir::NodeId object) const {
+        return program_[nest.body].type == ir::Scalar::Real && depends_on_any(object, nest.inner);
     }
 
     ir::NodeId over_inner(const Nest& nest, ir::NodeId body) {

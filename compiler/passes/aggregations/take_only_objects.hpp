@@ -11,14 +11,14 @@
 
 namespace rddlc::passes {
 
-// Which object of a variable fulfils a condition, if at most one can. May add constant tables to
-// the program, and nodes by its builder.
+// Finds the object of a variable that fulfils a condition, if at most one can. May add constant
+// tables to the program, and nodes by its builder.
 using FindOnlyObject = std::function<std::optional<OnlyObject>(ir::Program&, ir::Builder&,
                                                                const Condition&, ir::VariableId)>;
 
-// Wherever an aggregation has its neutral value but for the object that is found, its body for that
-// object stands in its place; a sum of reals still begins with 0.0. What draws or may fault in a
-// place of its own for each object stays.
+// If an aggregation has its neutral value except for the object that is found, its body for that
+// object replaces it; a sum of reals still begins with 0.0. Draws, and fallible expressions, with a
+// place of their own for each object stay.
 ir::Program take_only_objects(ir::Program program, const FindOnlyObject& find);
 
 }  // namespace rddlc::passes

@@ -1,4 +1,4 @@
-// What the compiler computes for the simulator, with the evaluator that would run it.
+// Values that the compiler computes for the simulator, with the evaluator that would run it.
 #pragma once
 
 #include "ir/evaluator.hpp"
@@ -15,8 +15,8 @@ struct Assumed {
     ir::Value value;
 };
 
-// The values of an expression that depends on constants, these variables and what is assumed only,
-// row-major, the first variable outermost. None if it faults for any of them.
+// The values of an expression that depends only on constants, these variables and the assumptions,
+// row-major, the first variable outermost. Nothing if it faults for any of them.
 std::optional<std::vector<ir::Value>> constant_values(const ir::Evaluator& evaluator,
                                                       const ir::Program& program, ir::NodeId id,
                                                       const std::vector<ir::VariableId>& variables,

@@ -1,4 +1,4 @@
-// Which parts of an expression decide on their own that it has a given value.
+// Finds the parts of an expression that decide on their own that it has a given value.
 //
 //     c == d && state.up[d]                 is false unless c == d, and unless state.up[d]
 //     c != d || state.up[d]                 is true unless c == d, and unless !state.up[d]
@@ -19,8 +19,8 @@ struct Condition {
     auto operator<=>(const Condition&) const = default;
 };
 
-// The expression has `value` unless all of these hold. Only what it evaluates in any case is
-// looked at. A zero may have either sign, which a sum does not show: it begins with 0.0.
+// The expression has `value` unless all of these hold. Only parts that it evaluates in any case
+// count. A zero may have either sign, which a sum does not show: it begins with 0.0.
 std::vector<Condition> decisive_conditions(const ir::Builder& builder, ir::NodeId id,
                                            const ir::Value& value);
 

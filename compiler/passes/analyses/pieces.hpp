@@ -1,4 +1,4 @@
-// Expressions that look at one number only by comparing it with constants.
+// Expressions that read one number only to compare it with constants.
 //
 //     sum[s in segment](SLOPE[s] * real(state.x >= LEFT[s] && state.x < RIGHT[s]))
 //
@@ -25,10 +25,11 @@ struct Pieces {
     std::vector<ir::Value> representatives() const;
 };
 
-// Does the expression look at nothing else that is not constant? Quick, as nothing is evaluated.
+// Whether the expression reads nothing else that is not constant. Quick, since nothing is
+// evaluated.
 bool compares_one_number(const ir::Builder& builder, ir::NodeId id);
 
-// None if the expression looks at anything else that is not constant, if it may fault or if there
+// Nothing if the expression reads anything else that is not constant, if it may fault or if there
 // are no breaks or too many.
 std::optional<Pieces> pieces_of(const ir::Builder& builder, const ir::Evaluator& evaluator,
                                 ir::NodeId id);

@@ -10,12 +10,12 @@ namespace rddlc::passes {
 
 // for o in obj; for p in pair; scratch.x[o, p] = value
 struct PlainDefinition {
-    // By dimension; none where there is one object only.
+    // The loop variables by dimension; absent for a dimension of one object.
     std::vector<std::optional<ir::VariableId>> variables;
     ir::NodeId value;
 };
 
-// None if the definition is of another form.
+// Nothing if the definition is of another form.
 std::optional<PlainDefinition> plain_definition(const ir::Program& program,
                                                 const ir::Definition& definition);
 

@@ -1,4 +1,4 @@
-// Who reads the interm- and derived-fluents of a step, and how often.
+// The readers of the interm- and derived-fluents of a step, and how often they read.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -19,7 +19,7 @@ struct Readers {
     bool functions = false;              // external or matrix functions take or overwrite it
 };
 
-// By BufferId::index, of what the step and the reward read.
+// The reads of the step and the reward, by BufferId::index.
 std::vector<Readers> readers_of_step(const ir::Program& program);
 
 // The variables that the node, or anything below it, binds.

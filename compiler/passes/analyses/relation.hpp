@@ -19,7 +19,7 @@ struct Axis {
 
 // A set of tuples, each held as its row-major index over the axes; sorted, each once. The axes are
 // sorted by variable, unless `ordered` gave them another order. Over no axes: true (one empty
-// tuple) or false (none).
+// tuple) or false (no tuple).
 struct Relation {
     std::vector<Axis> axes;
     std::vector<std::int64_t> tuples;
@@ -28,7 +28,7 @@ struct Relation {
     std::int64_t count() const { return static_cast<std::int64_t>(tuples.size()); }
 };
 
-// How many tuples there could be; none if that is too large a number for an index.
+// The number of possible tuples; nothing if it is too large for an index.
 std::optional<std::int64_t> volume(std::span<const Axis> axes);
 
 // The values of a tuple, one for each axis.
@@ -42,10 +42,10 @@ Relation ordered(const Relation& relation, std::vector<Axis> axes);
 // a superset, the smaller of the two.
 Relation join(const Relation& a, const Relation& b);
 
-// The tuples whose parts are in `a` or in `b`; none where these are too many.
+// The tuples whose parts are in `a` or in `b`; nothing if these are too many.
 std::optional<Relation> unite(const Relation& a, const Relation& b);
 
-// Those of which some value of `variable` makes a tuple.
+// The parts that some value of `variable` completes to a tuple.
 Relation project(const Relation& relation, ir::VariableId variable);
 
 }  // namespace rddlc::passes

@@ -17,7 +17,7 @@ class SeveralObjects {
   public:
     using FactsOf = std::function<const ir::Facts&(ir::NodeId)>;
 
-    // `is_element` tells which nodes are going to be elements of tables.
+    // `is_element` says which nodes will become elements of tables.
     SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,
                    std::function<bool(ir::NodeId)> is_element = nullptr);
 

@@ -3,6 +3,7 @@
 #include "support/match.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace rddlc::passes {
@@ -39,6 +40,12 @@ bool is_sparse(const Relation& relation) {
            static_cast<double>(relation.count()) <= sparse_enough * static_cast<double>(*all);
 }
 
+void add_new(std::vector<ir::NodeId>& nodes, const std::vector<ir::NodeId>& others) {
+    std::ranges::copy_if(others, std::back_inserter(nodes), [&](ir::NodeId id) {
+        return std::ranges::find(nodes, id) == nodes.end();
+    });
+}
+
 }  // namespace
 
 SparsityPattern::SparsityPattern(const ir::Builder& builder, const ir::Evaluator& evaluator)
@@ -60,6 +67,46 @@ std::optional<Relation> SparsityPattern::of(ir::NodeId id, const ir::Value& valu
         [](const auto&) { return Found(); });
     if (!found && facts(id).uniform) found = of_common_elements(id, value);
     if (found && !is_sparse(*found)) found.reset();
+    return found;
+}
+
+std::optional<Relation> SparsityPattern::of_term(ir::NodeId id, std::vector<ir::NodeId>& doubtful) {
+    if (program()[id].type != ir::Scalar::Real) return std::nullopt;
+    if (const Found found = of(id, 0.0)) return found;
+    return match(
+        program()[id].form,
+        [&](const ir::Apply& form) {
+            if (form.op != Operator::Multiply) return Found();
+            const ir::NodeId a = form.operands.front(), b = form.operands.back();
+            const Found found = of_doubtful_product(a, b, doubtful);
+            return found ? found : of_doubtful_product(b, a, doubtful);
+        },
+        [&](const ir::Select& form) {
+            if (!ir::is_guarded_product(program(), form)) return Found();
+            // Where the tested factor is zero, the other one may be anything.
+            std::vector<ir::NodeId> inner;
+            const Found found = of_term(form.else_value, inner);
+            if (inner != std::vector{form.then_value}) return Found();
+            add_new(doubtful, inner);
+            return found;
+        },
+        [&](const ir::Reduce& form) {
+            if (form.op != Reduction::Sum || form.bounds) return Found();
+            std::vector<ir::NodeId> inner;
+            const Found inside = of_term(form.body, inner);
+            if (!inside || depend(inner, form.variable)) return Found();
+            add_new(doubtful, inner);
+            return std::optional(project(*inside, form.variable));
+        },
+        [](const auto&) { return Found(); });
+}
+
+// By the zeros of `a`, if `b` is not known to be finite.
+std::optional<Relation> SparsityPattern::of_doubtful_product(ir::NodeId a, ir::NodeId b,
+                                                        std::vector<ir::NodeId>& doubtful) {
+    if (facts(b).may_fault) return std::nullopt;
+    const Found found = of_term(a, doubtful);
+    if (found && !facts(b).finite) add_new(doubtful, {b});
     return found;
 }
 
@@ -100,6 +147,12 @@ Relation SparsityPattern::narrowed(Relation relation, ir::NodeId id, const ir::V
         return found == value;
     });
     return relation;
+}
+
+bool SparsityPattern::depend(std::span<const ir::NodeId> nodes, ir::VariableId variable) const {
+    return std::ranges::any_of(nodes, [&](ir::NodeId id) {
+        return std::ranges::binary_search(facts(id).free_variables, variable);
+    });
 }
 
 bool SparsityPattern::affords(ir::NodeId id, double times) {

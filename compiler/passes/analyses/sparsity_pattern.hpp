@@ -1,4 +1,5 @@
-// Where an expression may differ from a given value, as far as constant tables decide that.
+// The objects for which an expression may differ from a given value, as far as constant tables
+// decide that.
 //
 //     LINK[x, y] && state.up[y]      differs from false only for (x, y) in LINK
 //     COST[x] * real(state.up[x])    differs from 0 only for x with a cost
@@ -23,11 +24,18 @@ class SparsityPattern {
     // Both must outlive this. The evaluator is of the builder's program; nodes may be added later.
     SparsityPattern(const ir::Builder& builder, const ir::Evaluator& evaluator);
 
-    // For all other assignments, evaluating the node gives `value` and no fault; a zero may have
-    // either sign. None where nothing useful is known.
+    // The assignments outside of which evaluating the node gives `value` and no fault; a zero may
+    // have either sign. Nothing if no useful bound is known.
     std::optional<Relation> of(ir::NodeId id, const ir::Value& value);
 
-    // The value of a uniform node for a tuple of axes that hold all its variables; none if it
+    // The assignments outside of which a term of a sum is a zero if each of the factors that are
+    // added to `doubtful` is finite, and nan if one is not. Nothing if no useful bound is known.
+    std::optional<Relation> of_term(ir::NodeId id, std::vector<ir::NodeId>& doubtful);
+
+    // Whether any of the nodes depends on the variable.
+    bool depend(std::span<const ir::NodeId> nodes, ir::VariableId variable) const;
+
+    // The value of a uniform node for a tuple of axes that hold all its variables; nothing if it
     // faults.
     std::optional<ir::Value> evaluate(ir::NodeId id, std::span<const Axis> axes,
                                       std::int64_t tuple) const;
@@ -41,6 +49,7 @@ class SparsityPattern {
     Found of(const ir::Select& select, const ir::Value& value);
     Found of(const ir::Reduce& reduce, const ir::Value& value);
     Found of(const ir::Sample& sample, const ir::Value& value);
+    Found of_doubtful_product(ir::NodeId a, ir::NodeId b, std::vector<ir::NodeId>& doubtful);
     Found of_common_elements(ir::NodeId id, const ir::Value& value);
     Found entries_of_tables(ir::NodeId id);
     Found of_equality(ir::NodeId a, ir::NodeId b);

@@ -1,5 +1,5 @@
 // Rewrites that are right for real numbers, but not always for floating ones: only with
-// --fast-math. docs/fast-math.md tells what may change.
+// --fast-math. docs/fast-math.md says what may change.
 //
 //     x / 3.0                                x * 0.3333333333333333
 //     x / E[o]                               x * (1.0 / E[o])

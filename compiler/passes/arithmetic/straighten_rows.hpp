@@ -1,6 +1,6 @@
-// Rows of tables that passes have made, which are lines but for rounding, become lines: then the
-// emitted code computes their elements where that is faster (rddl/object_lanes/rows.hpp). Only with
-// --fast-math, since elements change by some units in the last place.
+// Rows of tables that passes have made, and that are lines except for rounding, become lines: then
+// the emitted code computes their elements if that is faster (rddl/object_lanes/rows.hpp). Only
+// with --fast-math, since elements change by some units in the last place.
 //
 //     0.525, 0.5725, 0.6199999999999999, 0.6675     0.525, 0.5725, 0.62, 0.6675
 //

@@ -3,7 +3,7 @@
 //     CAPACITY[res]: real = 10.0                 CAPACITY[res]: real = 10.0
 //     next.level[r] = min(level[r], CAPACITY[r])  =>  next.level[r] = min(level[r], 10.0)
 //
-// The table itself goes when remove_unused_buffers finds that nobody reads it. An index that draws
+// remove_unused_buffers removes the unread table. An index that draws
 // or may fault keeps the table.
 #pragma once
 

@@ -5,8 +5,7 @@
 //             scratch.above[a, b] = Y[a] == Y[b] + 1
 //     ... scratch.above[c, d] ...                  =>   ... above[c, d] ...
 //
-// Unless it may fault. The fluent itself goes when remove_unused_buffers finds that nobody reads
-// it.
+// A fluent that may fault stays. remove_unused_buffers removes the unread fluent.
 #pragma once
 
 #include "ir/ir.hpp"

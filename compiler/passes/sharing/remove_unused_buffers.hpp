@@ -1,12 +1,12 @@
-// Forgets what nobody reads: constant tables, and interm- and derived-fluents with the statements
+// Removes unread buffers: constant tables, and interm- and derived-fluents with the statements
 // that fill them.
 //
 //     scratch.seen[c] = running[c] && noisy[c]
 //     next.running[c] = running[c]                =>   next.running[c] = running[c]
 //
 // An interm-fluent that may fault stays: the fault would end the episode. One that draws may go,
-// because a draw depends on its place only, never on other draws. Fluent::buffer of what went is
-// empty, and sites keep their numbers.
+// because a draw depends on its place only, never on other draws. Fluent::buffer of a removed
+// fluent is empty, and sites keep their numbers.
 #pragma once
 
 #include "ir/ir.hpp"

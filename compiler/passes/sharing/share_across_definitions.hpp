@@ -1,12 +1,13 @@
-// What several CPFs, or a CPF and the reward, compute is computed once.
+// Common subexpressions of several CPFs, or of a CPF and the reward, are computed once.
 //
 //     next.x = state.x + cos(state.angle)               scratch.cos-angle = cos(state.angle)
 //     next.y = state.y + sqrt(cos(state.angle))    =>   next.x = state.x + scratch.cos-angle
 //                                                       next.y = state.y + sqrt(scratch.cos-angle)
 //
-// In a table of the variables that it depends on, filled before the first CPF that needs it, if
-// that saves work. What may fault stays where it is, and so does a long computation that no CPF
-// needs in any case. Shorter ones are computed even if no branch that needs them is taken.
+// The value is stored in a table of the variables that it depends on, filled before the first CPF
+// that needs it, if that saves work. A fallible expression stays where it is, and so does a long
+// computation that no CPF needs in any case. Shorter ones are computed even if no branch that needs
+// them is taken.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -1,4 +1,4 @@
-// What is computed twice is computed once, and what a loop does not change is computed before it.
+// Common subexpressions are computed once, and loop-invariant ones before the loop.
 //
 //     for c in computer                              let %0 = exists[d in computer](state.up[d])
 //         next.up[c] = exists[d in computer]    =>   for c in computer
@@ -8,8 +8,8 @@
 //                                                    next.x = %0 + 1.0 / %0
 //
 // A Let stands before the outermost statement of the block in which all its loop indices are bound,
-// and only for what that statement evaluates in any case: nothing that may fault leaves the lazy
-// branch of a Select. Trivial expressions are repeated instead.
+// and only for expressions that the statement evaluates in any case: nothing that may fault leaves
+// the lazy branch of a Select. Trivial expressions are repeated instead.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -27,7 +27,8 @@ from ..records import lifted_views
 def make(
     domain: str, instance: str, base_class: type[RDDLEnv] = RDDLEnv, **env_kwargs: Any
 ) -> RDDLEnv:
-    """As pyRDDLGym.make, with a name and an instance of rddlrepository or two files."""
+    """Makes an environment as pyRDDLGym.make does, from a name and an instance of rddlrepository or
+    two files."""
     backend_kwargs = {"problem": Problem(domain, instance)} | env_kwargs.pop("backend_kwargs", {})
     return pyRDDLGym.make(
         domain,
@@ -47,7 +48,7 @@ class RDDLSimulator(Interpreted):
         super().__init__(*arguments, **options)
         self.problem = problem
         model = problem.model
-        self._batch = _native.Batch(problem.simulator, horizon=NO_HORIZON, values=False)
+        self._batch = _native.EnvPool(problem.simulator, horizon=NO_HORIZON, values=False)
         self._causes = 0
         self._record = np.zeros((1, model.state_size), np.uint8)
         self._actions = lifted_views(self._batch.actions, model.actions)
@@ -121,7 +122,7 @@ class _Values:
         self._tells_names = simulator.objects_as_strings
 
     def read(self, subs: dict[str, Any]) -> dict[str, Any]:
-        """Writes the numbers into `subs`, too."""
+        """Also writes the numbers into `subs`."""
         values: dict[str, Any] = {}
         for (fluent, view), names in zip(self._views, self._names):
             array = view.astype(bool) if fluent.scalar == "bool" else view.copy()

@@ -23,7 +23,7 @@ from ..environment import RDDLEnv
 
 NAME = "rddlc"
 FORMS: dict[str, Any] = {"observations": "flat", "actions": "box", "normalize": True}
-"""What RLlib's default models take; each may be told otherwise."""
+"""The options of RLlib's default models; each may be overridden."""
 
 
 def env_config(
@@ -62,7 +62,7 @@ def _files_of(texts: Mapping[str, str]) -> list[str]:
         if not file.exists():
             fresh = folder / f"{name}.{os.getpid()}"
             fresh.write_text(text)
-            fresh.replace(file)  # other processes write it, too
+            fresh.replace(file)  # other processes also write it
         files.append(str(file))
     return files
 

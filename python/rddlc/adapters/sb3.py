@@ -16,6 +16,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv as Base
+from stable_baselines3.common.vec_env import VecMonitor
 
 from .. import _problem_of
 from ..arguments import refuse_unknown
@@ -36,14 +37,15 @@ def make(domain: Any, instance: Any = None, **options: Any) -> RDDLEnv:
     return env if takes_actions(env.action_space) else RDDLEnv(problem, **options | {"actions": "box"})
 
 
-def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecEnv:
-    """The same of many environments in one batch (`rddlc.make_vec`)."""
+def make_vec(domain: Any, instance: Any = None, num_envs: int = 1, **options: Any) -> VecMonitor:
+    """The same of many environments in one batch (`rddlc.make_vec`), with a VecMonitor, so that
+    learners log returns and lengths of episodes."""
     problem = _problem_of(domain, instance, options, RDDLVectorEnv)
     options = {"actions": "simplified", "autoreset_mode": "SameStep", **options}
     envs = RDDLVectorEnv(problem, num_envs, **options)
     if not takes_actions(envs.single_action_space):
         envs = RDDLVectorEnv(problem, num_envs, **options | {"actions": "box"})
-    return VecEnv(envs)
+    return VecMonitor(VecEnv(envs))
 
 
 def takes_actions(space: gymnasium.Space[Any]) -> bool:
@@ -54,7 +56,7 @@ def takes_actions(space: gymnasium.Space[Any]) -> bool:
 
 
 class VecEnv(Base):
-    """Environments that start anew in the step that ends them: infos[i] then holds
+    """Environments that restart in the step that ends them: infos[i] then holds
     "terminal_observation", "TimeLimit.truncated" and "cause"."""
 
     def __init__(self, env: RDDLVectorEnv) -> None:
@@ -79,7 +81,8 @@ class VecEnv(Base):
         return observations
 
     def _options_of_reset(self) -> dict[str, Any] | None:
-        """What set_options has for the next reset: {"state": State} of each environment."""
+        """Returns the options that set_options has left for the next reset: {"state": State} of
+        each environment."""
         if not any(self._options):
             return None
         refuse_unknown("option of reset", {name for each in self._options for name in each}, ("state",))
@@ -115,7 +118,11 @@ class VecEnv(Base):
         self.env.close()
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
-        return [getattr(self.env, attr_name) for _ in self._get_indices(indices)]
+        rows = self.env.get_attr(attr_name)
+        return [rows[place] for place in self._get_indices(indices)]
+
+    def get_images(self) -> list[Any]:
+        return list(self.env.render() or ())
 
     def set_attr(self, attr_name: str, value: Any, indices: Indices = None) -> None:
         setattr(self.env, attr_name, value)
@@ -123,11 +130,9 @@ class VecEnv(Base):
     def env_method(
         self, method_name: str, *method_args: Any, indices: Indices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """Of "action_masks" each environment's own row, as MaskablePPO asks for it."""
-        chosen = list(self._get_indices(indices))
-        result = getattr(self.env, method_name)(*method_args, **method_kwargs)
-        is_by_row = isinstance(result, np.ndarray) and len(result) == self.num_envs
-        return [result[place] if is_by_row else result for place in chosen]
+        """Does the same as `RDDLVectorEnv.call`: MaskablePPO asks for "action_masks" in this way."""
+        rows = self.env.call(method_name, *method_args, **method_kwargs)
+        return [rows[place] for place in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Indices = None) -> list[bool]:
         return [False for _ in self._get_indices(indices)]

@@ -39,8 +39,8 @@ class D(RLDomain, FullyObservable, Renderable):
 
 
 class RDDLDomain(D):
-    """An environment with dictionaries of observations and of actions. Of a partially observed
-    problem observations are all that is seen. An end is an end, whatever its cause."""
+    """An environment with dictionaries of observations and of actions. Partially observed problems
+    show observations only. An end is an end, whatever its cause."""
 
     def __init__(
         self,
@@ -50,8 +50,8 @@ class RDDLDomain(D):
         movie: str | os.PathLike[str] | None = None,
         **options: Any,
     ) -> None:
-        """domain, instance, options: as `rddlc.make` takes them; render_mode is "rgb_array" unless
-        told. movie: a GIF of the latest episode that has ended, or of those that `save_gif` asks
+        """domain, instance, options: as `rddlc.make` takes them; render_mode is "rgb_array" by
+        default. movie: a GIF of the latest episode that has ended, or of those that `save_gif` asks
         for."""
         self.env: RDDLEnv = make(domain, instance, **{"render_mode": "rgb_array", **options})
         self._movie = movie
@@ -77,7 +77,7 @@ class RDDLDomain(D):
         return GymSpace(self.env.observation_space)
 
     def _render_from(self, memory: Any, **options: Any) -> Any:
-        """Of where the environment stands."""
+        """The present state of the environment."""
         return self.env.render()
 
 
@@ -116,11 +116,11 @@ class _Planning(Domain):  # what the two below have in common
 
     @property
     def discount(self) -> float:
-        """The instance's; solvers want to be told."""
+        """Returns the instance's discount; solvers ask for it."""
         return self.transitions.problem.model.discount
 
     def action(self, number: int) -> dict[str, Any]:
-        """What an action means, as `rddlc.make`'s environments take it."""
+        """Returns an action in the form that `rddlc.make`'s environments take."""
         return self.transitions.action(number)
 
     def _get_action_space_(self) -> Space[int]:
@@ -161,7 +161,7 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
     """Distributions of next states, costs, and the end of the episode as the goal.
 
     The cost of a step is most_reward less its reward, and an early end costs most_reward for each
-    step that is left, discounted: so the cheapest policy is the one that earns most. Distributions
+    step that is left, discounted: so the cheapest policy is the one with the highest return. Distributions
     are exact, or estimated from `samples` draws, as a problem needs that draws from infinitely many values.
     """
 
@@ -173,8 +173,8 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
         most_reward: float = 0.0,
         **options: Any,
     ) -> None:
-        """most_reward: no step earns more. levels, samples, horizon, seed, most_outcomes: see
-        `Transitions`."""
+        """most_reward: the largest reward of a step. levels, samples, horizon, seed, most_outcomes:
+        see `Transitions`."""
         super().__init__(domain, instance, **options)
         self._most_reward = finite("most_reward", most_reward)
         transitions = self.transitions
@@ -198,7 +198,7 @@ class RDDLPlanning(_Planning, GoalMDPDomain, Renderable):
         most, cost = self._most_reward, self._most_reward - outcome.reward
         if cost < -COST_ERROR * max(1.0, abs(most)):
             raise Error(
-                f"a step earns {outcome.reward:g}: say most_reward={outcome.reward:g} or more, "
+                f"a step has the reward {outcome.reward:g}: say most_reward={outcome.reward:g} or more, "
                 f"instead of {most:g}"
             )
         left = self.transitions.horizon - outcome.state.steps if outcome.state.causes else 0

@@ -1,1 +1,2 @@
-"""Between the engine's records and rows of numbers, and the spaces that Gymnasium's users see."""
+"""Translates between the engine's records and rows of numbers, and the spaces that Gymnasium's
+users see."""

@@ -1,4 +1,4 @@
-"""From categories and numbers to action values."""
+"""Converts categories and numbers to action values."""
 
 from __future__ import annotations
 

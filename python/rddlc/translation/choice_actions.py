@@ -27,7 +27,7 @@ class ChoiceActions:
     """
 
     def __init__(
-        self, problem: Problem, batch: _native.Batch, *, box: bool, normalize: bool
+        self, problem: Problem, batch: _native.EnvPool, *, box: bool, normalize: bool
     ) -> None:
         self.plan: ActionPlan = plan_of(problem)
         self._batch, self._values = batch, batch.action_values
@@ -95,9 +95,9 @@ class ChoiceActions:
         self._write(actions, values)
         return np.array(self._batch.violated_preconditions(values)) >= 0
 
-    def record(self, action: Any) -> NDArray[np.uint8]:
+    def records(self, actions: Any) -> NDArray[np.uint8]:
         values = np.empty_like(self._values)
-        self._write(action, values)
+        self._write(actions, values)
         return action_records(self._model, values)
 
     def default(self) -> Any:

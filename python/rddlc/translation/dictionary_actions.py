@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from .. import _native
 from ..errors import ActionError
-from ..model import Fluent, Model
+from ..model import Model
 from ..problems import Problem
-from ..records import Column, columns_of, grounded_view, lifted_views
+from ..records import columns_of, grounded_view, lifted_views
 from .fluent_spaces import ActionDict, action_space
+from .named_values import NamedValues, default_values
 
 Array = NDArray[Any]
 Records = NDArray[np.uint8]
-MOST_EXACT = 1 << 53  # Up to here an int is a double, which the native writer counts in.
 
 
 class DictionaryActions(ABC):
@@ -28,7 +28,7 @@ class DictionaryActions(ABC):
     plan = None
 
     def __init__(
-        self, problem: Problem, batch: _native.Batch, counted: list[bool], *, grounded: bool
+        self, problem: Problem, batch: _native.EnvPool, counted: list[bool], *, grounded: bool
     ) -> None:
         model = problem.model
         self._batch, self._written, self._asked = batch, batch.actions, np.zeros_like(batch.actions)
@@ -50,11 +50,11 @@ class DictionaryActions(ABC):
         return self._batch.step(into)
 
     def violated(self, actions: Any) -> NDArray[np.bool_]:
-        return np.array(self._batch.violated_preconditions(self.record(actions))) >= 0
+        return np.array(self._batch.violated_preconditions(self.records(actions))) >= 0
 
-    def record(self, action: Any) -> Records:
-        if not self._native_asked.write(action):
-            self._write(action, self._asked)
+    def records(self, actions: Any) -> Records:
+        if not self._native_asked.write(actions):
+            self._write(actions, self._asked)
         return self._asked
 
     @abstractmethod
@@ -81,21 +81,19 @@ def _layout(
 
 class SingleActions(DictionaryActions):
     """The actions of one environment. Names may be grounded or lifted. `limits_all`: whether
-    max-nondef-actions counts ints, objects and reals, too."""
+    max-nondef-actions also counts ints, objects and reals."""
 
     def __init__(
-        self, problem: Problem, batch: _native.Batch, *, lifted: bool, limits_all: bool
+        self, problem: Problem, batch: _native.EnvPool, *, lifted: bool, limits_all: bool
     ) -> None:
         model = problem.model
         columns = columns_of(model.actions)
         self._counted = [limits_all or column.fluent.scalar == "bool" for column in columns]
         super().__init__(problem, batch, self._counted, grounded=True)
-        self._entries = [_Entry(column) for column in columns]
-        self._place = {column.name: index for index, column in enumerate(columns)}
-        self._lifted = _ranges(model.actions)
         self._fluents, self._limit = model.actions, model.limited_actions
-        self._values_by_default = _default_values(problem)
-        by_name = dict(zip(self._place, self._values_by_default))
+        self._default_values = default_values(problem, model.actions)
+        self._named = NamedValues(model.actions, self._default_values, "action", ActionError)
+        by_name = dict(zip((column.name for column in columns), self._default_values))
         self._default = self._defaults if lifted else by_name
         self.space = action_space(model, self._default, lifted=lifted)
 
@@ -103,43 +101,14 @@ class SingleActions(DictionaryActions):
         return self._default
 
     def _write(self, actions: Any, records: Records) -> None:
-        values = self._values(actions)
+        values = self._named.values(actions)
+        if self._limit is not None:
+            self._check_limit(values)
         if values:
             grounded_view(records, self._fluents)[0] = tuple(values)
 
-    def _values(self, action: Mapping[str, Any]) -> list[Any]:
-        values = list(self._values_by_default)
-        try:
-            items = action.items()
-        except AttributeError:
-            raise ActionError(f"an action is a dictionary, not a {type(action).__name__}") from None
-        for name, value in items:
-            place = self._place.get(name)
-            if place is not None:
-                values[place] = self._entries[place].value(value)
-            else:
-                self._write_lifted(name, value, values)
-        if self._limit is not None:
-            self._check_limit(values)
-        return values
-
-    def _write_lifted(self, name: str, value: Any, values: list[Any]) -> None:
-        if name not in self._lifted:
-            raise ActionError(
-                f"there is no action '{name}'; there are {', '.join(list(self._place)[:8])}"
-                f"{', ...' if len(self._place) > 8 else ''}"
-            )
-        begin, fluent = self._lifted[name]
-        array = np.asarray(value)
-        if array.shape != fluent.shape:
-            raise ActionError(
-                f"action '{name}' has the shape {fluent.shape}, not {array.shape}"
-            )
-        for place, each in enumerate(array.ravel().tolist(), begin):
-            values[place] = self._entries[place].value(each)
-
     def _check_limit(self, values: list[Any]) -> None:
-        triples = zip(values, self._values_by_default, self._counted)
+        triples = zip(values, self._default_values, self._counted)
         changes = sum(counted and value != default for value, default, counted in triples)
         if changes > self._limit:
             raise ActionError(
@@ -148,54 +117,10 @@ class SingleActions(DictionaryActions):
             )
 
 
-class _Entry:
-    """What an action value may be."""
-
-    def __init__(self, column: Column) -> None:
-        self._name = column.name
-        self._objects = column.fluent.objects
-        self._is_real = column.fluent.scalar == "real"
-        self._kind = column.fluent.range
-        self._lower, self._upper = column.bounds
-
-    def value(self, given: Any) -> Any:
-        """As a Python number. Arrays of one element are that element."""
-        if isinstance(given, str):
-            return self._index_of(given)
-        if isinstance(given, np.ndarray):
-            if given.size != 1:
-                raise ActionError(
-                    f"action '{self._name}' is one value, not an array of shape {given.shape}"
-                )
-            given = given.item()
-        try:
-            if not self._lower <= given <= self._upper:
-                raise self._refusal(given)
-            number = float(given) if self._is_real else int(given)
-        except (TypeError, ValueError, OverflowError):
-            raise self._refusal(given) from None
-        if number != given:
-            raise self._refusal(given)
-        return number
-
-    def _index_of(self, name: str) -> int:
-        if self._objects is None or name.removeprefix("@") not in self._objects:
-            raise self._refusal(name)
-        return self._objects.index(name.removeprefix("@"))
-
-    def _refusal(self, given: Any) -> ActionError:
-        what = f"a {self._kind}"
-        if self._objects is not None:
-            what = f"one of {', '.join(self._objects)}, or its index"
-        elif np.isfinite([self._lower, self._upper]).any() and self._kind != "bool":
-            what += f" from {self._lower:g} to {self._upper:g}"
-        return ActionError(f"action '{self._name}' is {given!r}, which is not {what}")
-
-
 class LiftedActions(DictionaryActions):
     """The actions {"push": (n, *shape), ...} of a batch."""
 
-    def __init__(self, problem: Problem, batch: _native.Batch) -> None:
+    def __init__(self, problem: Problem, batch: _native.EnvPool) -> None:
         model = problem.model
         counted = [True] * sum(fluent.count for fluent in model.actions)
         super().__init__(problem, batch, counted, grounded=False)
@@ -241,26 +166,9 @@ class LiftedActions(DictionaryActions):
             )
 
 
-def _default_values(problem: Problem) -> list[Any]:
-    """Of all action values, as Python numbers."""
-    values: list[Any] = []
-    for fluent in problem.model.actions:
-        convert = float if fluent.scalar == "real" else int
-        values += [convert(each) for each in problem.constants(fluent.name)]
-    return values
-
-
 def lifted_defaults(problem: Problem) -> dict[str, Any]:
     """(*shape), or (1,), of each action-fluent."""
     return {
         fluent.name: np.reshape(problem.constants(fluent.name), fluent.shape or (1,))
         for fluent in problem.model.actions
     }
-
-
-def _ranges(fluents: list[Fluent]) -> dict[str, tuple[int, Fluent]]:
-    ranges, begin = {}, 0
-    for fluent in fluents:
-        ranges[fluent.name] = (begin, fluent)
-        begin += fluent.count
-    return ranges

@@ -124,7 +124,7 @@ def _space_of_fluent(fluent: Fluent) -> spaces.Box:
 
 
 def _limits(bounds: NDArray[np.float64], shape: tuple[int, ...], stored: np.dtype[Any]) -> Any:
-    """For Box, which takes an infinite bound of ints as a scalar only."""
+    """A bound in the form of Box, which takes an infinite bound of ints as a scalar only."""
     if stored.kind != "i":
         return bounds.reshape(shape)
     if (bounds == bounds[0]).all():

@@ -18,10 +18,10 @@ Change = tuple[int, int]  # a column of action values, and what it is set to
 
 
 class ActionMasks:
-    """For each environment of a batch and each category of an action whether it is legal, while all
-    others have their default."""
+    """For each environment of a batch and each category of an action: whether it is legal, while
+    all others have their default."""
 
-    def __init__(self, problem: Problem, batch: _native.Batch, writer: ActionWriter) -> None:
+    def __init__(self, problem: Problem, batch: _native.EnvPool, writer: ActionWriter) -> None:
         self._problem, self._batch = problem, batch
         self._space, self._plan = writer.space, writer.plan
         self._is_prepared = False  # that takes a while, and few ask

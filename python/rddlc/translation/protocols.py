@@ -1,4 +1,4 @@
-"""What environments ask of the modules beside this one."""
+"""The interfaces of the modules beside this one for environments."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ class ActionWriter(Protocol):
         """How categories and numbers set action values; None: actions are dictionaries of values."""
 
     def step(self, actions: Any, into: Any = None) -> bool:
-        """A step by these actions; `into`: see `_native.Batch.step`. Whether an episode has ended."""
+        """A step by these actions; `into`: see `_native.EnvPool.step`. Whether an episode has ended."""
 
     def violated(self, actions: Any) -> NDArray[np.bool_]:
         """(environments,): whether an action violates a precondition; nothing is changed."""
 
-    def record(self, action: Any) -> NDArray[np.uint8]:
-        """(1, bytes): the action of the only environment."""
+    def records(self, actions: Any) -> NDArray[np.uint8]:
+        """(environments, bytes)"""
 
     def default(self) -> Any:
         """The action of one environment that changes nothing."""

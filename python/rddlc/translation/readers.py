@@ -28,7 +28,7 @@ def dictionary_reader(
 
 def observation_reader(
     fluents: list[Fluent],
-    batch: _native.Batch,
+    batch: _native.EnvPool,
     *,
     flat: bool,
     lifted: bool,

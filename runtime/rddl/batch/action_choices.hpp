@@ -80,7 +80,7 @@ struct Change {
     std::int64_t value;
     std::int64_t default_value;  // another one
 
-    // Sets the value in an action record; what it was.
+    // Sets the value in an action record; returns the old one.
     std::int64_t exchange(void* action, std::int64_t to) const {
         const std::int64_t before = detail::read_choice(*fluent, action, grounding);
         detail::write_choice(*fluent, action, grounding, to);

@@ -1,8 +1,8 @@
 // An engine whose functions are found at run time.
 //
-// What steps batches is generic over the engine. Made for this one it depends on nothing but the
-// lane type, so it need not be compiled again for each simulator (batches.cpp). The price is an
-// indirect call for a block of environments.
+// The code that steps batches is generic over the engine. Made for this one it depends on nothing
+// but the lane type, so it need not be compiled again for each simulator (batches.cpp). The price
+// is an indirect call for a block of environments.
 #pragma once
 
 #include <rddl/step/advance.hpp>
@@ -34,7 +34,7 @@ class AnyEngine {
                          const StateRecords& records, Context<L>& context) -> Bool {
             return rddl::reset_some(of<E>(self), columns, lanes, records, context);
         };
-        // Only one of them, since compilers stop inlining in simulators that have both.
+        // Only one of them is set, since compilers stop inlining in simulators that have both.
         if constexpr (L::width == 1)
             advance_one_ = [](const void* self, const BatchView<L>& view, std::int64_t b,
                               Actions actions, const rddl_transition& out) RDDL_INLINE_LAMBDA {

@@ -4,9 +4,12 @@
 // block i / width. Each has its own state and episode; nothing is shared between them, so a
 // trajectory does not depend on the batch around it or on the threads. Nothing is allocated after
 // construction.
+//
+// Over 400 lines: one class, whose functions are those of simulator.h for batches.
 #pragma once
 
 #include <rddl/batch/action_choices.hpp>
+#include <rddl/batch/environment.hpp>
 #include <rddl/batch/record_checks.hpp>
 #include <rddl/batch/threads.hpp>
 #include <rddl/simulator.h>
@@ -28,59 +31,6 @@
 #include <vector>
 
 namespace rddl {
-
-// Zeroed records of one size, one after the other, beginning at a cache line of their own.
-class Records {
-  public:
-    Records(std::size_t count, std::size_t size) : size_(size), lines_(lines(count, size)) {}
-
-    std::byte* operator[](std::int64_t i) {
-        return reinterpret_cast<std::byte*>(lines_.data()) + offset(i);
-    }
-    const std::byte* operator[](std::int64_t i) const {
-        return reinterpret_cast<const std::byte*>(lines_.data()) + offset(i);
-    }
-
-  private:
-    struct alignas(64) Line {
-        std::byte bytes[64]{};
-    };
-
-    // At least one, so that empty records have an address too.
-    static std::size_t lines(std::size_t count, std::size_t size) {
-        if (size > 0 && count > std::numeric_limits<std::size_t>::max() / 2 / size)
-            throw std::bad_alloc();
-        return count * size / sizeof(Line) + 1;
-    }
-    std::size_t offset(std::int64_t i) const { return static_cast<std::size_t>(i) * size_; }
-
-    std::size_t size_;
-    std::vector<Line> lines_;
-};
-
-// One environment, apart from a batch: records of the C interface, and its episode.
-struct Environment {
-    explicit Environment(const rddl_problem& problem, std::size_t memory_size)
-        : state(1, static_cast<std::size_t>(problem.state_size)),
-          observation(1, static_cast<std::size_t>(problem.observation_size)),
-          memory(1, memory_size),
-          last_state(1, static_cast<std::size_t>(problem.state_size)),
-          last_action(1, static_cast<std::size_t>(problem.action_size)) {}
-
-    Records state, observation, memory;
-    Records last_state, last_action;
-    std::optional<Context<Scalar>> last_step;  // empty: it has made no step, or does not keep it
-    Episodes<Scalar> episode;
-    Stream stream{};
-};
-
-// The last step of an environment: from where it went, by which action and with which random
-// numbers. Records of the C interface, with plain bools.
-struct LastStep {
-    const std::byte* state;
-    const std::byte* action;
-    Context<Scalar> context;
-};
 
 // How a batch is made, checked and with all defaults resolved.
 struct BatchOptions {
@@ -169,7 +119,7 @@ class Batch {
     std::int64_t episode_number(std::int64_t i) const { return get_lane(at(i).number, lane_of(i)); }
     std::uint8_t causes(std::int64_t i) const { return at(i).ends.causes(lane_of(i)); }
 
-    // The fault of the episode, or of the last one until this one makes a step; else nothing.
+    // The fault of the episode, or of the last one until this one makes a step; else null.
     const FaultRecord* fault(std::int64_t i) const {
         const bool faulty = get_lane(at(i).has_fault, lane_of(i));
         return faulty ? &at(i).faults[static_cast<std::size_t>(lane_of(i))] : nullptr;
@@ -181,7 +131,7 @@ class Batch {
     void get_state(std::int64_t i, std::byte* record) const {
         write_record(L{}, state_columns_, state(i / width), lane_of(i), record);
     }
-    // In a fully observed problem the state is what is observed.
+    // A fully observed problem observes its state.
     void get_observation(std::int64_t i, std::byte* record) const {
         write_record(L{}, observation_columns_, observed(i / width), lane_of(i), record);
     }
@@ -261,7 +211,7 @@ class Batch {
             while (share.begin < share.end) share.begin = step_some(workspace, share, actions, out);
         });
     }
-    // For one environment that accepts all actions; else null.
+    // The view of the only environment, if it accepts all actions; else null.
     const BatchView<L>* only_one() const {
         const bool is_one = std::is_same_v<L, Scalar> && options_.environment_count == 1;
         const bool accepts_all = !action_columns_.has_objects;
@@ -309,7 +259,7 @@ class Batch {
     }
 
     bool keeps_steps() const { return options_.keeps_steps; }
-    // Only of batches that keep steps; nothing before the first one.
+    // The last step, for batches that keep steps; nothing before the first one.
     std::optional<LastStep> last_step(std::int64_t i) const {
         const auto& context = last_steps_[index(i)];
         if (!context) return std::nullopt;

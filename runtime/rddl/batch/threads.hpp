@@ -65,8 +65,8 @@ class Waiting {
     int sleeps_ = 0;  // left, until it tries again
 };
 
-// Between jobs, threads stay awake for a moment if each may have a core, so that those who step
-// a batch in a loop need not wake them each time; then they sleep.
+// Threads stay awake between jobs for a moment if each may have a core, so that a loop of steps
+// need not wake them each time; then they sleep.
 class Team {
   public:
     // `size` workers, the calling thread included; fewer if the system gives no more threads.

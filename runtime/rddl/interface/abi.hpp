@@ -1,5 +1,7 @@
 // The C interface (simulator.h) over batches: arguments are checked here, faults and errors are put
 // into words, and no exception passes.
+//
+// Over 400 lines: each function of simulator.h stands here once, and little else does.
 #pragma once
 
 #include <rddl/batch/action_choices.hpp>
@@ -624,7 +626,7 @@ class Functions {
             }
         return copy_defaults(maker, described, begin, count, to);
     }
-    // From the record in which states begin, or from that of the default action.
+    // Copies from the record in which states begin, or from that of the default action.
     static rddl_error copy_defaults(const Parts& maker, const rddl_fluent& fluent,
                                     std::int64_t begin, std::int64_t count, std::byte* to) {
         const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;

@@ -21,13 +21,13 @@ struct ConditionPlaces {
 };
 
 struct Details {
-    // In bytes. A record begins with the interm- and derived-fluents, which callers get; the
+    // Sizes in bytes. A record begins with the interm- and derived-fluents, which callers get; the
     // tables of the preconditions lie behind them.
     std::size_t interm_size, record_size, scratch_size;
     std::span<const ConditionPlaces> preconditions;
 
-    // Fills the record; state and action are records of the C interface, with plain bools. What is
-    // computed from a draw or operator at fault means nothing.
+    // Fills the record; state and action are records of the C interface, with plain bools. Values
+    // that depend on a draw or operator at fault mean nothing.
     void (*compute)(const void* self, const std::byte* state, const std::byte* action,
                     std::byte* scratch, std::byte* record, Context<Scalar>& context);
     const void* self = nullptr;

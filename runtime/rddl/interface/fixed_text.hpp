@@ -24,7 +24,7 @@ class FixedText {
         return *this;
     }
     FixedText& operator<<(std::int64_t value) { return write_number(value); }
-    // In the shortest exact form; a nan, whose sign means nothing, without it.
+    // Writes the shortest exact form; a nan without its sign, which means nothing.
     FixedText& operator<<(double value) {
         return value != value ? *this << std::string_view("nan") : write_number(value);
     }

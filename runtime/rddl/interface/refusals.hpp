@@ -74,7 +74,7 @@ template <class Number>
                 if (const Number value = *rows++; !is_valid_number(fluent.scalar, objects, value))
                     return detail::refuse_value(problem, fluent, i, k, static_cast<double>(value));
         }
-    return bad_argument("one of the actions is no number that its fluent takes");
+    return bad_argument("one of the actions is not a number that its fluent takes");
 }
 
 }  // namespace rddl

@@ -15,7 +15,7 @@ struct SiteVariable {
 // Place::site is an index into the table of sites; Place::index is row-major over `scope`.
 struct Site {
     rddl_source source;
-    const char* what;  // "Bernoulli", "pow", ...; of Type and Undefined, the whole message
+    const char* what;  // "Bernoulli", "pow", ...; for Type and Undefined, the whole message
     std::span<const SiteVariable> scope;
 };
 

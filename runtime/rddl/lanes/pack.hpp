@@ -1,8 +1,8 @@
 // Packs: many environments in vector registers, evaluated together.
 //
 // Pack<n> is a lane type (lane.hpp). Its reals and ints are n values in as many registers as that
-// takes, its bools the n bits of an unsigned number. Pack<n, float> has reals of half the width.
-// What an operator does in a lane is what it does to the scalar there, bit for bit.
+// takes, its bools the n bits of an unsigned number. Pack<n, float> has reals of half the width. An
+// operator does in a lane what it does to the scalar there, bit for bit.
 #pragma once
 
 #include <rddl/lanes/lane.hpp>
@@ -104,7 +104,7 @@ struct Lanes {
     }
 
     static RDDL_INLINE Lanes load(const T* from) { return load_bytes(from); }
-    // From addresses that are `distance` bytes apart.
+    // Loads from addresses that are `distance` bytes apart.
     static RDDL_INLINE Lanes load_apart(const std::byte* from, std::int64_t distance) {
         if (distance == sizeof(T)) return load_bytes(from);
         Lanes result;

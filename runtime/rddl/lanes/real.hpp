@@ -28,7 +28,8 @@
 #error "rddl needs IEEE arithmetic: compile without -ffast-math"
 #endif
 
-// For what is small, or constant in most calls, when lanes are packs: passing packs costs more.
+// Inlines functions that are small, or constant in most calls, when lanes are packs: passing packs
+// costs more.
 #define RDDL_ALWAYS_INLINE __attribute__((always_inline)) inline
 
 namespace rddl {

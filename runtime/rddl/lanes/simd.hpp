@@ -5,6 +5,8 @@
 // adds only operations that they spell clumsily or translate badly. A mask is the bits of an
 // unsigned number, lane 0 lowest. Everything lives in a namespace named after the level, so that
 // objects compiled for different levels can be linked into one program.
+//
+// Over 400 lines: the same functions for each of the four levels, side by side.
 #pragma once
 
 #include <cstddef>
@@ -252,7 +254,7 @@ template <class V>
 #endif
 }
 
-// The upper 32 bits of each lane as the lower ones; those above are any.
+// Moves the upper 32 bits of each lane to the lower ones; the upper bits are arbitrary then.
 [[gnu::always_inline]] inline Words upper_halves(Words a) {
 #ifdef RDDL_SIMD_AVX512
     // A shuffle replaces the shift, since one execution port does all shifts and also the products.
@@ -298,7 +300,7 @@ template <class V>
 #endif
 }
 
-// Between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
+// Converts between lanes of 32 and of 64 bits: those of one half of a register fill a whole one.
 template <class T>
 struct HalfOf {
     typedef T type __attribute__((vector_size(register_bytes / 2)));

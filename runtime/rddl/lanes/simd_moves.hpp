@@ -54,7 +54,7 @@ template <class T>
     return result;
 #endif
 }
-// From a table of `count` values, which registers may be able to hold.
+// Looks up entries of a table of `count` values, which registers may be able to hold.
 template <std::int64_t count>
 [[gnu::always_inline]] inline Reals look_up(const double* table, Ints indices) {
 #ifdef RDDL_SIMD_AVX512
@@ -196,7 +196,7 @@ template <int count>
     }
 #endif
 }
-// And back to where the mask holds; the other lanes stay.
+// Expands back to where the mask holds; the other lanes stay.
 template <int count>
 [[gnu::always_inline]] inline void expand(std::uint64_t mask, const double (&from)[8],
                                           Reals (&to)[count]) {

@@ -217,7 +217,7 @@ RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Bod
         body(some, objects);
         if (some.fault && !context.fault) context.fault = some.fault;
     };
-    // In two calls, so that compilers know how many objects there are in each.
+    // Two calls let compilers know how many objects there are in each.
     const Index full = count / n * n;
     for (Index first = 0; first < full; first += n) some_at(first, n);
     if (full < count) some_at(full, static_cast<int>(count - full));

@@ -41,7 +41,7 @@ template <class R = double, class Word>
 RDDL_INLINE auto unit_real(Word low, Word high) {
     return unit_real<R>(join_lower_halves(low, high));
 }
-// In (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
+// A number in (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
 template <RealLanes Real>
 RDDL_INLINE Real open_unit_real(Real unit) {
     return unit + 0x1p-53;
@@ -274,7 +274,7 @@ template <int n, class R>
 template <class L, class T>
 using DrawnBy = std::conditional_t<std::is_floating_point_v<T>, typename L::Element, T>;
 
-// For draws that need more than one number: `kernel(draws, parameters...)`, which draws ints or
+// Draws that need more than one number: `kernel(draws, parameters...)`, which draws ints or
 // doubles, in each lane whose parameters are valid, zero elsewhere.
 template <class R, class Kernel, class... Parameters>
 constexpr auto draw_in_each_lane(const Context<ScalarOf<R>>& context, Place place, bool valid,

@@ -1,7 +1,7 @@
 // Steps of blocks of environments.
 //
 // All of a step is compiled with the simulator, from the caller's actions to the rewards: most
-// values then never leave registers. What happens now and then is left to the batch, or apart.
+// values then never leave registers. Rare work is left to the batch, or stands apart.
 #pragma once
 
 #include <rddl/simulator.h>

@@ -185,7 +185,7 @@ bool orthogonalise(Index n, Matrix& matrix, Rotation& rotation, Index p, Index q
     return true;
 }
 
-// Until all columns of the matrix are orthogonal: A V = U S. A handful of sweeps is usual.
+// Rotates until all columns of the matrix are orthogonal: A V = U S. A handful of sweeps is usual.
 template <class Matrix, class Rotation>
 void orthogonalise_columns(Index n, Matrix& matrix, Rotation& rotation) {
     constexpr int sweep_limit = 60;

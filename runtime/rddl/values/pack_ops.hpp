@@ -1,5 +1,7 @@
 // The operators of ops.hpp on packs. Where one operand is the same in all lanes it may be a plain
 // number. Functions without a form for registers are called lane by lane.
+//
+// Over 400 lines: an operator after the other, in the order of ops.hpp.
 #pragma once
 
 #include <rddl/lanes/pack.hpp>
@@ -165,7 +167,7 @@ RDDL_INLINE Lanes<To, n> same_bits(const Lanes<From, n>& a) {
         [](auto x) { return std::bit_cast<typename Lanes<To, n>::Vector>(x); }, a);
 }
 
-// Between lanes of 32 and of 64 bits.
+// Converts between lanes of 32 and of 64 bits.
 template <class To, class From, int n>
 RDDL_INLINE Lanes<To, n> convert(const Lanes<From, n>& a) {
     Lanes<To, n> result;
@@ -585,7 +587,7 @@ RDDL_INLINE Lanes<double, 8> compress(Mask<n> mask, const Lanes<double, n>& a, d
     simd::compress(mask.bits, a.part, others, selected);
     return Lanes<double, 8>::load(selected);
 }
-// And back to where the mask holds; the other lanes of `target` stay.
+// Expands back to where the mask holds; the other lanes of `target` stay.
 template <int n>
 RDDL_INLINE void expand(Mask<n> mask, const Lanes<double, 8>& a, Lanes<double, n>& target) {
     double selected[8];

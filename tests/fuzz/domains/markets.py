@@ -58,7 +58,7 @@ def parts(draft: Draft, consumer: str, item: str, provider: str, taste, offer, b
 
 
 def extremes(draft: Draft, consumer: str, item: str, provider: str, taste, offer, buys) -> None:
-    """The least and the greatest taste of those who buy."""
+    """The least and the greatest taste of the buyers."""
     term = real(draft.pick(["(%s * %s)", "(if (%s) then %s else -9.0)"]), draft.at(buys, "?c", "?i"), draft.signed(draft.at(taste, "?c", "?i")))
     outer, inner = draft.pick(["sum", "max", "min"]), draft.pick(["max", "min", "avg"])
     draft.earn(draft.revealed(over(outer, "?i", item, over(inner, "?c", consumer, term))))

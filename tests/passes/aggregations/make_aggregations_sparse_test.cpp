@@ -53,8 +53,6 @@ TEST(MakeAggregationsSparse, RunsOverTheEntriesOfARow) {
 }
 
 TEST(MakeAggregationsSparse, FlattensNests) {
-    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [(RISK(?o) == 0 ^ LINK(?o, ?u)) * v(?u)]"),
-              "sum[entry in 0 .. 3](state.v[LINK-u[entry]])");
     EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [LINK(?o, ?u) ^ p(?u)]"),
               "real(sum[entry in 0 .. 4](int(state.p[LINK-u[entry]])))");
     EXPECT_EQ(sparse("forall_{?o : obj, ?u : obj} [LINK(?o, ?u) => p(?o) | q(?u)]"),
@@ -90,6 +88,59 @@ TEST(MakeAggregationsSparse, TabulatesWhatIsFixedForAnEntry) {
               "LINK-entries[entry])))");
     EXPECT_EQ(sparse_table(cpf, "LINK-entries"),
               "LINK-entries[4]: bool = {false true false false}");
+}
+
+TEST(MakeAggregationsSparse, KeepsSumsOfRealsNested) {
+    const std::string cpf = "sum_{?o : obj, ?u : obj} [(RISK(?o) == 0 ^ LINK(?o, ?u)) * v(?u)]";
+    EXPECT_EQ(sparse(cpf),
+              "sum[entry-2 in 0 .. 2](sum[entry in LINK-rows[entry-2] .. LINK-rows[entry-2 + 1]]("
+              "state.v[LINK-u[entry]]))");
+    EXPECT_EQ(sparse_table(cpf, "LINK-rows"), "LINK-rows[3]: int = {0 1 3}");
+    EXPECT_EQ(sparse_table(cpf, "LINK-u"), "LINK-u[3]: int = {1 0 1}");
+    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [LINK(?o, ?u) * v(?u) * v(?u)]"),
+              "sum[o in obj](sum[entry in LINK-rows[o] .. LINK-rows[o + 1]]("
+              "state.v[LINK-u[entry]] * state.v[LINK-u[entry]]))");
+    EXPECT_EQ(sparse("sum_{?o : obj, ?u : obj} [(RISK(?o) == 0) * COST(?u) * v(?o) * v(?u)]"),
+              "sum[entry-2 in 0 .. 2](2.5 * state.v[RISK-o[entry-2]] * state.v[x-u[entry-2]])");
+}
+
+std::string exactly_sparse(const Problem& problem) {
+    return value_of_x(made_sparse(grounded(problem)));
+}
+
+// `0.0 * x` is nan if x is inf or nan, as is each omitted term.
+TEST(MakeAggregationsSparse, HasOneTermForAllThatMayNotBeFinite) {
+    const std::string terms =
+        "(if (p(?u)) then 1.5 else 2.5) * (if (q(?u)) then 0.5 else 4.0) * LINK(?o, ?u)";
+    EXPECT_EQ(exactly_sparse(with_links("sum_{?o : obj} [COST(?o) * x * (1.0 + RISK(?o))]")),
+              "0.0 + (2.5 * state.x + 0.0 * state.x)");
+    EXPECT_EQ(exactly_sparse(with_links("sum_{?o : obj} [sum_{?u : obj} [" + terms + " * v(?o)]]")),
+              "sum[o in obj](sum[entry in LINK-rows[o] .. LINK-rows[o + 1]]("
+              "select(state.p[LINK-u[entry]], 1.5, 2.5) * select(state.q[LINK-u[entry]], 0.5, "
+              "4.0) * state.v[o]) + 0.0 * state.v[o])");
+    // One term for each object would cost as much as what is left out.
+    const std::string other = "sum_{?o : obj} [COST(?o) * v(?o) * v(?o) * v(?o) * v(?o)]";
+    EXPECT_EQ(exactly_sparse(with_links(other)), value_of_x(grounded(with_links(other))));
+}
+
+// The product is zero if x is zero, whatever the exponential is.
+TEST(MakeAggregationsSparse, LeavesOtherFactorsOfGuardedProducts) {
+    const Problem problem = with_links("sum_{?o : obj} [COST(?o) * exp[exp[n]] * x]");
+    EXPECT_EQ(exactly_sparse(problem), value_of_x(grounded(problem)));
+}
+
+TEST(MakeAggregationsSparse, LeavesFullRowsOfWhatMayNotBeFinite) {
+    const auto with_rows = [](const std::string& rows) {
+        Problem problem = with_links(
+            "sum_{?o : obj} [sum_{?u : obj} [ROW(?o, ?u) * v(?o) * exp[v(?o)] * exp[v(?o)]]]");
+        problem.pvariables += "ROW(obj, obj) : { non-fluent, real, default = 0.0 };\n";
+        problem.non_fluents += rows;
+        return problem;
+    };
+    const Problem some = with_rows("ROW(b1, b1) = 2.5; ROW(b1, b2) = 3.5; ROW(b2, b3) = 4.5;");
+    EXPECT_NE(exactly_sparse(some), value_of_x(grounded(some)));
+    const Problem full = with_rows("ROW(b1, b1) = 2.5; ROW(b1, b2) = 3.5; ROW(b1, b3) = 4.5;");
+    EXPECT_EQ(exactly_sparse(full), value_of_x(grounded(full)));
 }
 
 TEST(MakeAggregationsSparse, LeavesProductsWithWhatMayBeInfinite) {
@@ -140,8 +191,7 @@ TEST(MakeAggregationsSparse, LeavesDenseTables) {
 
 TEST(MakeAggregationsSparse, KnowsRowsInsideOfEntries) {
     EXPECT_EQ(sparse("sum_{?o : obj} [RISK(?o) * (sum_{?u : obj} [LINK(?o, ?u) * v(?u) * v(?u)])]"),
-              "1.5 * sum[entry in 1 .. 2]("
-              "state.v[LINK-u[entry]] * state.v[LINK-u[entry]])");
+              "1.5 * (state.v[2] * state.v[2])");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ RDDL_INLINE typename L::Bool valid_bernoulli(Context<L>& context, Place place, t
     return uniform_at(context, place) < p;
 }
 
-// Trials up to the first success: 1, 2, ...; what int cannot hold becomes the greatest int.
+// Trials up to the first success: 1, 2, ...; counts beyond int become the greatest int.
 template <class L>
 typename L::Int geometric(Context<L>& context, Place place, typename L::Real p) {
     using Int = typename L::Int;
@@ -52,7 +52,7 @@ typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&
     typename L::Bool valid{true};
     for (Index i = 0; i < n; ++i) {
         const Real w = weight(i);
-        valid = context.require(is_weight<L>(w), FaultKind::Weight, place, w) && valid;
+        valid = context.require(is_weight<L>(w, Real{1}), FaultKind::Weight, place, w) && valid;
         total = total + w;
         chosen = select(chosen == n && u < total, Int{i}, chosen);
     }
@@ -62,19 +62,24 @@ typename L::Int discrete_over(Context<L>& context, Place place, Index n, Weight&
 }
 
 // The same with weights of any positive, finite sum. They are evaluated twice; the second time,
-// the last index of positive weight with no more than U * sum before it is chosen.
+// the last index of positive weight with no more than U * sum before it is chosen. Of the weights,
+// the first nan, or else the least, is what a fault names.
 template <class L, class Weight>
 typename L::Int unnormalised_discrete_over(Context<L>& context, Place place, Index n,
                                            Weight&& weight) {
     using Int = typename L::Int;
     using Real = typename L::Real;
     Real total{0};
-    typename L::Bool valid{true};
+    Real above_zero{0};
+    Real least{0};
     for (Index i = 0; i < n; ++i) {
         const Real w = weight(i);
-        valid = context.require(is_weight<L>(w), FaultKind::Weight, place, w) && valid;
+        least = select(!(w >= least) && least == least, w, least);
+        above_zero = above_zero + maximum(w, Real{0});
         total = total + w;
     }
+    const auto valid =
+        context.require(is_weight<L>(least, above_zero), FaultKind::Weight, place, least);
     const auto has_mass =
         context.require(total > 0.0 && total <= std::numeric_limits<typename L::Element>::max(),
                         FaultKind::WeightSum, place, total);

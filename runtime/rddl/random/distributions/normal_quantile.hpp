@@ -38,7 +38,7 @@ RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_centre(R q) {
     return {q * polynomial(numerator, r), polynomial(denominator, r)};
 }
 
-// For r = sqrt(-ln(tail probability)) up to 5, and beyond.
+// The tail for r = sqrt(-ln(tail probability)) up to 5, and beyond.
 template <class R>
 RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_tail(R r) {
     constexpr double numerator[] = {1.42343711074968357734e0,  4.63033784615654529590e0,
@@ -120,8 +120,8 @@ R normal_quantile(R p) {
     return result.dividend / result.divisor;
 }
 
-// 15 of 100 lanes are far from the median. Those of several registers are brought together, or else
-// 8 lanes computed at a time.
+// 15 of 100 lanes are far from the median. Those of several registers are brought together;
+// otherwise 8 lanes are computed at a time.
 template <int n>
 requires(n > 8) Lanes<double, n> normal_quantile(const Lanes<double, n>& p) {
     const Mask<n> outside = !detail::is_central(p - 0.5);

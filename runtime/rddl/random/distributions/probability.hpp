@@ -16,16 +16,17 @@ template <class Element>
 inline constexpr Element probability_rounding = std::is_same_v<Element, float> ? Element(1e-5)
                                                                                : Element(1e-9);
 
+// Whether it may be one of the weights whose sum, of those above 0, is that.
 template <class L>
-RDDL_INLINE typename L::Bool is_weight(typename L::Real w) {
+RDDL_INLINE typename L::Bool is_weight(typename L::Real w, typename L::Real sum) {
     constexpr auto rounding = probability_rounding<typename L::Element>;
-    return w >= typename L::Real{-rounding};
+    return w >= typename L::Real{-rounding} * sum;
 }
 
 template <class L>
 RDDL_INLINE typename L::Bool is_probability(typename L::Real p) {
     constexpr auto rounding = probability_rounding<typename L::Element>;
-    return is_weight<L>(p) && p <= typename L::Real{1 + rounding};
+    return is_weight<L>(p, typename L::Real{1}) && p <= typename L::Real{1 + rounding};
 }
 
 template <class L>

@@ -104,7 +104,9 @@ void multinomial(Context<L>& context, Place place, Index n, typename L::Int tria
     Index last = 0;
     for (Index i = 0; i < n; ++i) {
         const double p = probabilities[i];
-        valid = context.require(is_weight<L>(p), FaultKind::Weight, place, p) && valid;
+        valid =
+            context.require(is_weight<L>(p, typename L::Real{1}), FaultKind::Weight, place, p) &&
+            valid;
         total = total + maximum(p, 0.0);
         if (p > 0.0) last = i;
     }

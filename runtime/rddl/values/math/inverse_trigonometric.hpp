@@ -71,8 +71,8 @@ RDDL_ALWAYS_INLINE R turned_arc_of_tangent(R quarters, R sign, R a, R b) {
     return sum.high + (sum.low + (low + sign * curvature));
 }
 
-// The legs a <= b times the power of two that keeps b from overflow and underflow. Of infinite
-// ones, or if both are 0, legs of the same direction.
+// The legs a <= b times the power of two that keeps b from overflow and underflow. Infinite legs,
+// or two of 0, are replaced by legs of the same direction.
 template <class R>
 RDDL_ALWAYS_INLINE Pair<R> of_usual_size(R a, R b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -26,7 +26,7 @@ struct Binary {
     R significand;
 };
 
-// For positive, finite a.
+// Requires a positive, finite a.
 template <class R>
 RDDL_ALWAYS_INLINE Binary<R> binary(R a) {
     constexpr std::uint64_t least_significand = bits_of(0.70710678118654752);

@@ -70,13 +70,13 @@ RDDL_ALWAYS_INLINE R quotient(Pair<R> dividend, Pair<R> divisor) {
 // last bits, as two's complement.
 inline constexpr double rounder = 0x1.8p52;
 
-// For |a| < 2^51; halves go to the even neighbour.
+// Requires |a| < 2^51; halves go to the even neighbour.
 template <class R>
 RDDL_ALWAYS_INLINE R nearest_integer(R a) {
     return (a + rounder) - rounder;
 }
 
-// For an integer from -1022 to 1023.
+// Requires an integer from -1022 to 1023.
 template <class R>
 RDDL_ALWAYS_INLINE R power_of_two(R exponent) {
     return real_of_bits((bits_of(exponent + rounder) + std::uint64_t{1023}) << 52);

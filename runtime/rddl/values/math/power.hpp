@@ -44,7 +44,7 @@ RDDL_ALWAYS_INLINE Pair<R> ln_as_pair(R a) {
     return sum_exactly(whole.high, whole.low + (head.low + tail + exponent * ln_2_low));
 }
 
-// For positive, finite base.
+// Requires a positive, finite base.
 template <class R>
 RDDL_ALWAYS_INLINE R power_of_positive(R base, R exponent) {
     const Pair<R> logarithm = ln_as_pair(base);

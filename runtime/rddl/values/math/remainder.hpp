@@ -10,8 +10,8 @@ namespace rddl {
 
 namespace detail {
 
-// From greater quotients, and divisors near the least and the greatest reals, some product below
-// would not be exact.
+// The limit of exact products below: greater quotients, and divisors near the least and the
+// greatest reals, would make one of them inexact.
 inline constexpr double greatest_quotient = 0x1p26;
 inline constexpr double least_divisor = 0x1p-900;
 inline constexpr double greatest_divisor = 0x1p900;

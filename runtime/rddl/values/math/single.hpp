@@ -31,7 +31,7 @@ RDDL_ALWAYS_INLINE R clamp(R a, float lowest, float highest) {
     return select(a < lowest, R{lowest}, select(a > highest, R{highest}, a));
 }
 
-// For an integer from -126 to 127.
+// Requires an integer from -126 to 127.
 template <class R>
 RDDL_ALWAYS_INLINE R power_of_two(R exponent) {
     return real_of_bits((bits_of(exponent + rounder) + std::uint32_t{127}) << 23);
@@ -50,7 +50,7 @@ inline constexpr float ln_coefficients[] = {3.3333331174e-1f,  -2.4999993993e-1f
                                             -1.6668057665e-1f, 1.4249322787e-1f,  -1.2420140846e-1f,
                                             1.1676998740e-1f,  -1.1514610310e-1f, 7.0376836292e-2f};
 
-// For positive, finite a.
+// Requires a positive, finite a.
 template <class R>
 RDDL_ALWAYS_INLINE R ln_of_positive(R a) {
     constexpr std::uint32_t least_significand = bits_of(0.70710678f);

@@ -50,7 +50,7 @@ std::int64_t counted(const auto& table, auto value) {
     return std::ranges::count_if(table, [&](auto entry) { return entry <= value; });
 }
 
-// At the entries, beside them, between them, and far away.
+// Searches at the entries, beside them, between them, and far away.
 template <const auto& table>
 void expect_counts_of_reals() {
     using Real = typename std::remove_cvref_t<decltype(table)>::value_type;

@@ -1,4 +1,4 @@
-#include "rollouts/parallel.hpp"
+#include "terminal/parallel.hpp"
 
 #include "solvers/evaluation/threads.hpp"
 #include "terminal/interrupt.hpp"

@@ -12,7 +12,7 @@
 namespace rddl {
 namespace {
 
-// Not a multiple of the lanes.
+// The number is not a multiple of the lanes.
 constexpr Index rows = 11, columns = 5, count = rows * columns;
 
 template <class T>
@@ -99,7 +99,7 @@ void expect_own_choices() {
         }
 }
 
-// From tables that registers may hold, and greater ones.
+// Elements are chosen from tables that registers may hold, and from greater ones.
 TEST(Objects, ChooseElementsOfTheirOwn) {
     expect_own_choices<1>();
     expect_own_choices<2>();

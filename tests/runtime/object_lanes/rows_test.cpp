@@ -13,7 +13,7 @@
 namespace rddl {
 namespace {
 
-// Not a multiple of the lanes.
+// The number is not a multiple of the lanes.
 constexpr std::size_t height = 7, width = 5, objects = height * width, cases = 4;
 
 template <class R>

@@ -1,4 +1,4 @@
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@ namespace rddlc::python {
 
 namespace {
 
-rddl_batch_options options_of(const BatchSettings& settings, const rddl_problem& problem) {
+rddl_batch_options options_of(const EnvPoolSettings& settings, const rddl_problem& problem) {
     rddl_batch_options options{};
     options.struct_size = sizeof options;
     options.thread_count = settings.threads;
@@ -23,15 +23,15 @@ rddl_batch_options options_of(const BatchSettings& settings, const rddl_problem&
     return options;
 }
 
-solvers::Batch copy_of(const rddl_simulator& simulator, const rddl_batch* batch) {
-    solvers::Batch copy(simulator.copy(batch), simulator.destroy);
+solvers::BatchHandle copy_of(const rddl_simulator& simulator, const rddl_batch* batch) {
+    solvers::BatchHandle copy(simulator.copy(batch), simulator.destroy);
     if (!copy) throw std::bad_alloc();
     return copy;
 }
 
 }  // namespace
 
-Batch::Batch(workbench::Simulator simulator, const BatchSettings& settings)
+EnvPool::EnvPool(workbench::Simulator simulator, const EnvPoolSettings& settings)
     : simulator_(std::move(simulator)),
       settings_(settings),
       batch_(nullptr, simulator_->destroy),
@@ -61,7 +61,7 @@ Batch::Batch(workbench::Simulator simulator, const BatchSettings& settings)
                std::vector<std::uint8_t>(count)};
 }
 
-Batch::Batch(const Batch& other)
+EnvPool::EnvPool(const EnvPool& other)
     : simulator_(other.simulator_),
       settings_(other.settings_),
       batch_(copy_of(*other.simulator_, other.batch_.get())),
@@ -74,17 +74,17 @@ Batch::Batch(const Batch& other)
 
 // A forked process lacks the threads of its parent: a copy has threads of its own. The old batch is
 // not destroyed there, since that waits for its threads.
-rddl_batch* Batch::live() {
+rddl_batch* EnvPool::live() {
     finish();
     if (settings_.threads == 1 || process_ == ::getpid()) return batch_.get();
-    solvers::Batch copy = copy_of(*simulator_, batch_.get());
+    solvers::BatchHandle copy = copy_of(*simulator_, batch_.get());
     static_cast<void>(batch_.release());
     batch_ = std::move(copy);
     process_ = ::getpid();
     return batch_.get();
 }
 
-rddl_transition Batch::transition(const Outputs& outputs) {
+rddl_transition EnvPool::transition(const Outputs& outputs) {
     const auto given = [](auto* own, auto* other) {
         return other ? other : own;
     };
@@ -102,7 +102,7 @@ rddl_transition Batch::transition(const Outputs& outputs) {
     return out;
 }
 
-void Batch::reset(const std::uint8_t* mask) {
+void EnvPool::reset(const std::uint8_t* mask) {
     rddl_batch* const batch = live();
     const std::vector<std::uint8_t> where(mask, mask ? mask + settings_.environments : mask);
     calls_.run([=, this] {
@@ -112,13 +112,13 @@ void Batch::reset(const std::uint8_t* mask) {
     });
 }
 
-void Batch::read_values(void* values) {
+void EnvPool::read_values(void* values) {
     if (settings_.shows_values)
         check(*simulator_, simulator_->get_observation_values(batch_.get(), number(), values));
 }
 
 // Eight at a time: few steps end anything.
-bool Batch::has_ended() const {
+bool EnvPool::has_ended() const {
     const std::uint8_t* const causes = arrays_.causes.data();
     const std::size_t count = arrays_.causes.size();
     std::uint64_t all = 0;
@@ -132,7 +132,7 @@ bool Batch::has_ended() const {
     return all != 0;
 }
 
-bool Batch::step(const Outputs& outputs) {
+bool EnvPool::step(const Outputs& outputs) {
     rddl_batch* const batch = live();
     const rddl_transition out = transition(outputs);
     void* const values = outputs.values ? outputs.values : arrays_.observation_values.data();
@@ -145,7 +145,7 @@ bool Batch::step(const Outputs& outputs) {
     return has_ended();
 }
 
-bool Batch::step_values(const Outputs& outputs, const void* actions, nb::handle kept) {
+bool EnvPool::step_values(const Outputs& outputs, const void* actions, nb::handle kept) {
     rddl_batch* const batch = live();
     rddl_transition out = transition(outputs);
     if (settings_.autoreset == RDDL_AUTORESET_SAME_STEP)
@@ -176,7 +176,7 @@ T* memory_of(nb::handle array, std::size_t count, std::size_t size = sizeof(T)) 
 
 }  // namespace
 
-Outputs Batch::outputs_in(nb::handle arrays) const {
+Outputs EnvPool::outputs_in(nb::handle arrays) const {
     if (arrays.is_none()) return {};
     if (!nb::isinstance<nb::tuple>(arrays) || nb::len(arrays) != 4)
         throw Refused("a step writes into four arrays");
@@ -192,21 +192,30 @@ Outputs Batch::outputs_in(nb::handle arrays) const {
     return outputs;
 }
 
-void Batch::set_seed(std::uint64_t seed) {
+void EnvPool::set_seed(std::uint64_t seed) {
     check(*simulator_, simulator_->set_seed(live(), seed));
 }
 
-void Batch::set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds) {
+void EnvPool::set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds) {
     check(*simulator_, simulator_->set_seeds(live(), begin, static_cast<std::int64_t>(seeds.size()),
                                              seeds.data()));
 }
 
-void Batch::read_state(std::int64_t environment, std::byte* record) {
+void EnvPool::read_state(std::int64_t environment, std::byte* record) {
     check(*simulator_, simulator_->get_state(live(), environment, 1, record));
 }
 
-void Batch::write_states(std::span<const std::int64_t> places, const std::byte* records,
-                         std::span<const std::int64_t> steps) {
+void EnvPool::read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
+                          std::uint8_t* causes) {
+    rddl_batch* const batch = live();
+    const std::int64_t count = settings_.environments;
+    check(*simulator_, simulator_->get_state(batch, 0, count, records));
+    check(*simulator_, simulator_->get_progress(batch, 0, count, steps, episodes));
+    check(*simulator_, simulator_->get_causes(batch, 0, count, causes));
+}
+
+void EnvPool::write_states(std::span<const std::int64_t> places, const std::byte* records,
+                           std::span<const std::int64_t> steps) {
     rddl_batch* const batch = live();
     const std::int64_t size = simulator_->problem->state_size;
     for (std::size_t k = 0; k < places.size(); ++k)
@@ -216,7 +225,7 @@ void Batch::write_states(std::span<const std::int64_t> places, const std::byte* 
     read_observations();
 }
 
-void Batch::become(Batch& other) {
+void EnvPool::become(EnvPool& other) {
     if (other.simulator_ != simulator_ || other.settings_.environments != settings_.environments)
         throw Refused("a batch becomes one of the same simulator and size");
     check(*simulator_,
@@ -224,37 +233,37 @@ void Batch::become(Batch& other) {
     read_observations();
 }
 
-void Batch::read_observations() {
+void EnvPool::read_observations() {
     if (settings_.shows_records)
         check(*simulator_, simulator_->get_observation(batch_.get(), 0, settings_.environments,
                                                        arrays_.observations.data()));
     read_values(arrays_.observation_values.data());
 }
 
-void Batch::read_interm(std::int64_t environment, std::byte* record) {
+void EnvPool::read_interm(std::int64_t environment, std::byte* record) {
     check(*simulator_, simulator_->get_interm(live(), environment, 1, record));
 }
 
-std::pair<std::int64_t, std::int64_t> Batch::progress(std::int64_t environment) {
+std::pair<std::int64_t, std::int64_t> EnvPool::progress(std::int64_t environment) {
     std::int64_t steps = 0, episodes = 0;
     check(*simulator_, simulator_->get_progress(live(), environment, 1, &steps, &episodes));
     return {steps, episodes};
 }
 
-std::uint8_t Batch::causes(std::int64_t environment) {
+std::uint8_t EnvPool::causes(std::int64_t environment) {
     std::uint8_t causes = RDDL_RUNNING;
     check(*simulator_, simulator_->get_causes(live(), environment, 1, &causes));
     return causes;
 }
 
-std::string Batch::fault(std::int64_t environment) {
+std::string EnvPool::fault(std::int64_t environment) {
     rddl_fault fault{};
     fault.struct_size = sizeof fault;
     check(*simulator_, simulator_->get_fault(live(), environment, &fault));
     return fault.faulty ? fault.message : "";
 }
 
-std::vector<std::int32_t> Batch::violated_preconditions(std::span<const std::byte> actions) {
+std::vector<std::int32_t> EnvPool::violated_preconditions(std::span<const std::byte> actions) {
     if (actions.size() != arrays_.actions.size())
         throw Refused(fmt::format("actions of {} environments have {} bytes, not {}",
                                   settings_.environments, arrays_.actions.size(), actions.size()));
@@ -263,7 +272,7 @@ std::vector<std::int32_t> Batch::violated_preconditions(std::span<const std::byt
     return violated;
 }
 
-std::vector<std::int32_t> Batch::violated_preconditions(std::span<const float> values) {
+std::vector<std::int32_t> EnvPool::violated_preconditions(std::span<const float> values) {
     const auto count = static_cast<std::size_t>(settings_.environments);
     const auto columns = static_cast<std::size_t>(action_columns_);
     if (values.size() != count * columns)
@@ -276,7 +285,7 @@ std::vector<std::int32_t> Batch::violated_preconditions(std::span<const float> v
     return violated_preconditions(std::span<const std::byte>(records));
 }
 
-std::string Batch::explain_violation(std::int64_t environment) {
+std::string EnvPool::explain_violation(std::int64_t environment) {
     rddl_violation violation{};
     violation.struct_size = sizeof violation;
     const std::byte* const action =
@@ -285,12 +294,12 @@ std::string Batch::explain_violation(std::int64_t environment) {
     return violation.precondition < 0 ? "" : violation.message;
 }
 
-void Batch::action_masks(std::uint8_t* masks) {
+void EnvPool::action_masks(std::uint8_t* masks) {
     check(*simulator_, simulator_->action_mask(live(), nullptr, masks));
 }
 
-void Batch::act() {
-    if (!simulator_->policy_act) throw Refused("the problem has no policy block");
+void EnvPool::act() {
+    if (!simulator_->policy_act) throw Failure("the problem has no policy block");
     check(*simulator_, simulator_->policy_act(live(), arrays_.actions.data()));
 }
 

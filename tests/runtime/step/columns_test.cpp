@@ -79,7 +79,7 @@ struct ColumnsOf : testing::Test {};
 using PackTypes = testing::Types<Pack<8>, Pack<16>, Pack<32>, Pack<64>, Pack<16, float>>;
 TYPED_TEST_SUITE(ColumnsOf, PackTypes);
 
-// At an odd address, as callers may have them.
+// The records are at an odd address, as callers may have them.
 TYPED_TEST(ColumnsOf, ReadAndWriteWholeAndOtherBlocks) {
     using L = TypeParam;
     const Columns columns = columns_of<L>(problem, RDDL_ACTION, problem.action_size);

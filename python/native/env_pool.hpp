@@ -20,7 +20,7 @@
 
 namespace rddlc::python {
 
-struct BatchSettings {
+struct EnvPoolSettings {
     std::int64_t environments = 1;
     int threads = 0;  // 0: one per core
     rddl_autoreset autoreset = RDDL_AUTORESET_DISABLED;
@@ -41,15 +41,15 @@ struct Outputs {
 // Its arrays stay where they are, so that Python reads them without copies. Values are the same
 // numbers as records, a column each. Functions that step release Python's lock. A step that Ctrl-C
 // interrupts still completes; the next call waits for it.
-class Batch {
+class EnvPool {
   public:
-    Batch(workbench::Simulator simulator, const BatchSettings& settings);
-    Batch(const Batch& other);
-    Batch& operator=(const Batch&) = delete;
+    EnvPool(workbench::Simulator simulator, const EnvPoolSettings& settings);
+    EnvPool(const EnvPool& other);
+    EnvPool& operator=(const EnvPool&) = delete;
 
     const rddl_simulator& simulator() const { return *simulator_; }
     const workbench::Simulator& shared_simulator() const { return simulator_; }
-    const BatchSettings& settings() const { return settings_; }
+    const EnvPoolSettings& settings() const { return settings_; }
     rddl_batch* handle() { return live(); }
 
     void reset(const std::uint8_t* mask);
@@ -69,19 +69,22 @@ class Batch {
     void set_seeds(std::int64_t begin, std::span<const std::uint64_t> seeds);
 
     void read_state(std::int64_t environment, std::byte* record);
+    // All environments: states, steps of their episodes, episodes before these, and causes.
+    void read_states(std::byte* records, std::int64_t* steps, std::int64_t* episodes,
+                     std::uint8_t* causes);
     // States, one behind the other, of the environments at these places, after so many steps.
     void write_states(std::span<const std::int64_t> places, const std::byte* records,
                       std::span<const std::int64_t> steps);
     // Its environments, and what they will draw, are those of the other, which has as many of the
     // same simulator.
-    void become(Batch& other);
+    void become(EnvPool& other);
     void read_interm(std::int64_t environment, std::byte* record);
     std::pair<std::int64_t, std::int64_t> progress(std::int64_t environment);  // steps, episodes
     std::uint8_t causes(std::int64_t environment);
     std::string fault(std::int64_t environment);
 
-    // For each environment the first precondition that its action violates, or -1: of records, or
-    // of rows of values, which are floats.
+    // The first precondition that the action of each environment violates, or -1: for records, or
+    // for rows of values, which are floats.
     std::vector<std::int32_t> violated_preconditions(std::span<const std::byte> actions);
     std::vector<std::int32_t> violated_preconditions(std::span<const float> values);
     std::string explain_violation(std::int64_t environment);
@@ -109,8 +112,8 @@ class Batch {
     bool has_ended() const;
 
     workbench::Simulator simulator_;  // outlives the batch
-    BatchSettings settings_;
-    solvers::Batch batch_;
+    EnvPoolSettings settings_;
+    solvers::BatchHandle batch_;
     std::int64_t process_;  // whose threads the batch has
     std::int64_t action_columns_, observation_columns_;
     Arrays arrays_;
@@ -118,6 +121,6 @@ class Batch {
     LongCalls calls_;  // the last one: a step that still runs writes into the others
 };
 
-void add_batch(nanobind::module_& module);
+void add_env_pool(nanobind::module_& module);
 
 }  // namespace rddlc::python

@@ -59,6 +59,28 @@ TEST(DistributionFaults, Probabilities) {
     });
 }
 
+// A negative weight counts as rounding only in relation to the others.
+TEST(DistributionFaults, WeightsAreComparedWithTheirSum) {
+    for (const double scale : {1e-200, 1e-12, 1.0, 1e12, 1e200}) {
+        const auto draw = [scale](auto& context, double w) {
+            return sample::unnormalised_discrete(context, place,
+                                                 std::array{scale, w * scale, 2 * scale});
+        };
+        expect_fault(FaultKind::Weight, -4e-9 * scale,
+                     [&](Context<Scalar>& context) { return draw(context, -4e-9); });
+        Context<Scalar> context{{}, 1, {}, {}};
+        EXPECT_NE(draw(context, -2e-9), 1) << scale;
+        EXPECT_FALSE(context.fault) << scale;
+    }
+    const auto all_below = [](auto& context, double w) {
+        return sample::unnormalised_discrete(context, place, std::array{w, w / 2});
+    };
+    expect_faults(FaultKind::Weight, {-1e-300, -1e-12, -1.0, -infinity, nan}, all_below);
+    expect_fault(FaultKind::Weight, nan, [](Context<Scalar>& context) {
+        return sample::unnormalised_discrete(context, place, std::array{1.0, nan, -5.0});
+    });
+}
+
 // Rounding brings probabilities a little out of [0, 1]: they count as 0 and 1. This also holds in
 // packs, and in floats, which round more.
 template <class L>

@@ -278,7 +278,8 @@ void expect_elements_of_scalars() {
             << own[lane] << " of " << size << " in lane " << lane << " on " << simd::level;
 }
 
-// Tables of up to 16 reals or 64 bools are kept in registers. Of small tables no 8 bytes are read.
+// Tables of up to 16 reals or 64 bools are kept in registers. Small tables are not read in units of
+// 8 bytes.
 TEST(Packs, ReadTablesInEachLane) {
     expect_elements_of_scalars<1>();
     expect_elements_of_scalars<3>();

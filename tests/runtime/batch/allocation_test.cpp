@@ -1,5 +1,5 @@
-// After its creation a batch never allocates, in a million steps with resets and faults.
-#include "../counted_allocations.hpp"
+// A batch never allocates after its creation, in a million steps with resets and faults.
+#include "../../counted_allocations.hpp"
 #include "tiny_batch.hpp"
 #include "tiny_policy.hpp"
 
