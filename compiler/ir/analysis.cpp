@@ -1,6 +1,7 @@
 // Over 400 lines: one traversal and the questions about its results.
 #include "ir/analysis.hpp"
 
+#include "ir/cost_model.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -12,18 +13,6 @@
 namespace rddlc::ir {
 namespace {
 
-constexpr double cheap_cost = 6;
-constexpr double elementary_cost = 20;
-
-// The cost in units of an addition.
-double cost_of(Operator op) {
-    if (is_elementary(op)) return elementary_cost;
-    return is_one_of(
-               op, {Operator::Divide, Operator::FloorDivide, Operator::FloorModulo, Operator::Sqrt})
-               ? 4
-               : 1;
-}
-
 // Joins what is known of operands into what is known of their user.
 class Collector {
   public:
@@ -32,6 +21,7 @@ class Collector {
 
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
+        facts_.cost += own_cost(program_, node);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
         facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
                         (program_.assumes_finite && !is_fixed(node));
@@ -72,7 +62,6 @@ class Collector {
     }
 
     void describe(Scalar, const Load& load) {
-        facts_.cost += 1;
         const Buffer& buffer = program_[load.buffer];
         facts_.uniform &= is_constant(load.buffer);
         facts_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
@@ -90,15 +79,10 @@ class Collector {
 
     void describe(Scalar, const Search& search) {
         const auto size = static_cast<double>(program_[search.table].count());
-        facts_.cost += 2 * std::ceil(std::log2(size + 1));
         facts_.range = Range{0, size};
     }
 
-    void describe(Scalar, const Bits& bits) {
-        const std::int64_t count = program_[bits.buffer].count() - bits.first;
-        facts_.cost += static_cast<double>(std::min<std::int64_t>(count, 64));
-        facts_.uniform = false;
-    }
+    void describe(Scalar, const Bits&) { facts_.uniform = false; }
 
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
@@ -112,7 +96,6 @@ class Collector {
     }
 
     void describe(Scalar type, const Apply& apply) {
-        facts_.cost += cost_of(apply.op);
         facts_.elementary |= apply.op == Operator::Sqrt || is_elementary(apply.op);
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
@@ -160,7 +143,6 @@ class Collector {
     }
 
     void describe(Scalar, const Select& select) {
-        facts_.cost += 1;
         const auto a =
             is_guarded_product(program_, select) ? Range{0, 0} : range(select.then_value);
         const auto b = range(select.else_value);
@@ -169,8 +151,7 @@ class Collector {
 
     void describe(Scalar, const Reduce& reduce) {
         const std::int64_t size = program_[reduce.variable].size;
-        bind(reduce.variable, reduce.body,
-             reduce.bounds ? length_of(*reduce.bounds, size) : static_cast<double>(size));
+        bind(reduce.variable, reduce.body, repetitions(program_, reduce));
         if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
             facts_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
@@ -198,33 +179,22 @@ class Collector {
                    : std::numeric_limits<double>::infinity();
     }
 
-    // The average length, if the bounds are neighbours in a table of where rows begin.
-    double length_of(const Bounds& bounds, std::int64_t size) const {
-        const auto* end = std::get_if<Load>(&program_[bounds.end].form);
-        const std::int64_t rows = end ? program_[end->buffer].count() - 1 : 1;
-        return static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(rows, 1));
-    }
-
     void describe(Scalar, const Sample& sample) {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
         facts_.range = range_of(sample.distribution, ranges);
-        facts_.cost += 20;
     }
 
     void describe(Scalar, const Discrete& discrete) {
         draw(true);
         facts_.range = Range{0, static_cast<double>(discrete.weights.size() - 1)};
-        facts_.cost += 20;
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
-        bind(discrete.variable, discrete.weight,
-             static_cast<double>(program_[discrete.variable].size));
+        bind(discrete.variable, discrete.weight, repetitions(program_, discrete));
         facts_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
         draw(true);
-        facts_.cost += 20;
     }
 
     void describe(Scalar, const Fault&) {
@@ -232,11 +202,10 @@ class Collector {
         facts_.uniform = false;
     }
 
-    // The body's own cost is in there already, once.
-    void bind(VariableId variable, NodeId body, double repetitions) {
+    // The cost of the body is in there already, once.
+    void bind(VariableId variable, NodeId body, double times) {
         std::erase(facts_.free_variables, variable);
-        const double times = std::max(repetitions, 1.0);
-        facts_.cost += known_[body.index].cost * (times - 1) + times;
+        facts_.cost += known_[body.index].cost * (times - 1);
     }
 
     void draw(bool may_fault) {
@@ -341,42 +310,6 @@ void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
     roots.push_back(computation.value);
 }
 
-// A call costs what it takes to read its tables and fill its output.
-double cost_of(const Program& program, const Call& call, const std::vector<Facts>& facts) {
-    double cost = 1;
-    for (NodeId operand : operands_of(call)) cost += facts[operand.index].cost;
-    for (const TableView& input : call.inputs)
-        cost += static_cast<double>(program[input.buffer].count());
-    return cost + static_cast<double>(program[call.output.buffer].count());
-}
-
-double cost_of(const Program& program, const Block& block, const std::vector<Facts>& facts) {
-    const auto cost_of_node = [&](NodeId id) {
-        return facts[id.index].cost;
-    };
-    double cost = 0;
-    for (const Statement& statement : block) {
-        cost += match(
-            statement.form, [&](const Let& let) { return cost_of_node(let.value) + 1; },
-            [&](const Store& store) {
-                double sum = cost_of_node(store.value) + 1;
-                for (NodeId index : store.indices) sum += cost_of_node(index);
-                return sum;
-            },
-            [&](const Loop& loop) {
-                const auto size = static_cast<double>(program[loop.variable].size);
-                return size * (1 + cost_of(program, loop.body, facts));
-            },
-            [&](const Call& call) { return cost_of(program, call, facts); });
-    }
-    return cost;
-}
-
-double cost_of(const Program& program, const Computation& computation,
-               const std::vector<Facts>& facts) {
-    return cost_of(program, computation.body, facts) + facts[computation.value.index].cost;
-}
-
 // Program and Definition both const, or neither.
 template <class AnyDefinition, class AnyProgram>
 std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
@@ -413,17 +346,6 @@ std::vector<Facts> all_facts(const Program& program) {
     facts.reserve(program.nodes.size());
     for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts, tables));
     return facts;
-}
-
-double cost_of_step(const Program& program) {
-    const std::vector<Facts> facts = all_facts(program);
-    double cost = cost_of(program, program.reward, facts);
-    for (const Definition& definition : program.step)
-        cost += cost_of(program, definition.body, facts);
-    for (const auto* conditions : {&program.invariants, &program.terminations}) {
-        for (const Computation& condition : *conditions) cost += cost_of(program, condition, facts);
-    }
-    return cost;
 }
 
 bool is_cheap(const Facts& facts) {

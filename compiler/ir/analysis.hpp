@@ -36,9 +36,6 @@ Facts facts_of(const Program& program, const Node& node, std::span<const Facts> 
 // The facts of all nodes of the program, by NodeId::index.
 std::vector<Facts> all_facts(const Program& program);
 
-// The cost of one step, of its reward and of the tests of the new state.
-double cost_of_step(const Program& program);
-
 // Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
 // no more than a handful of operations. A Select of two cheap branches needs no branch.
 bool is_cheap(const Facts& facts);

@@ -1,6 +1,7 @@
 #include "passes/passes.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/verify.hpp"
 #include "passes/aggregations/compare_counts.hpp"
 #include "passes/aggregations/count_bits.hpp"
@@ -118,7 +119,8 @@ constexpr Pass in_order[] = {
 
 PassRun measured(const Pass& pass, ir::Program& program) {
     const auto begin = std::chrono::steady_clock::now();
-    PassRun run{.name = pass.name, .report = {}, .before = {}, .after = {}, .time = {}};
+    PassRun run{
+        .name = pass.name, .report = {}, .undone = false, .before = {}, .after = {}, .time = {}};
     program = pass.run(std::move(program), run.report);
     run.time = std::chrono::steady_clock::now() - begin;
     return run;
@@ -144,15 +146,25 @@ ProgramSize size_of(const ir::Program& program) {
 
 namespace {
 
-// What they did is added to `runs`; the sizes only if they are wanted.
+// Takes what the pass has made, unless a step of it costs more: then the program stays as it was,
+// and the run says so.
+ir::Program kept(const ir::Program& before, ir::Program made, PassRun& run) {
+    if (ir::cost_of_step(made) <= ir::cost_of_step(before)) return made;
+    run.undone = true;
+    run.report.clear();
+    return before;
+}
+
+// Adds what they did to `runs`, with the sizes only if they are wanted.
 ir::Program run_passes(ir::Program program, const PassOptions& options, bool wants_sizes,
                        std::vector<PassRun>& runs) {
     for (const Pass& pass : in_order) {
         if (options.without.contains(pass.name)) continue;
         if (pass.has(only_fast_math) && !options.fast_math) continue;
-        const ProgramSize before = wants_sizes ? size_of(program) : ProgramSize{};
+        const ir::Program before = program;  // constant tables are shared
         PassRun run = measured(pass, program);
-        run.before = before;
+        program = kept(before, std::move(program), run);
+        if (wants_sizes) run.before = size_of(before);
         if (wants_sizes) run.after = size_of(program);
         if (options.observe) options.observe(run, program);
         runs.push_back(std::move(run));

@@ -33,6 +33,7 @@ ProgramSize size_of(const ir::Program& program);
 struct PassRun {
     std::string_view name;
     passes::Report report;
+    bool undone;  // a step would cost more (ir/cost_model.hpp), so the program stays as it was
     ProgramSize before, after;
     std::chrono::duration<double> time;
 };

@@ -68,6 +68,7 @@ class Separation {
         for (const ir::NodeId id : aggregations)
             elements[id] = table_of(id, "part", nest.variables, before);
         store->value = ir::replace_in(builder_, store->value, elements);
+        loop.several_at_once = true;
         report_["loops whose aggregations are computed before"] += 1;
     }
 
@@ -125,6 +126,7 @@ class Separation {
         if (!is_worth_a_table(variables, term)) return id;
         report_["sums whose terms are computed before"] += 1;
         ir::NodeId sum = table_of(term, "terms", variables, before);
+        std::get<ir::Loop>(before.back().form).several_at_once = true;
         for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable)
             sum = builder_.reduce(Reduction::Sum, *variable, sum, {});
         return sum;
