@@ -167,7 +167,10 @@ def main() -> int:
         table.append(row(name, fired, worths))
         print_row(table[-1])
     if options.write:
-        write_section("evidence", f"{instances} instances; {machine_text()}:\n\n{markdown_table(table)}")
+        columns = len(TITLES) if options.time else TITLES.index("timed")
+        shown = [cells[:columns] for cells in table]
+        machine = f"; {machine_text()}" if options.time else ""
+        write_section("evidence", f"{instances} instances{machine}:\n\n{markdown_table(shown)}")
     return 0
 
 

@@ -38,8 +38,8 @@ void mark_distributions(const TokenList& tokens,
     int depth = 0;
     bool in_domain = false;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-        if (depth == 0 && has_type(tokens, i + 2, Parser::OPEN_CURLY))
-            in_domain = has_type(tokens, i, Parser::DOMAIN);
+        if (depth == 0 && has_type(tokens, i, Parser::OPEN_CURLY))
+            in_domain = i >= 2 && has_type(tokens, i - 2, Parser::DOMAIN);
         depth += has_type(tokens, i, Parser::OPEN_CURLY) - has_type(tokens, i, Parser::CLOSE_CURLY);
         const bool is_called = in_domain && has_type(tokens, i, Parser::ID) &&
                                has_type(tokens, i + 1, Parser::OPEN_ROUND);

@@ -319,7 +319,7 @@ class Errors(PictureTest):
         for line, complaint in (('{"state": {"position": "far"}}', "'position' takes a number"),
                                 ('{"state": {"altitude": 1}}', "no state-fluent is called"),
                                 ('[1]', "not a JSON object"), ('{"x": 1}', "no state and no action"),
-                                ("nonsense", "no JSON"),
+                                ("nonsense", "not JSON"),
                                 ('{"state": {}, "step": "3"}', "'step' is an int from 0 on, not \"3\""),
                                 ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
                                 ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
@@ -404,7 +404,7 @@ class Errors(PictureTest):
         for option, complaint in (("--size=600", "not WIDTHxHEIGHT"), ("--size=9x9", "16"),
                                   ("--size=99999x100", "8192"), ("--fps=0", "--fps"),
                                   ("--visualizer=mountain_cat", "did you mean 'mountain_car'?"),
-                                  ("--max-frames=0", "'0' is not a positive int"), ("--step=-1", "not an int from 0 on"),
+                                  ("--max-frames=0", "'0' is not an int from 1 to"), ("--step=-1", "not an int from 0 on"),
                                   ("--environment=1", "there is no episode 1")):
             text = self.run_car("--gif=a.gif", option, status=USAGE).stderr
             self.assertIn(complaint, text)

@@ -30,7 +30,7 @@ grep "holds a run already" "$folder/err"
 if "$ppo" evaluate "$folder/cgp/policy.cgp" 2> "$folder/err"; then exit 1; fi
 grep "error" "$folder/err"
 if "$ppo" train --steps many --out "$folder/x" 2> "$folder/err"; then exit 1; fi
-grep "'many' is not a number" "$folder/err"
+grep "'many' is not an int from 1 to" "$folder/err"
 if "$ppo" train --activation gelu --out "$folder/x" 2> "$folder/err"; then exit 1; fi
 grep "'gelu' is not one of tanh, relu" "$folder/err"
 for option in "--clip nan" "--gamma 2" "--epochs -1" "--minibatch 0" "--hidden 64,0" "--seed -1" "--envs 1e99"; do

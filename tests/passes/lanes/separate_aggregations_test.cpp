@@ -37,7 +37,7 @@ TEST(SeparateAggregations, ComputesThemBeforeTheLoop) {
               "    for y in obj\n"
               "        scratch.depth-part[x, y] = sum[z in obj]("
               "state.depth[z, y] * real(LINK[x, z]))\n"
-              "for x in obj\n"
+              "for x in obj, several at once\n"
               "    for y in obj\n"
               "        next.depth[x, y] = sample normal@0[x * 3 + y](0.0, 1.0) + "
               "scratch.depth-part[x, y]\n"
