@@ -69,9 +69,13 @@ void add_cache_option(Command& command, LoadOptions& options);
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
 
-// --policy; of a file its policy block or, where there is a place for it, a learned policy
+// --policy; of a file its policy block or, where there is a place for it, a learned policy or a
+// planner
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
-                       std::filesystem::path* learned = nullptr);
+                       RolloutOptions* rollouts = nullptr);
+
+// --cheat, --explain-decisions
+void add_planner_options(Command& command, PlannerSettings& planning);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);
