@@ -81,6 +81,37 @@ def _refusals() -> Iterator[None]:
         raise ArgumentError(str(refused)) from None
 
 
+def chosen_action(env: RDDLEnv | RDDLVectorEnv, function: str) -> Any:
+    """What a policy has written into the environment's records, as env.step takes it."""
+    fluents, batch = env.problem.model.actions, env._batch
+    if isinstance(env, RDDLVectorEnv):
+        return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True)
+    if env._forms["actions"] != "dict":
+        raise Error(f"{function}() gives dictionaries: make the environment with actions='dict'")
+    reader = LiftedReader if env._forms["vectorized"] else GroundedReader
+    return reader(fluents, batch.actions).read()
+
+
+def evaluation_of(
+    policy: _native.Policy, episodes: int, seed: int, threads: int, horizon: int | None
+) -> Evaluation:
+    """The returns of a policy in the episodes of this seed."""
+    found = policy.evaluate(
+        whole("episodes", episodes, 1, MOST_EPISODES),
+        seed_of(seed),
+        thread_count(threads),
+        whole_or_none("horizon", horizon, 0),
+    )
+    return Evaluation(
+        episodes=found["episodes"],
+        returns=Estimate(**found["return"]),
+        discounted_returns=Estimate(**found["discounted_return"]),
+        lengths=Estimate(**found["length"]),
+        terminated=found["terminated"],
+        faulted=found["faulted"],
+    )
+
+
 @dataclass(frozen=True)
 class _Best:
     text: str
@@ -215,16 +246,9 @@ class Learner:
         Call it once before each step."""
         if self._actor is None:
             self._actor, self._acts_in = self.policy(), None
-        batch = env._batch
-        self._actor.act(batch, self._acts_in is not env)
+        self._actor.act(env._batch, self._acts_in is not env)
         self._acts_in = env
-        fluents = env.problem.model.actions
-        if isinstance(env, RDDLVectorEnv):
-            return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True), None
-        if env._forms["actions"] != "dict":
-            raise Error("predict() gives dictionaries: make the environment with actions='dict'")
-        reader = LiftedReader if env._forms["vectorized"] else GroundedReader
-        return reader(fluents, batch.actions).read(), None
+        return chosen_action(env, "predict"), None
 
     def evaluate(
         self,
@@ -236,20 +260,7 @@ class Learner:
     ) -> Evaluation:
         """Its returns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
         None: the instance's; 0: none. threads: 0: one for each core."""
-        found = self.policy().evaluate(
-            whole("episodes", episodes, 1, MOST_EPISODES),
-            seed_of(seed),
-            thread_count(threads),
-            whole_or_none("horizon", horizon, 0),
-        )
-        return Evaluation(
-            episodes=found["episodes"],
-            returns=Estimate(**found["return"]),
-            discounted_returns=Estimate(**found["discounted_return"]),
-            lengths=Estimate(**found["length"]),
-            terminated=found["terminated"],
-            faulted=found["faulted"],
-        )
+        return evaluation_of(self.policy(), episodes, seed, threads, horizon)
 
     def save(self, path: str | os.PathLike[str], *, best: bool = False) -> Path:
         """Writes the policy file: of the policy as it is now, or of the `best` one. Its name gets its
