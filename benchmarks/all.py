@@ -1,7 +1,7 @@
 """The whole suite, into docs/benchmarks.md and its pictures: three hours on a machine that does nothing else.
 
-    .venv/bin/python benchmarks/all.py             go on where a run was interrupted
-    .venv/bin/python benchmarks/all.py --fresh     measure everything anew
+    .venv/bin/python benchmarks/all.py             continue where a run was interrupted
+    .venv/bin/python benchmarks/all.py --fresh     measure everything again
     .venv/bin/python benchmarks/all.py --require   fail below the limits of the parts
 
 Needs what `scripts/test.sh` sets up, and pyRDDLGym-jax (requirements-jax.txt) at .jaxvenv.

@@ -1,5 +1,5 @@
-"""What several benchmarks share: the figures of `rddl bench`, results that outlive a run, and the options of
-those that vary a size."""
+"""Shared parts of several benchmarks: the figures of `rddl bench`, results that outlive a run, and
+the options of those that vary a size."""
 
 import argparse
 import json
@@ -16,8 +16,8 @@ from document import ROOT
 
 
 def bench(rddl: Path, *arguments: object, limit: float | None = None) -> dict:
-    """What `rddl bench ARGUMENTS --json` prints. RuntimeError with its message if it fails, or if it and
-    what it has started need more than `limit` seconds."""
+    """Returns the figures of `rddl bench ARGUMENTS --json`. RuntimeError with its message if it
+    fails, or if it and its processes need more than `limit` seconds."""
     command = list(map(str, [rddl, "bench", *arguments, "--json"]))
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, **pipes, start_new_session=True) as process:
@@ -34,7 +34,7 @@ def bench(rddl: Path, *arguments: object, limit: float | None = None) -> dict:
 
 
 class Results:
-    """What is measured, dataclasses by their keys, in a file; what this run measures is added at once."""
+    """Measurements, dataclasses by their keys, in a file; each new one is added at once."""
 
     def __init__(self, path: Path, fresh: bool, read: Callable, key: Callable):
         """`read` makes an entry of its fields, `key` is that of an entry."""
@@ -57,7 +57,8 @@ def geometric_mean(values: list[float]) -> float:
 
 
 def size_options(name: str, description: str, sizes: tuple[int, ...], counted: str) -> argparse.ArgumentParser:
-    """Of a benchmark that measures problems of several sizes, has a limit and a section of the document."""
+    """The options of a benchmark that measures problems of several sizes, has a limit and a section
+    of the document."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--sizes", type=int, nargs="+", default=sizes, help=f"numbers of {counted}")
     parser.add_argument("--rddl", type=Path, default=ROOT / "build/bin/rddl", help="our program")

@@ -6,8 +6,9 @@
     .venv/bin/python benchmarks/cliffs.py --require --write      fail below the limit; docs/benchmarks.md
 
 `rddl bench` with one thread: steps of a single environment for a second of processor time, and those of a
-batch. A ratio below the limit is measured again, for longer, before it counts. What is measured is kept in a
-file (--results), a line for each instance, so that an interrupted run goes on; --fresh begins anew.
+batch. A ratio below the limit is measured again, for longer, before it counts. Measurements are kept in a
+file (--results), a line for each instance, so that an interrupted run continues; --fresh measures everything
+again.
 """
 
 import argparse
@@ -22,7 +23,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 sys.path.append(str(ROOT / "tests/conformance"))
 from problems import Case, all_problems, repository_cases, smallest_median_largest
 
-LEAST_RATIO = 0.9  # 1, but for caches and for what measurements of one program differ by
+LEAST_RATIO = 0.9  # 1, with a margin for caches and for the noise between measurements of one program
 LONGER = 10
 
 

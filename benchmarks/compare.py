@@ -5,14 +5,14 @@
     .venv/bin/python benchmarks/compare.py --require             and fail below the limits
     .venv/bin/python benchmarks/compare.py --write               and docs/benchmarks.md
 
-Of each problem of rddlrepository the smallest and the largest instance, by the size of their text.
-All play random legal actions that are drawn beforehand; resets, where an episode ends, are part of the
-time. pyRDDLGym steps one environment in its vectorised form, its quicker one; ours is `rddl bench` with
-one thread: a single environment, and a batch. They take turns; processor time is not inflated by other
-programs on the machine. The ratios are those of the medians.
+Measures the smallest and the largest instance of each problem of rddlrepository, by the size of their
+text. All play random legal actions that are drawn beforehand; resets, where an episode ends, are part of
+the time. pyRDDLGym steps one environment in its vectorised form, its quicker one; ours is `rddl bench`
+with one thread: a single environment, and a batch. They take turns; processor time is not inflated by
+other programs on the machine. The ratios are those of the medians.
 
-What is measured is kept in a file (--results), a line for each instance, so that a run that was
-interrupted goes on where it was; --fresh begins anew. Simulators are compiled before anything is measured.
+Measurements are kept in a file (--results), a line for each instance, so that an interrupted run continues
+where it was; --fresh measures everything again. Simulators are compiled before anything is measured.
 
 Limits: geometric means of the ratios of at least 3,000 in a batch and 1,000 for a single environment,
 and no instance below 50 in a batch.
@@ -48,7 +48,7 @@ BATCH_MEAN, SINGLE_MEAN, LEAST = 3000.0, 1000.0, 50.0
 
 @dataclass
 class Comparison:
-    """Of one instance: steps for a second of processor time, one figure a round."""
+    """The figures of one instance: steps for a second of processor time, one figure a round."""
 
     problem: str
     instance: str
@@ -74,7 +74,7 @@ def speed(measurement: dict) -> float:
 
 
 def our_speeds(rddl: Path, case: Case, seconds: float) -> tuple[float, float]:
-    """Of a single environment and of a batch."""
+    """The speeds of a single environment and of a batch."""
     figures = bench(rddl, case.domain_path, case.instance_path, "--threads", 1, "--seconds", seconds)
     single, *batches = map(speed, figures["measurements"])
     return single, max(batches)
@@ -97,7 +97,7 @@ def smallest_and_largest(problem: str) -> list[Case]:
 
 
 def columns(comparison: Comparison) -> tuple[str, ...]:
-    """As in the table of the document."""
+    """The columns of the table in the document."""
     speeds = (comparison.pyrddlgym, comparison.single, comparison.batch)
     numbers = [*map(statistics.median, speeds), comparison.single_ratio, comparison.batch_ratio]
     return (comparison.label, *(f"{number:,.0f}" for number in numbers))
@@ -121,7 +121,7 @@ def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
 
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
-    """What is below its limit, a line each."""
+    """Returns the figures below their limit, a line each."""
     lines = []
     for name, ratio, limit in (("batch", "batch_ratio", BATCH_MEAN), ("one environment", "single_ratio", SINGLE_MEAN)):
         mean = geometric_mean([getattr(comparison, ratio) for comparison in comparisons])
@@ -157,7 +157,7 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def compile_ahead(cases: list[Case], options: argparse.Namespace) -> None:
-    """Into rddl's cache, on all cores; what fails does so again when it is measured."""
+    """Compiles into rddl's cache, on all cores; a failure is repeated when it is measured."""
 
     def compile_one(case: Case) -> None:
         with contextlib.suppress(RuntimeError, OSError):
@@ -168,7 +168,7 @@ def compile_ahead(cases: list[Case], options: argparse.Namespace) -> None:
 
 
 def measure_missing(cases: list[Case], results: Results, options: argparse.Namespace) -> list[str]:
-    """Those that failed, a line each."""
+    """Returns the measurements that failed, a line each."""
     failures = []
     for case in cases:
         if case.label not in results.entries:

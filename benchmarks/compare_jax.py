@@ -7,17 +7,17 @@
     .venv/bin/python benchmarks/compare_jax.py --write         and docs/benchmarks.md
     .venv/bin/python benchmarks/compare_jax.py --threads 2     with so many instead of one
 
-Of each problem of rddlrepository the instance of median size; those that pyRDDLGym-jax does not run are
-told with its reason. Each is a run of `rddl bench --against=jax`: jax after its compilation, then ours in
-64 bits, each at its best batch size; and one of ours in 32 bits (--real=float), in which jax computes by
-default. With one thread, steps are told for a second of processor time, which other programs on the
-machine do not inflate. jax checks neither ends of episodes nor preconditions; ours ends episodes. The time to the
-first step is that of a program that is given the files: for jax to import it (told apart in the table), to
-read the files and to compile a single step; for us to compile, twice. What all simulators link is compiled
-before, as pyRDDLGym-jax is installed before.
+Measures the instance of median size of each problem of rddlrepository; those that pyRDDLGym-jax does not run are
+reported with its reason. Each is a run of `rddl bench --against=jax`: jax after its compilation, then ours in 64
+bits, each at its best batch size; and one of ours in 32 bits (--real=float), in which jax computes by default.
+With one thread, steps are reported for a second of processor time, which other programs on the machine do
+not inflate. jax checks neither ends of episodes nor preconditions; ours ends episodes. The time to the
+first step is that of a program that is given the files: for jax to import it (listed separately in the
+table), to read the files and to compile a single step; for us to compile, twice. The code that all
+simulators link is compiled before, as pyRDDLGym-jax is installed before.
 
-What is measured is kept in a file (--results), so that a run that was interrupted goes on where it was;
---fresh begins anew. A problem that takes longer than --limit is given up.
+Measurements are kept in a file (--results), so that an interrupted run continues where it was; --fresh
+measures everything again. A problem that takes longer than --limit is given up.
 
 Limits: geometric means of the ratios of at least 10, both in 32 bits; and a first step that is sooner.
 """
@@ -41,7 +41,7 @@ OUR_BATCHES = "64,256,1024,4096"
 
 @dataclass
 class Comparison:
-    """Of one instance."""
+    """The figures of one instance."""
 
     label: str
     threads: int
@@ -76,7 +76,8 @@ class NotRun:
 
 
 def best_rate(measurements: list[dict], threads: int) -> float:
-    """Of one thread in processor time, which other programs on the machine do not inflate."""
+    """The best rate, with one thread in processor time, which other programs on the machine do not
+    inflate."""
     time = "processor_seconds" if threads == 1 else "seconds"
     return max(m["steps"] / m[time] for m in measurements if m["threads"] == threads)
 
@@ -114,7 +115,7 @@ def rate_in_floats(arguments: list, options: argparse.Namespace) -> float | None
 
 
 def reason_of(message: str) -> str:
-    """What the table has room for; RuntimeError if it is not pyRDDLGym-jax that could not do it."""
+    """Returns a reason that fits into the table; RuntimeError if pyRDDLGym-jax is not the reason."""
     begin = "pyRDDLGym-jax cannot run this problem: "
     if begin not in message and not message.startswith("no figures within"):
         raise RuntimeError(message)
@@ -169,7 +170,7 @@ def summary_rows(comparisons: list[Comparison]) -> list[tuple[str, ...]]:
 
 
 def shortfalls(comparisons: list[Comparison]) -> list[str]:
-    """What is below its limit, a line each."""
+    """Returns the figures below their limit, a line each."""
     mean = geometric_mean([c.floats_ratio for c in comparisons if c.floats_ratio])
     lines = [f"floats: the geometric mean {mean:.1f} is below {LEAST_RATIO:g}"] if mean < LEAST_RATIO else []
     return lines + [f"{c.label}: the first step is not sooner" for c in comparisons if not c.is_sooner]
@@ -204,7 +205,7 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def measure_missing(cases: list[Case], results: Results, options: argparse.Namespace) -> list[str]:
-    """Those that failed, a line each."""
+    """Returns the measurements that failed, a line each."""
     failures = []
     for number, case in enumerate(cases, 1):
         key = (case.label, options.threads)

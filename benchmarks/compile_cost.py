@@ -1,4 +1,4 @@
-"""What it costs to compile the problems of rddlrepository: by rddlc, and then by the C++ compiler.
+"""The cost of compiling the problems of rddlrepository: by rddlc, and then by the C++ compiler.
 
     .venv/bin/python benchmarks/compile_cost.py                  all 586 instances; a quarter of an hour
     .venv/bin/python benchmarks/compile_cost.py RecSim_ippc2023  some problems
@@ -37,7 +37,7 @@ CXX_FLAGS = ["-std=c++20", "-O2", "-ffp-contract=off", "-fPIC", f"-I{ROOT / 'run
 
 @dataclass
 class Cost:
-    """Of one instance."""
+    """The cost of one instance."""
 
     problem: str
     instance: str
@@ -126,7 +126,7 @@ def summary_rows(costs: list[Cost]) -> list[tuple[str, ...]]:
 
 
 def excesses(costs: list[Cost]) -> list[str]:
-    """What is over its limit, a line each."""
+    """Returns the costs over their limit, a line each."""
     lines = []
     for cost in costs:
         if cost.compile_seconds > COMPILE_SECONDS:

@@ -9,7 +9,7 @@ Texts of many shapes (shapes.py), once of n lines and once of 4n. What counts is
 whole process, which other programs on the machine hardly change. n log n makes the ratio about 4.5, a cost by the
 square 16.
 
-Limit: a ratio of 8, or a time that is too short to tell.
+Limit: a ratio of 8, or a time that is too short to measure.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from document import ROOT, machine_text, markdown_table, write_section
 from shapes import SHAPES
 
 GREATEST_RATIO = 8.0
-SHORTEST = 0.2  # seconds of processor time that tell something
+SHORTEST = 0.2  # the shortest processor time, in seconds, that is measured reliably
 
 RDDLC = Path(os.environ.get("RDDLC", ROOT / "build/bin/rddlc"))
 RDDL = Path(os.environ.get("RDDL", ROOT / "build/bin/rddl"))
@@ -52,7 +52,7 @@ class Growth:
 
 
 def processor_seconds(words: list, text: str) -> float:
-    """Of a program that ends by itself, whether it likes the text or not."""
+    """The processor time of a program that ends by itself, whether it accepts the text or not."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "problem.rddl")
         path.write_text(text)

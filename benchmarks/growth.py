@@ -75,7 +75,7 @@ def power_of_growth(points: list[Point]) -> float:
 
 
 def excesses(points: list[Point]) -> list[str]:
-    """Where the time grows faster than it may, a line each."""
+    """Returns the times that grow faster than they may, a line each."""
     lines = []
     for domain in dict.fromkeys(p.domain for p in points):
         of_domain = [p for p in points if p.domain == domain]

@@ -44,7 +44,7 @@ GREATEST_DIFFERENCE = 1e-9  # of reals, relative; the order of sums is not the s
 
 @dataclass
 class Comparison:
-    """Of one instance and size of batch."""
+    """The figures of one instance and size of batch."""
 
     label: str
     environments: int
@@ -57,9 +57,9 @@ class Comparison:
 
 # GCC would put halves of one environment's polynomials into registers together, and lose half of its speed;
 # and keep coefficients that are used twice in registers, and numbers elsewhere. GCC 12 makes wrong copies of
-# constants (rddl/tables.hpp).
+# constants (rddl/values/tables.hpp).
 NO_PASSES = ["-fno-tree-slp-vectorize", "-fno-gcse", "-fno-tree-loop-distribute-patterns"]
-# As rddl has it (compiler/driver/shared_object.cpp).
+# The flags of rddl (compiler/driver/shared_object.cpp).
 INLINE_MORE = ["--param", "max-inline-insns-single=400"]
 FLAGS = ["-std=c++20", "-O3", "-march=native", "-ffp-contract=off", *NO_PASSES, *INLINE_MORE]
 # Each reference as if it were alone in its program.
@@ -79,9 +79,9 @@ def build_references(options: argparse.Namespace) -> Path:
     (options.folder / "tables.hpp").write_text(run([sys.executable, FOLDER / "tables.py"]))
     program = options.folder / "handwritten"
     measuring = ("terminal/interrupt", "measure/measurement", "measure/random_course", "formats/records_json")
-    sources = [FOLDER / "main.cpp", *(ROOT / f"cli/rddl/{name}.cpp" for name in measuring)]
-    folders = [options.folder, ROOT / "runtime", ROOT / "cli/rddl", ROOT / "compiler", ROOT]
-    libraries = [options.build / "solvers/librddl_solvers.a", options.build / "compiler/support/librddlc_support.a",
+    sources = [FOLDER / "main.cpp", *(ROOT / f"workbench/{name}.cpp" for name in measuring)]
+    folders = [options.folder, ROOT / "runtime", ROOT / "workbench", ROOT]
+    libraries = [options.build / "solvers/librddl_solvers.a", options.build / "support/librddlc_support.a",
                  "-lfmt", "-lutf8proc", "-ldl", "-pthread"]
     run([options.cxx, *FLAGS, *INLINING, *(f"-I{folder}" for folder in folders), *sources, *libraries, "-o", program])
     return program

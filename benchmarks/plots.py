@@ -69,7 +69,7 @@ def draw_growth(results: Path):
 
 
 def draw_slopes(axes, points: list[dict]) -> None:
-    """What growing by the number of objects, and by its square, would look like."""
+    """Draws growth by the number of objects, and by its square, for comparison."""
     least, most = (bound(point["objects"] for point in points) for bound in (min, max))
     start = min(point["seconds"] for point in points) * 1e6
     for power, style, name in ((1, "--", "linear"), (2, ":", "quadratic")):

@@ -1,4 +1,5 @@
-"""What a road of many segments costs the mountain car: a binary search, not a sum over segments.
+"""The cost of a road of many segments for the mountain car: a binary search, not a sum over
+segments.
 
     .venv/bin/python benchmarks/segments.py             a minute
     .venv/bin/python benchmarks/segments.py --require   and fail above the limit

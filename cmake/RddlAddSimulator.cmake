@@ -49,7 +49,7 @@ endfunction()
 function(rddl_compile_simulator target)
   rddl_require_cxx("rddl_compile_simulator(${target})")
   add_library(${target} STATIC ${ARGN})
-  # For programs and shared libraries, which see nothing but the entry.
+  # These options are for programs and shared libraries, which see nothing but the entry.
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PUBLIC rddlc::runtime)

@@ -18,7 +18,7 @@ function(rddl_add_solver target)
   endif()
   rddl_add_simulator(${target}_simulator DOMAIN ${ARG_DOMAIN} INSTANCE ${ARG_INSTANCE}
                      EXTERN ${ARG_EXTERN} OPTIONS ${ARG_OPTIONS})
-  # By a name that does not depend on the problem.
+  # The entry has a name that does not depend on the problem.
   target_compile_definitions(${target}_simulator PRIVATE RDDL_ENTRY=rddl_solver_simulator)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${target}.rddl/nothing.cpp "// main() is in the library.\n")
   add_executable(${target} ${CMAKE_CURRENT_BINARY_DIR}/${target}.rddl/nothing.cpp)

@@ -1,17 +1,18 @@
-# What simulators are compiled with, by rddl_add_simulator and by rddlc and rddl at run time
-# (compiler/driver/cpp_compiler.cpp), as far as the compiler takes it. Global, as functions are: who calls
-# rddl_add_simulator may be another folder than the one that includes this.
+# The flags with which simulators are compiled, by rddl_add_simulator and by rddlc and rddl at run
+# time (compiler/driver/cpp_compiler.cpp), as far as the compiler accepts them. Global, as functions
+# are: rddl_add_simulator may be called in another folder than the one that includes this.
 
-# For right results in all code that includes the runtime: the same digits as the interpreter's, and no
-# copies of loops over constant tables, in which GCC 12 is wrong (rddl/tables.hpp).
+# These flags give right results in all code that includes the runtime: the same digits as the
+# interpreter's, and no copies of loops over constant tables, in which GCC 12 is wrong
+# (rddl/values/tables.hpp).
 set_property(GLOBAL PROPERTY RDDL_NEEDED_FLAGS
   -ffp-contract=off -fno-tree-loop-distribute-patterns)
 
-# For speed. Lanes are vectors already: GCC would put numbers of one environment together as well, which
-# costs more than it gains where they then wait for each other, as in a polynomial. It would keep the
-# coefficients of polynomials that are evaluated twice in registers (gcse), and numbers elsewhere. The
-# body of a loop over several objects stands in two calls (rddl/objects.hpp), which GCC would take for a
-# reason to inline neither.
+# These flags are for speed. Lanes are vectors already: GCC would also put numbers of one
+# environment together, which costs more than it gains where they then wait for each other, as in a
+# polynomial. It would keep the coefficients of polynomials that are evaluated twice in registers
+# (gcse), and numbers elsewhere. The body of a loop over several objects stands in two calls
+# (rddl/object_lanes/objects.hpp), which GCC would take for a reason to inline neither.
 set_property(GLOBAL PROPERTY RDDL_FAST_FLAGS
   -O3 -fno-tree-slp-vectorize -fno-gcse --param=max-inline-insns-single=400)
 

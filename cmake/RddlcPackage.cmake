@@ -1,4 +1,4 @@
-# What `cmake --install` installs for other CMake projects (component "rddlc").
+# The files that `cmake --install` installs for other CMake projects (component "rddlc").
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/rddlc)
 
@@ -23,8 +23,8 @@ if(TARGET rddl_ppo)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/solvers/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/solvers
             COMPONENT solvers FILES_MATCHING PATTERN "*.hpp")
   endforeach()
-  install(FILES ${PROJECT_SOURCE_DIR}/compiler/support/failure.hpp ${PROJECT_SOURCE_DIR}/compiler/support/memory.hpp
-          ${PROJECT_SOURCE_DIR}/compiler/support/files.hpp
+  install(FILES ${PROJECT_SOURCE_DIR}/support/failure.hpp ${PROJECT_SOURCE_DIR}/support/memory.hpp
+          ${PROJECT_SOURCE_DIR}/support/files.hpp
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/support COMPONENT solvers)
   install(EXPORT rddlcSolverTargets NAMESPACE rddl:: DESTINATION ${package_folder} COMPONENT solvers)
 endif()

@@ -13,7 +13,7 @@ function(rddlc_check_parser folder grammar include)
     message(FATAL_ERROR "RDDLC_PARSER: the parser in ${folder} was made of another grammar than ${grammar}.")
   endif()
 
-  # From 4.10 on parsers have another form; the runtime has told its version since then.
+  # Parsers have another form from 4.10 on; the runtime has stated its version since then.
   file(STRINGS ${folder}/RDDLParser.cpp made_by REGEX "by ANTLR [0-9.]+" LIMIT_COUNT 1)
   string(REGEX MATCH "ANTLR ([0-9.]+)" made_by "${made_by}")
   set(version ${CMAKE_MATCH_1})

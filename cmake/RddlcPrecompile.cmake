@@ -25,7 +25,7 @@ function(rddlc_precompile target)
   endif()
 endfunction()
 
-# For what is compiled for speed, and for the rest (rddlc_cold).
+# One set for code that is compiled for speed, and one for the rest (rddlc_cold).
 foreach(kind fast cold)
   add_library(rddlc_${kind}_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/no_code.cpp)
   target_link_libraries(rddlc_${kind}_headers PRIVATE rddlc_options fmt::fmt $<$<STREQUAL:${kind},cold>:rddlc_cold>)

@@ -1,5 +1,5 @@
-# What the tests need besides what the programs need: RDDLC_TESTS_POSSIBLE, and RDDLC_MISSING_FOR_TESTS with the
-# packages of Debian that have what is missing.
+# Packages that only the tests need: RDDLC_TESTS_POSSIBLE, and RDDLC_MISSING_FOR_TESTS with the
+# packages of Debian that are missing.
 find_package(GTest QUIET)
 # Reference distributions and the reference of Philox: headers alone.
 find_path(RDDLC_BOOST_INCLUDE boost/math/distributions.hpp)
@@ -20,7 +20,7 @@ if(RDDLC_MISSING_FOR_TESTS)
   set(RDDLC_TESTS_POSSIBLE OFF)
 endif()
 
-# An error where the tests are asked for, else a word on why there are none.
+# Reports an error if the tests are asked for, otherwise why they are not built.
 function(rddlc_report_missing_test_needs)
   if(RDDLC_TESTS_POSSIBLE OR RDDLC_RUNTIME_ONLY)
     return()

@@ -1,4 +1,4 @@
-# What every target of our own code is compiled with.
+# The options with which every target of our own code is compiled.
 add_library(rddlc_options INTERFACE)
 target_compile_options(rddlc_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion
@@ -12,7 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(rddlc_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds
     -Wno-maybe-uninitialized)
 endif()
-# For code that never runs long, such as that of the command lines: it compiles in half to two thirds of the time of -O2.
+# Options for code that never runs long, such as that of the command lines: it compiles in half to
+# two thirds of the time of -O2.
 add_library(rddlc_cold INTERFACE)
 target_compile_options(rddlc_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-Og>)
 if(RDDLC_SANITIZE)

@@ -57,14 +57,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = cart_pole_cart_pole_1::State<L>;
-    template <class L>
-    using Action = cart_pole_cart_pole_1::Action<L>;
-    template <class L>
-    using Scratch = cart_pole_cart_pole_1::Scratch<L>;
-    template <class L>
-    using Observation = cart_pole_cart_pole_1::Observation<L>;
+    template <class L> using State = cart_pole_cart_pole_1::State<L>;
+    template <class L> using Action = cart_pole_cart_pole_1::Action<L>;
+    template <class L> using Scratch = cart_pole_cart_pole_1::Scratch<L>;
+    template <class L> using Observation = cart_pole_cart_pole_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -123,8 +119,9 @@ struct Simulator {
             scratch.sin_angle + rddl::select(scratch.friction == 0.0, scratch.friction, term);
         const Bool condition = 0.05 * (state.angle_change * state.angle_change) == 0.0;
         const Real term_3 = 0.05 * (state.angle_change * state.angle_change);
-        const Real term_4 = rddl::select(action.push_right, 10.0, -10.0) +
-                            rddl::select(condition, term_3, term_3 * term_2);
+        const Real term_4 =
+            rddl::select(action.push_right, 10.0, -10.0) +
+            rddl::select(condition, term_3, term_3 * term_2);
         scratch.drive = term_4 / 1.1;
     }
 
@@ -133,9 +130,10 @@ struct Simulator {
     static void set_turn(const State<L>& state, Scratch<L>& scratch) {
         using Real = typename L::Real;
         const Real term = scratch.cos_angle * (scratch.drive - scratch.friction * 9.8);
-        const Real term_2 = 9.8 * scratch.sin_angle -
-                            rddl::select(scratch.cos_angle == 0.0, scratch.cos_angle, term) -
-                            2e-06 * state.angle_change / 0.05;
+        const Real term_2 =
+            9.8 * scratch.sin_angle -
+            rddl::select(scratch.cos_angle == 0.0, scratch.cos_angle, term) -
+            2e-06 * state.angle_change / 0.05;
         const Real term_3 = 0.1 * scratch.cos_angle * (scratch.cos_angle - scratch.friction);
         const Real term_4 =
             rddl::select(0.1 * scratch.cos_angle == 0.0, 0.1 * scratch.cos_angle, term_3) / 1.1;
@@ -173,9 +171,9 @@ struct Simulator {
         const Real term_3 =
             rddl::select(scratch.turn == 0.0, scratch.turn, scratch.turn * scratch.cos_angle);
         const Real term_4 = scratch.friction * scratch.pressure;
-        const Real term_5 = rddl::select(action.push_right, 10.0, -10.0) +
-                            0.05 * (term_2 - term_3) -
-                            rddl::select(scratch.pressure == 0.0, scratch.pressure, term_4);
+        const Real term_5 =
+            rddl::select(action.push_right, 10.0, -10.0) + 0.05 * (term_2 - term_3) -
+            rddl::select(scratch.pressure == 0.0, scratch.pressure, term_4);
         scratch.speed_up = term_5 / 1.1;
     }
 
@@ -243,9 +241,8 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/cart_pole/domain.rddl";
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"GRAVITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
      {source_file, 13, 9}},
     {"CART-MASS", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
@@ -306,7 +303,6 @@ inline constexpr rddl_condition terminations[] = {
     {"abs[position] > TRACK-LIMIT", {source_file, 84, 9}},
     {"abs[angle] > ANGLE-LIMIT", {source_file, 85, 9}},
 };
-// clang-format on
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};

@@ -36,7 +36,6 @@ inline constexpr rddl::Index progress_count = 3;   // waiting, riding, delivered
 // ---------------------------------------------------------------------------------- tables
 
 // ROAD, domain.rddl:27
-// clang-format off
 inline constexpr std::array<std::array<std::int64_t, direction_count>, place_count> ROAD_ = {{
     {0, 0, 1, 3, 0},
     {1, 1, 2, 4, 0},
@@ -45,7 +44,6 @@ inline constexpr std::array<std::array<std::int64_t, direction_count>, place_cou
     {4, 1, 5, 4, 3},
     {5, 2, 5, 5, 4},
 }};
-// clang-format on
 
 // STEEP, domain.rddl:28
 inline constexpr std::array<bool, place_count> STEEP_ = {0, 0, 1, 0, 0, 0};
@@ -60,13 +58,11 @@ inline constexpr std::array<std::int64_t, parcel_count> DESTINATION_ = {2, 4, 0}
 inline constexpr std::array<double, parcel_count> PRICE_ = {20, 20, 35};
 
 // CHANGE, domain.rddl:36
-// clang-format off
 inline constexpr std::array<std::array<double, weather_count>, weather_count> CHANGE_ = {{
     {0.8, 0.15, 0.05},
     {0.3, 0.6, 0.1},
     {0.2, 0.2, 0.6},
 }};
-// clang-format on
 
 // --------------------------------------------------------------------------------- records
 
@@ -98,14 +94,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = delivery_delivery_1::State<L>;
-    template <class L>
-    using Action = delivery_delivery_1::Action<L>;
-    template <class L>
-    using Scratch = delivery_delivery_1::Scratch<L>;
-    template <class L>
-    using Observation = delivery_delivery_1::Observation<L>;
+    template <class L> using State = delivery_delivery_1::State<L>;
+    template <class L> using Action = delivery_delivery_1::Action<L>;
+    template <class L> using Scratch = delivery_delivery_1::Scratch<L>;
+    template <class L> using Observation = delivery_delivery_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -153,8 +145,9 @@ struct Simulator {
     template <class L>
     static void set_sky(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.sky = rddl::sample::discrete_over(
-            context, {0, 0}, weather_count,
-            [&](rddl::Index tomorrow) { return rddl::at(CHANGE_, state.sky, tomorrow); });
+            context, {0, 0}, weather_count, [&](rddl::Index tomorrow) {
+                return rddl::at(CHANGE_, state.sky, tomorrow);
+            });
     }
 
     // called(?p)  (domain.rddl:73)
@@ -227,8 +220,9 @@ struct Simulator {
     template <class L>
     static typename L::Bool termination_0(const State<L>& state) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(parcel_count,
-                                   [&](rddl::Index p) { return state.status[p] == 2; });
+        return rddl::for_all<Bool>(parcel_count, [&](rddl::Index p) {
+            return state.status[p] == 2;
+        });
     }
 
     // Hold in every state that makes sense.
@@ -261,8 +255,9 @@ struct Simulator {
     template <class L>
     static typename L::Bool precondition_1(const Action<L>& action) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(
-            parcel_count, [&](rddl::Index p) { return rddl::to_int(action.take[0][p]) <= 1; });
+        return rddl::for_all<Bool>(parcel_count, [&](rddl::Index p) {
+            return rddl::to_int(action.take[0][p]) <= 1;
+        });
     }
 };
 
@@ -277,11 +272,8 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/delivery/domain.rddl";
 
-// clang-format off
-inline constexpr const char* place_objects[] = {
-    "farm", "mill", "church", "depot", "market", "harbour"
-};
-// clang-format on
+inline constexpr const char* place_objects[] = {"farm", "mill", "church", "depot", "market",
+                                                "harbour"};
 
 inline constexpr const char* van_objects[] = {"red"};
 inline constexpr const char* parcel_objects[] = {"letter", "flour", "fish"};
@@ -289,7 +281,6 @@ inline constexpr const char* direction_objects[] = {"stay", "north", "east", "so
 inline constexpr const char* weather_objects[] = {"sunny", "rainy", "snowy"};
 inline constexpr const char* progress_objects[] = {"waiting", "riding", "delivered"};
 
-// clang-format off
 inline constexpr rddl_type types[] = {
     {"place", place_objects, place_count, 0},
     {"van", van_objects, van_count, 0},
@@ -298,7 +289,6 @@ inline constexpr rddl_type types[] = {
     {"weather", weather_objects, weather_count, 1},
     {"progress", progress_objects, progress_count, 1},
 };
-// clang-format on
 
 inline constexpr std::int32_t of_place_direction[] = {0, 3};
 inline constexpr std::int32_t of_place[] = {0};
@@ -307,9 +297,8 @@ inline constexpr std::int32_t of_weather_weather[] = {4, 4};
 inline constexpr std::int32_t of_van[] = {1};
 inline constexpr std::int32_t of_van_parcel[] = {1, 2};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"ROAD", RDDL_NON_FLUENT, RDDL_INT, 0, 2, of_place_direction, 30, -1, nullptr, nullptr,
      {source_file, 27, 9}},
     {"STEEP", RDDL_NON_FLUENT, RDDL_BOOL, -1, 1, of_place, 6, -1, nullptr, nullptr,
@@ -357,15 +346,12 @@ inline constexpr rddl::Constants constants[] = {
 
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?v : van, ?p : parcel} [ take(?v, ?p) => (status(?p) == @waiting ^ "
-     "position(?v) == ORIGIN(?p)) ]",
-     {source_file, 102, 9}},
+     "position(?v) == ORIGIN(?p)) ]", {source_file, 102, 9}},
     {"forall_{?p : parcel} [(sum_{?v : van} [take(?v, ?p)]) <= 1]", {source_file, 104, 9}},
 };
 
-inline constexpr rddl_condition terminations[] = {
-    {"forall_{?p : parcel} [status(?p) == @delivered]", {source_file, 97, 9}},
-};
-// clang-format on
+inline constexpr rddl_condition
+    terminations[] = {{"forall_{?p : parcel} [status(?p) == @delivered]", {source_file, 97, 9}}};
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -406,12 +392,10 @@ inline constexpr rddl_problem problem = {
 
 inline constexpr rddl::SiteVariable scope_v[] = {{"v", &types[1]}};
 
-// clang-format off
 inline constexpr rddl::Site sites[] = {
     {{source_file, 57, 16}, "Discrete", {}},
     {{source_file, 67, 29}, "Bernoulli", scope_v},
 };
-// clang-format on
 
 }  // namespace about
 

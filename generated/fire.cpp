@@ -32,7 +32,6 @@ inline constexpr rddl::Index ypos_count = 5;  // y1, y2, y3, y4, y5
 // ---------------------------------------------------------------------------------- tables
 
 // CLEARING, domain.rddl:23
-// clang-format off
 inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING_ = {{
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
@@ -40,10 +39,8 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> CLEARING_ 
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
 }};
-// clang-format on
 
 // burning, domain.rddl:39
-// clang-format off
 inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_burning = {{
     {0, 0, 1, 0, 0},
     {0, 0, 0, 0, 0},
@@ -51,36 +48,25 @@ inline constexpr std::array<std::array<bool, ypos_count>, xpos_count> initial_bu
     {0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0},
 }};
-// clang-format on
 
 // ignites-rows, domain.rddl:58
-// clang-format off
-inline constexpr std::array<std::int64_t, 26> ignites_rows_ = {
-    0, 2, 5, 8, 11, 13, 16, 20, 24, 28, 31, 34, 38, 42, 46, 49, 52, 56, 60, 64, 67, 69, 72, 75, 78,
-    80
+inline constexpr std::array<std::int64_t, 126> ignites_rows_ = {
+    0, 1, 2, 2, 2, 2, 4, 5, 5, 5, 5, 7, 8, 8, 8, 8, 10, 11, 11, 11, 11, 12, 13, 13, 13, 13, 14, 15,
+    16, 16, 16, 17, 19, 20, 20, 20, 21, 23, 24, 24, 24, 25, 27, 28, 28, 28, 29, 30, 31, 31, 31, 31,
+    32, 33, 34, 34, 34, 35, 37, 38, 38, 38, 39, 41, 42, 42, 42, 43, 45, 46, 46, 46, 47, 48, 49, 49,
+    49, 49, 50, 51, 52, 52, 52, 53, 55, 56, 56, 56, 57, 59, 60, 60, 60, 61, 63, 64, 64, 64, 65, 66,
+    67, 67, 67, 67, 68, 69, 69, 69, 69, 70, 72, 72, 72, 72, 73, 75, 75, 75, 75, 76, 78, 78, 78, 78,
+    79, 80
 };
-// clang-format on
-
-// ignites-n, domain.rddl:58
-// clang-format off
-inline constexpr std::array<std::int64_t, 80> ignites_n_ = {
-    0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 1, 2, 0, 1, 2, 1,
-    2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 2, 3, 1, 2, 3, 2, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4, 2, 3, 3, 4,
-    2, 3, 4, 3, 4, 3, 4, 4, 3, 4, 4, 3, 4, 4, 3, 4
-};
-// clang-format on
 
 // ignites-m, domain.rddl:58
-// clang-format off
 inline constexpr std::array<std::int64_t, 80> ignites_m_ = {
     1, 0, 0, 2, 1, 1, 3, 2, 2, 4, 3, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0,
     1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3, 4, 3, 4, 0, 1, 0, 1, 0, 2, 1, 2, 1, 3, 2, 3, 2, 4, 3,
     4, 3, 4, 0, 1, 1, 0, 2, 2, 1, 3, 3, 2, 4, 4, 3
 };
-// clang-format on
 
 // ignites-entries, domain.rddl:58
-// clang-format off
 inline constexpr std::array<double, 80> ignites_entries_ = {
     0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88, 0.88,
     0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88, 0.88, 0.6799999999999999, 0.88,
@@ -92,7 +78,6 @@ inline constexpr std::array<double, 80> ignites_entries_ = {
     0.6799999999999999, 0.88, 0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88, 0.88,
     0.6799999999999999, 0.88, 0.88, 0.6799999999999999, 0.88
 };
-// clang-format on
 
 // HOUSE-c, domain.rddl:22
 inline constexpr std::array<std::int64_t, 3> HOUSE_c_ = {4, 4, 4};
@@ -126,14 +111,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = fire_fire_1::State<L>;
-    template <class L>
-    using Action = fire_fire_1::Action<L>;
-    template <class L>
-    using Scratch = fire_fire_1::Scratch<L>;
-    template <class L>
-    using Observation = fire_fire_1::Observation<L>;
+    template <class L> using State = fire_fire_1::State<L>;
+    template <class L> using Action = fire_fire_1::Action<L>;
+    template <class L> using Scratch = fire_fire_1::Scratch<L>;
+    template <class L> using Observation = fire_fire_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -160,9 +141,7 @@ struct Simulator {
         rddl::for_each_object(context, xpos_count * ypos_count, [&](auto& several, auto c_r) {
             rddl::elements(next.bare, c_r) = rddl::branch(
                 several, rddl::at(state.burning, c_r),
-                [&] {
-                    return rddl::sample::bernoulli(several, {0, c_r}, 0.15);
-                },
+                [&] { return rddl::sample::bernoulli(several, {0, c_r}, 0.15); },
                 [&] { return rddl::at(state.bare, c_r) || rddl::at(action.clear, c_r); });
         });
     }
@@ -175,17 +154,21 @@ struct Simulator {
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < xpos_count; ++c) {
             for (rddl::Index r = 0; r < ypos_count; ++r) {
-                const Bool condition = CLEARING_[c][r] || state.burning[c][r] || state.bare[c][r] ||
-                                       action.clear[c][r];
+                const Bool condition =
+                    CLEARING_[c][r] || state.burning[c][r] || state.bare[c][r] ||
+                    action.clear[c][r];
                 scratch.ignites[c][r] = rddl::branch(
-                    context, condition, [&] { return false; },
+                    context, condition,
+                    [&] { return false; },
                     [&] {
-                        const Real product = rddl::product<Real>(
-                            rddl::row(ignites_rows_, c * 5 + r), [&](rddl::Index entry) {
-                                return rddl::select(
-                                    state.burning[ignites_n_[entry]][ignites_m_[entry]],
-                                    ignites_entries_[entry], 1.0);
-                            });
+                        const Real product = rddl::product<Real>(xpos_count, [&](rddl::Index n) {
+                            return rddl::product<Real>(
+                                rddl::row(ignites_rows_,
+                                          (c * 5 + r) * 5 + n), [&](rddl::Index entry) {
+                                    return rddl::select(state.burning[n][ignites_m_[entry]],
+                                                        ignites_entries_[entry], 1.0);
+                                });
+                        });
                         const Real term = 1.0 - 0.9995 * product;
                         return rddl::sample::valid_bernoulli(context, {1, c * 5 + r}, term);
                     });
@@ -198,8 +181,9 @@ struct Simulator {
     static void set_burning(const State<L>& state, const Action<L>& action,
                             const Scratch<L>& scratch, State<L>& next, rddl::Context<L>& context) {
         rddl::for_each_object(context, xpos_count * ypos_count, [&](auto&, auto c_r) {
-            const auto condition = rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
-                                   !rddl::at(next.bare, c_r);
+            const auto condition =
+                rddl::at(state.burning, c_r) && !rddl::at(action.douse, c_r) &&
+                !rddl::at(next.bare, c_r);
             rddl::elements(next.burning, c_r) = rddl::at(scratch.ignites, c_r) || condition;
         });
     }
@@ -220,8 +204,9 @@ struct Simulator {
         const Int total_2 = rddl::sum<Int>(3, [&](rddl::Index entry) {
             return rddl::to_int(scratch.ignites[HOUSE_c_[entry]][HOUSE_r_[entry]]);
         });
-        const Real term = rddl::to_real(rddl::count_ones(rddl::bits(next.burning))) +
-                          50.0 * rddl::to_real(total_2) + 0.5 * rddl::to_real(total);
+        const Real term =
+            rddl::to_real(rddl::count_ones(rddl::bits(next.burning))) +
+            50.0 * rddl::to_real(total_2) + 0.5 * rddl::to_real(total);
         return -term;
     }
 
@@ -286,20 +271,17 @@ inline constexpr const char* source_file = "examples/fire/domain.rddl";
 inline constexpr const char* xpos_objects[] = {"x1", "x2", "x3", "x4", "x5"};
 inline constexpr const char* ypos_objects[] = {"y1", "y2", "y3", "y4", "y5"};
 
-// clang-format off
 inline constexpr rddl_type types[] = {
     {"xpos", xpos_objects, xpos_count, 0},
     {"ypos", ypos_objects, ypos_count, 0},
 };
-// clang-format on
 
 inline constexpr std::int32_t of_xpos[] = {0};
 inline constexpr std::int32_t of_ypos[] = {1};
 inline constexpr std::int32_t of_xpos_ypos[] = {0, 1};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"X", RDDL_NON_FLUENT, RDDL_INT, -1, 1, of_xpos, 5, -1, nullptr, nullptr, {source_file, 18, 9}},
     {"Y", RDDL_NON_FLUENT, RDDL_INT, -1, 1, of_ypos, 5, -1, nullptr, nullptr, {source_file, 19, 9}},
     {"HOUSE", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_xpos_ypos, 25, -1, nullptr, nullptr,
@@ -337,13 +319,11 @@ inline constexpr rddl_fluent fluents[] = {
     {"clear", RDDL_ACTION, RDDL_BOOL, -1, 2, of_xpos_ypos, 25,
      offsetof(Action<rddl::Scalar>, clear), nullptr, nullptr, {source_file, 46, 9}},
 };
-// clang-format on
 
 inline constexpr std::array<std::int64_t, 5> X_values_ = {1, 2, 3, 4, 5};
 inline constexpr std::array<std::int64_t, 5> Y_values_ = {1, 2, 3, 4, 5};
 inline constexpr std::array<std::int64_t, 3> HOUSE_places_ = {20, 22, 24};
 
-// clang-format off
 inline constexpr rddl::Constants constants[] = {
     rddl::constants(0, X_values_),             // X
     rddl::constants(1, Y_values_),             // Y
@@ -363,14 +343,12 @@ inline constexpr rddl::Constants constants[] = {
 inline constexpr rddl_condition preconditions[] = {
     {"forall_{?c : xpos, ?r : ypos} [douse(?c, ?r) => burning(?c, ?r)]", {source_file, 77, 9}},
     {"forall_{?c : xpos, ?r : ypos} [ clear(?c, ?r) => ~(burning(?c, ?r) | bare(?c, ?r) | "
-     "CLEARING(?c, ?r)) ]",
-     {source_file, 78, 9}},
+     "CLEARING(?c, ?r)) ]", {source_file, 78, 9}},
 };
 
-inline constexpr rddl_condition invariants[] = {
-    {"forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]", {source_file, 84, 9}},
-};
-// clang-format on
+inline constexpr rddl_condition
+    invariants[] = {{"forall_{?c : xpos, ?r : ypos} [~(burning(?c, ?r) ^ bare(?c, ?r))]",
+                     {source_file, 84, 9}}};
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -411,12 +389,10 @@ inline constexpr rddl_problem problem = {
 
 inline constexpr rddl::SiteVariable scope_c_r[] = {{"c", &types[0]}, {"r", &types[1]}};
 
-// clang-format off
 inline constexpr rddl::Site sites[] = {
     {{source_file, 66, 30}, "Bernoulli", scope_c_r},
     {{source_file, 60, 32}, "Bernoulli", scope_c_r},
 };
-// clang-format on
 
 }  // namespace about
 

@@ -31,19 +31,15 @@ inline constexpr rddl::Index segment_count = 9;  // s1, s2, s3, s4, s5, s6, s7, 
 // ---------------------------------------------------------------------------------- tables
 
 // position-breaks, domain.rddl:66
-// clang-format off
 inline constexpr std::array<double, 9> position_breaks_ = {
     -1.2, -1, -0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6
 };
-// clang-format on
 
 // position-values, domain.rddl:66
-// clang-format off
 inline constexpr std::array<double, 10> position_values_ = {
     0, -2.9200000000000004, -2.670000000000001, -1.4949999999999992, 0.2099999999999997,
     1.8350000000000004, 2.8249999999999997, 1.8350000000000004, 0.2099999999999997, 0
 };
-// clang-format on
 
 // --------------------------------------------------------------------------------- records
 
@@ -71,14 +67,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = mountain_car_mountain_car_1::State<L>;
-    template <class L>
-    using Action = mountain_car_mountain_car_1::Action<L>;
-    template <class L>
-    using Scratch = mountain_car_mountain_car_1::Scratch<L>;
-    template <class L>
-    using Observation = mountain_car_mountain_car_1::Observation<L>;
+    template <class L> using State = mountain_car_mountain_car_1::State<L>;
+    template <class L> using Action = mountain_car_mountain_car_1::Action<L>;
+    template <class L> using Scratch = mountain_car_mountain_car_1::Scratch<L>;
+    template <class L> using Observation = mountain_car_mountain_car_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -192,23 +184,16 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/mountain_car/domain.rddl";
 
-// clang-format off
-inline constexpr const char* segment_objects[] = {
-    "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9"
-};
+inline constexpr const char* segment_objects[] = {"s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8",
+                                                  "s9"};
 
-inline constexpr rddl_type types[] = {
-    {"segment", segment_objects, segment_count, 0},
-};
-// clang-format on
-
+inline constexpr rddl_type types[] = {{"segment", segment_objects, segment_count, 0}};
 inline constexpr std::int32_t of_segment[] = {0};
 inline constexpr std::array<double, 1> throttle_lower = {-1};
 inline constexpr std::array<double, 1> throttle_upper = {1};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"LEFT-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
      {source_file, 21, 9}},
     {"LEFT-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_segment, 9, -1, nullptr, nullptr,
@@ -279,10 +264,7 @@ inline constexpr rddl_condition preconditions[] = {
     {"throttle <= 1.0", {source_file, 76, 9}},
 };
 
-inline constexpr rddl_condition terminations[] = {
-    {"position >= FLAG", {source_file, 70, 9}},
-};
-// clang-format on
+inline constexpr rddl_condition terminations[] = {{"position >= FLAG", {source_file, 70, 9}}};
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};

@@ -58,14 +58,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = network_network_1::State<L>;
-    template <class L>
-    using Action = network_network_1::Action<L>;
-    template <class L>
-    using Scratch = network_network_1::Scratch<L>;
-    template <class L>
-    using Observation = network_network_1::Observation<L>;
+    template <class L> using State = network_network_1::State<L>;
+    template <class L> using Action = network_network_1::Action<L>;
+    template <class L> using Scratch = network_network_1::Scratch<L>;
+    template <class L> using Observation = network_network_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -90,7 +86,8 @@ struct Simulator {
         using Real = typename L::Real;
         for (rddl::Index c = 0; c < computer_count; ++c) {
             next.running[c] = rddl::branch(
-                context, action.reboot[c], [&] { return true; },
+                context, action.reboot[c],
+                [&] { return true; },
                 [&] {
                     const Int number =
                         rddl::wrap_add(1, rddl::to_int(state.running[LINK_object_[c]]));
@@ -141,19 +138,12 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/network/domain.rddl";
 inline constexpr const char* computer_objects[] = {"c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8"};
-
-// clang-format off
-inline constexpr rddl_type types[] = {
-    {"computer", computer_objects, computer_count, 0},
-};
-// clang-format on
-
+inline constexpr rddl_type types[] = {{"computer", computer_objects, computer_count, 0}};
 inline constexpr std::int32_t of_computer_computer[] = {0, 0};
 inline constexpr std::int32_t of_computer[] = {0};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"LINK", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_computer_computer, 64, -1, nullptr, nullptr,
      {source_file, 16, 9}},
     {"ALONE-UP", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
@@ -171,11 +161,9 @@ inline constexpr rddl_fluent fluents[] = {
     {"reboot", RDDL_ACTION, RDDL_BOOL, -1, 1, of_computer, 8,
      offsetof(Action<rddl::Scalar>, reboot), nullptr, nullptr, {source_file, 28, 9}},
 };
-// clang-format on
 
 inline constexpr std::array<std::int64_t, 8> LINK_places_ = {1, 10, 19, 28, 37, 46, 55, 56};
 
-// clang-format off
 inline constexpr rddl::Constants constants[] = {
     rddl::constants(0, false, LINK_places_),  // LINK
     rddl::constant<double>(1, 0.45),          // ALONE-UP
@@ -183,7 +171,6 @@ inline constexpr rddl::Constants constants[] = {
     rddl::constant<double>(3, 0.05),          // REPAIR
     rddl::constant<double>(4, 0.75),          // REBOOT-COST
 };
-// clang-format on
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -223,12 +210,10 @@ inline constexpr rddl_problem problem = {
 
 inline constexpr rddl::SiteVariable scope_c[] = {{"c", &types[0]}};
 
-// clang-format off
 inline constexpr rddl::Site sites[] = {
     {{source_file, 44, 17}, "Bernoulli", scope_c},
     {{source_file, 46, 17}, "Bernoulli", scope_c},
 };
-// clang-format on
 
 }  // namespace about
 

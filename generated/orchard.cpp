@@ -34,22 +34,17 @@ inline constexpr rddl::Index plot_count = 3;  // upper, middle, lower
 // ---------------------------------------------------------------------- external functions
 
 // $evaporation, domain.rddl:30
-// clang-format off
-static_assert(rddl::external::fits<double(double)>(
-                  RDDL_EXTERN_FUNCTION(evaporation)),
-              "the external function $evaporation must be callable as"
-              " double rddl_extern::evaporation(double)");
-// clang-format on
+static_assert(rddl::external::fits<double(double)>(RDDL_EXTERN_FUNCTION(evaporation)),
+              "the external function $evaporation must be callable as double "
+              "rddl_extern::evaporation(double)");
 
 // $settle, domain.rddl:32
-// clang-format off
 static_assert(rddl::external::fits<void(std::span<const double, 3>, std::span<const double, 3>,
-                                   std::span<const std::array<double, 3>, 3>, std::span<double, 3>)>(
-                  RDDL_EXTERN_FUNCTION(settle)),
-              "the external function $settle must be callable as"
-              " void rddl_extern::settle(std::span<const double, 3>, std::span<const double, 3>,"
-              " std::span<const std::array<double, 3>, 3>, std::span<double, 3>)");
-// clang-format on
+                                        std::span<const std::array<double, 3>, 3>,
+                                        std::span<double, 3>)>(RDDL_EXTERN_FUNCTION(settle)),
+              "the external function $settle must be callable as void "
+              "rddl_extern::settle(std::span<const double, 3>, std::span<const double, 3>, "
+              "std::span<const std::array<double, 3>, 3>, std::span<double, 3>)");
 
 // ---------------------------------------------------------------------------------- tables
 
@@ -57,13 +52,11 @@ static_assert(rddl::external::fits<void(std::span<const double, 3>, std::span<co
 inline constexpr std::array<double, plot_count> CAPACITY_ = {25, 40, 40};
 
 // RUNS-TO, domain.rddl:14
-// clang-format off
 inline constexpr std::array<std::array<double, plot_count>, plot_count> RUNS_TO_ = {{
     {0, 0.75, 0},
     {0, 0, 0.75},
     {0, 0, 0},
 }};
-// clang-format on
 
 // water, domain.rddl:19
 inline constexpr std::array<double, plot_count> initial_water = {24, 20, 20};
@@ -97,14 +90,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = orchard_orchard_1::State<L>;
-    template <class L>
-    using Action = orchard_orchard_1::Action<L>;
-    template <class L>
-    using Scratch = orchard_orchard_1::Scratch<L>;
-    template <class L>
-    using Observation = orchard_orchard_1::Observation<L>;
+    template <class L> using State = orchard_orchard_1::State<L>;
+    template <class L> using Action = orchard_orchard_1::Action<L>;
+    template <class L> using Scratch = orchard_orchard_1::Scratch<L>;
+    template <class L> using Observation = orchard_orchard_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -144,8 +133,9 @@ struct Simulator {
     // temperature'  (domain.rddl:34)
     template <class L>
     static void set_temperature(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
-        next.temperature = 22.0 + 0.8 * (state.temperature - 22.0) +
-                           rddl::sample::normal(context, {0, 0}, 0.0, 4.0);
+        next.temperature =
+            22.0 + 0.8 * (state.temperature - 22.0) +
+            rddl::sample::normal(context, {0, 0}, 0.0, 4.0);
     }
 
     // settled(?p)  (domain.rddl:32)
@@ -211,19 +201,12 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/orchard/domain.rddl";
 inline constexpr const char* plot_objects[] = {"upper", "middle", "lower"};
-
-// clang-format off
-inline constexpr rddl_type types[] = {
-    {"plot", plot_objects, plot_count, 0},
-};
-// clang-format on
-
+inline constexpr rddl_type types[] = {{"plot", plot_objects, plot_count, 0}};
 inline constexpr std::int32_t of_plot[] = {0};
 inline constexpr std::int32_t of_plot_plot[] = {0, 0};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"CAPACITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_plot, 3, -1, nullptr, nullptr,
      {source_file, 13, 9}},
     {"RUNS-TO", RDDL_NON_FLUENT, RDDL_REAL, -1, 2, of_plot_plot, 9, -1, nullptr, nullptr,
@@ -255,7 +238,6 @@ inline constexpr rddl::Constants constants[] = {
     rddl::constant<double>(3, 0.1),   // PRICE
     rddl::constant<double>(4, 12.0),  // THIRSTY-BELOW
 };
-// clang-format on
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -293,11 +275,7 @@ inline constexpr rddl_problem problem = {
     .fingerprint = 0x451c96289249a0b0,
 };
 
-// clang-format off
-inline constexpr rddl::Site sites[] = {
-    {{source_file, 34, 60}, "Normal", {}},
-};
-// clang-format on
+inline constexpr rddl::Site sites[] = {{{source_file, 34, 60}, "Normal", {}}};
 
 }  // namespace about
 

@@ -31,14 +31,12 @@ inline constexpr rddl::Index basin_count = 4;  // north, lake, east, valley
 // ---------------------------------------------------------------------------------- tables
 
 // FLOWS-TO, domain.rddl:18
-// clang-format off
 inline constexpr std::array<std::array<bool, basin_count>, basin_count> FLOWS_TO_ = {{
     {0, 1, 0, 0},
     {0, 0, 0, 1},
     {0, 0, 0, 1},
     {0, 0, 0, 0},
 }};
-// clang-format on
 
 // CAPACITY, domain.rddl:21
 inline constexpr std::array<double, basin_count> CAPACITY_ = {100, 200, 100, 150};
@@ -83,14 +81,10 @@ struct Observation {};
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = reservoir_reservoir_1::State<L>;
-    template <class L>
-    using Action = reservoir_reservoir_1::Action<L>;
-    template <class L>
-    using Scratch = reservoir_reservoir_1::Scratch<L>;
-    template <class L>
-    using Observation = reservoir_reservoir_1::Observation<L>;
+    template <class L> using State = reservoir_reservoir_1::State<L>;
+    template <class L> using Action = reservoir_reservoir_1::Action<L>;
+    template <class L> using Scratch = reservoir_reservoir_1::Scratch<L>;
+    template <class L> using Observation = reservoir_reservoir_1::Observation<L>;
 
     static constexpr bool partially_observed = false;
 
@@ -119,9 +113,7 @@ struct Simulator {
             const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
             const Real term = rddl::branch(
                 context, draw,
-                [&] {
-                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]);
-                },
+                [&] { return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]); },
                 [&] { return 0.0; });
             const Real total = rddl::sum<Real>(basin_count, [&](rddl::Index up) {
                 return rddl::to_real(FLOWS_TO_[up][b]) * action.release[up];
@@ -179,16 +171,18 @@ struct Simulator {
     template <class L>
     static typename L::Bool invariant_0(const State<L>& state) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(basin_count,
-                                   [&](rddl::Index b) { return state.water[b] >= 0.0; });
+        return rddl::for_all<Bool>(basin_count, [&](rddl::Index b) {
+            return state.water[b] >= 0.0;
+        });
     }
 
     // forall_{?b : basin} [water(?b) <= CAPACITY(?b)]  (domain.rddl:77)
     template <class L>
     static typename L::Bool invariant_1(const State<L>& state) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(basin_count,
-                                   [&](rddl::Index b) { return state.water[b] <= CAPACITY_[b]; });
+        return rddl::for_all<Bool>(basin_count, [&](rddl::Index b) {
+            return state.water[b] <= CAPACITY_[b];
+        });
     }
 
     // Hold for every action that is allowed: the first that does not, or -1.
@@ -205,23 +199,25 @@ struct Simulator {
     template <class L>
     static typename L::Bool precondition_0(const Action<L>& action) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(basin_count,
-                                   [&](rddl::Index b) { return action.release[b] >= 0.0; });
+        return rddl::for_all<Bool>(basin_count, [&](rddl::Index b) {
+            return action.release[b] >= 0.0;
+        });
     }
 
     // forall_{?b : basin} [release(?b) <= water(?b)]  (domain.rddl:72)
     template <class L>
     static typename L::Bool precondition_1(const State<L>& state, const Action<L>& action) {
         using Bool = typename L::Bool;
-        return rddl::for_all<Bool>(
-            basin_count, [&](rddl::Index b) { return action.release[b] <= state.water[b]; });
+        return rddl::for_all<Bool>(basin_count, [&](rddl::Index b) {
+            return action.release[b] <= state.water[b];
+        });
     }
 };
 
 // ------------------------------------------------------------------------- moderate values
 
 // The same step with less work, for states and actions whose reals are all moderate
-// (rddl/moderate.hpp): nothing overflows then, so terms that are multiplied by 0 are left out.
+// (rddl/values/moderate.hpp): nothing overflows then, so terms multiplied by 0 are left out.
 namespace moderate {
 
 // ---------------------------------------------------------------------------------- tables
@@ -240,8 +236,7 @@ struct Scratch {
 };
 
 struct Step {
-    template <class L>
-    using Scratch = moderate::Scratch<L>;
+    template <class L> using Scratch = moderate::Scratch<L>;
 
     // Whether all reals are moderate.
     template <class L>
@@ -268,13 +263,12 @@ struct Step {
             const Bool draw = rddl::sample::valid_bernoulli(context, {0, b}, RAIN_CHANCE_[b]);
             const Real term = rddl::branch(
                 context, draw,
-                [&] {
-                    return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]);
-                },
+                [&] { return rddl::sample::gamma(context, {1, b}, 2.0, RAIN_SCALE_[b]); },
                 [&] { return 0.0; });
             const Real total = rddl::sum<Real>(
-                rddl::row(FLOWS_TO_rows_, b),
-                [&](rddl::Index entry) { return action.release[FLOWS_TO_up_[entry]]; });
+                rddl::row(FLOWS_TO_rows_, b), [&](rddl::Index entry) {
+                    return action.release[FLOWS_TO_up_[entry]];
+                });
             scratch.balance[b] = 0.98 * state.water[b] + term + total - action.release[b];
         }
     }
@@ -324,13 +318,7 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/reservoir/domain.rddl";
 inline constexpr const char* basin_objects[] = {"north", "lake", "east", "valley"};
-
-// clang-format off
-inline constexpr rddl_type types[] = {
-    {"basin", basin_objects, basin_count, 0},
-};
-// clang-format on
-
+inline constexpr rddl_type types[] = {{"basin", basin_objects, basin_count, 0}};
 inline constexpr std::int32_t of_basin_basin[] = {0, 0};
 inline constexpr std::int32_t of_basin[] = {0};
 inline constexpr auto water_lower = rddl::repeated<4>(0.0);
@@ -338,9 +326,8 @@ inline constexpr std::array<double, 4> water_upper = {100, 200, 100, 150};
 inline constexpr auto release_lower = rddl::repeated<4>(0.0);
 inline constexpr auto release_upper = rddl::repeated<4>(std::numeric_limits<double>::infinity());
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"FLOWS-TO", RDDL_NON_FLUENT, RDDL_BOOL, -1, 2, of_basin_basin, 16, -1, nullptr, nullptr,
      {source_file, 18, 9}},
     {"CAPACITY", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_basin, 4, -1, nullptr, nullptr,
@@ -400,7 +387,6 @@ inline constexpr rddl_condition invariants[] = {
     {"forall_{?b : basin} [water(?b) >= 0.0]", {source_file, 76, 9}},
     {"forall_{?b : basin} [water(?b) <= CAPACITY(?b)]", {source_file, 77, 9}},
 };
-// clang-format on
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -440,12 +426,10 @@ inline constexpr rddl_problem problem = {
 
 inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};
 
-// clang-format off
 inline constexpr rddl::Site sites[] = {
     {{source_file, 49, 24}, "Bernoulli", scope_b},
     {{source_file, 50, 25}, "Gamma", scope_b},
 };
-// clang-format on
 
 }  // namespace about
 

@@ -75,14 +75,10 @@ struct Observation {
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = robot_robot_1::State<L>;
-    template <class L>
-    using Action = robot_robot_1::Action<L>;
-    template <class L>
-    using Scratch = robot_robot_1::Scratch<L>;
-    template <class L>
-    using Observation = robot_robot_1::Observation<L>;
+    template <class L> using State = robot_robot_1::State<L>;
+    template <class L> using Action = robot_robot_1::Action<L>;
+    template <class L> using Scratch = robot_robot_1::Scratch<L>;
+    template <class L> using Observation = robot_robot_1::Observation<L>;
 
     static constexpr bool partially_observed = true;
 
@@ -159,8 +155,9 @@ struct Simulator {
     // hit-wall  (domain.rddl:69)
     template <class L>
     static void set_hit_wall(Scratch<L>& scratch) {
-        scratch.hit_wall = scratch.ahead_x < 0.0 || scratch.ahead_x > 10.0 ||
-                           scratch.ahead_y < 0.0 || scratch.ahead_y > 10.0;
+        scratch.hit_wall =
+            scratch.ahead_x < 0.0 || scratch.ahead_x > 10.0 || scratch.ahead_y < 0.0 ||
+            scratch.ahead_y > 10.0;
     }
 
     // reached-x  (domain.rddl:71)
@@ -181,9 +178,7 @@ struct Simulator {
                          rddl::Context<L>& context) {
         observation.bump = rddl::branch(
             context, scratch.hit_wall,
-            [&] {
-                return rddl::sample::bernoulli(context, {2, 0}, 0.95);
-            },
+            [&] { return rddl::sample::bernoulli(context, {2, 0}, 0.95); },
             [&] { return false; });
     }
 
@@ -321,22 +316,15 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/robot/domain.rddl";
 inline constexpr const char* beacon_objects[] = {"west", "south", "middle"};
-
-// clang-format off
-inline constexpr rddl_type types[] = {
-    {"beacon", beacon_objects, beacon_count, 0},
-};
-// clang-format on
-
+inline constexpr rddl_type types[] = {{"beacon", beacon_objects, beacon_count, 0}};
 inline constexpr std::int32_t of_beacon[] = {0};
 inline constexpr std::array<double, 1> drive_lower = {-1};
 inline constexpr std::array<double, 1> drive_upper = {1};
 inline constexpr std::array<double, 1> turn_lower = {-0.8};
 inline constexpr std::array<double, 1> turn_upper = {0.8};
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"BEACON-X", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
      {source_file, 17, 9}},
     {"BEACON-Y", RDDL_NON_FLUENT, RDDL_REAL, -1, 1, of_beacon, 3, -1, nullptr, nullptr,
@@ -425,10 +413,8 @@ inline constexpr rddl_condition preconditions[] = {
     {"turn <= 0.8", {source_file, 103, 9}},
 };
 
-inline constexpr rddl_condition terminations[] = {
-    {"hypot[x - GOAL-X, y - GOAL-Y] <= GOAL-RADIUS", {source_file, 96, 9}},
-};
-// clang-format on
+inline constexpr rddl_condition terminations[] = {{"hypot[x - GOAL-X, y - GOAL-Y] <= GOAL-RADIUS",
+                                                   {source_file, 96, 9}}};
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -469,7 +455,6 @@ inline constexpr rddl_problem problem = {
 
 inline constexpr rddl::SiteVariable scope_b[] = {{"b", &types[0]}};
 
-// clang-format off
 inline constexpr rddl::Site sites[] = {
     {{source_file, 64, 30}, "Normal", {}},
     {{source_file, 65, 20}, "Normal", {}},
@@ -477,7 +462,6 @@ inline constexpr rddl::Site sites[] = {
     {{source_file, 82, 23}, "Bernoulli", scope_b},
     {{source_file, 86, 26}, "Normal", scope_b},
 };
-// clang-format on
 
 }  // namespace about
 

@@ -56,14 +56,10 @@ struct Observation {
 // ------------------------------------------------------------------------------ simulator
 
 struct Simulator {
-    template <class L>
-    using State = t_maze_t_maze_1::State<L>;
-    template <class L>
-    using Action = t_maze_t_maze_1::Action<L>;
-    template <class L>
-    using Scratch = t_maze_t_maze_1::Scratch<L>;
-    template <class L>
-    using Observation = t_maze_t_maze_1::Observation<L>;
+    template <class L> using State = t_maze_t_maze_1::State<L>;
+    template <class L> using Action = t_maze_t_maze_1::Action<L>;
+    template <class L> using Scratch = t_maze_t_maze_1::Scratch<L>;
+    template <class L> using Observation = t_maze_t_maze_1::Observation<L>;
 
     static constexpr bool partially_observed = true;
 
@@ -94,10 +90,9 @@ struct Simulator {
     template <class L>
     static void set_goal_is_left(const State<L>& state, State<L>& next, rddl::Context<L>& context) {
         next.goal_is_left = rddl::branch(
-            context, state.inside, [&] { return state.goal_is_left; },
-            [&] {
-                return rddl::sample::bernoulli(context, {0, 0}, 0.5);
-            });
+            context, state.inside,
+            [&] { return state.goal_is_left; },
+            [&] { return rddl::sample::bernoulli(context, {0, 0}, 0.5); });
     }
 
     // inside'  (domain.rddl:43)
@@ -200,9 +195,8 @@ namespace about {
 
 inline constexpr const char* source_file = "examples/t_maze/domain.rddl";
 
-// clang-format off
+// name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
 inline constexpr rddl_fluent fluents[] = {
-    // name, role, scalar, range type, rank, parameter types, count, offset, lower, upper, source
     {"CORRIDOR", RDDL_NON_FLUENT, RDDL_INT, -1, 0, nullptr, 1, -1, nullptr, nullptr,
      {source_file, 13, 9}},
     {"GOAL-REWARD", RDDL_NON_FLUENT, RDDL_REAL, -1, 0, nullptr, 1, -1, nullptr, nullptr,
@@ -244,10 +238,7 @@ inline constexpr rddl::Constants constants[] = {
     rddl::constant<double>(3, 0.1),       // WAIT-COST
 };
 
-inline constexpr rddl_condition terminations[] = {
-    {"has-turned", {source_file, 59, 9}},
-};
-// clang-format on
+inline constexpr rddl_condition terminations[] = {{"has-turned", {source_file, 59, 9}}};
 
 inline constexpr Action<rddl::Scalar> default_action = [] {
     Action<rddl::Scalar> action{};
@@ -286,11 +277,7 @@ inline constexpr rddl_problem problem = {
     .fingerprint = 0xf2eeac6efe15191f,
 };
 
-// clang-format off
-inline constexpr rddl::Site sites[] = {
-    {{source_file, 44, 60}, "Bernoulli", {}},
-};
-// clang-format on
+inline constexpr rddl::Site sites[] = {{{source_file, 44, 60}, "Bernoulli", {}}};
 
 }  // namespace about
 

@@ -86,16 +86,17 @@ def draw(shot: Shot, rddl: str, path: Path) -> None:
 
 
 def summaries(rddl: str) -> dict[str, str]:
-    """Of each visualizer, what is to be seen."""
+    """Returns the description of each visualizer."""
     text = subprocess.run([rddl, "render", "-", "--visualizer", "list"], text=True, check=True,
                           capture_output=True).stdout
     return dict(line.split(maxsplit=1) for line in text.splitlines())
 
 
 def draw_scenes(rddl: str) -> None:
-    """Those that are shipped, for docs/scenes.md; their states are those of the visualizers."""
+    """Draws the scenes that are shipped, for docs/scenes.md; their states are those of the
+    visualizers."""
     for shot in SHOTS:
-        scene = ROOT / f"runtime/render/scenes/{shot.name}.json"
+        scene = ROOT / f"render/scenes/{shot.name}.json"
         if scene.exists():
             with_scene = Shot(shot.name, shot.problem, shot.instance, shot.step,
                               options=["--scene", str(scene)])

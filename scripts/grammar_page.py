@@ -26,7 +26,7 @@ FOREIGN = "// Spellings of other languages."
 PIECE = re.compile(
     r"'(?:\\.|[^'\\])*'|\[(?:\\.|[^\]\\])*\]|//[^\n]*|\s+|\w+=(?=['(])|->[^;]*|#\s*\w+|;|.", re.S
 )
-# Tokens that the grammar's rules spell out are no names for readers.
+# The page leaves out tokens that are one fixed text: their names mean nothing to readers.
 SPELLED_OUT = re.compile(r"^[A-Z_]+ : '[^']*' ;$")
 
 

@@ -13,7 +13,7 @@ cmake --build "$build" --target rddlc_parser >&2
 
 name=rddlc-$(sed -n 's/^project(rddlc VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 parser=$build/grammar/generated/grammar
-# The grammar beside the parser tells later what it was made of.
+# The grammar beside the parser shows later from which grammar it was made.
 git archive --output="$build/$name.tar.gz" --prefix="$name/grammar/parser/" \
     --add-file="$parser/RDDLLexer.h" --add-file="$parser/RDDLLexer.cpp" \
     --add-file="$parser/RDDLParser.h" --add-file="$parser/RDDLParser.cpp" \

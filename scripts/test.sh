@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the tests need (Debian 12), builds everything and passes all tests: once as
-# released, and the tests of bad input once more under the address and undefined-behaviour
-# sanitizers. Running it again builds and installs only what has changed.
+# released, and the tests of bad input again under the address and undefined-behaviour sanitizers.
+# Running it again builds and installs only what has changed.
 #
 #   scripts/test.sh [--all] [CTEST ARGUMENTS...]      e.g. scripts/test.sh -R conformance
 #
@@ -40,7 +40,7 @@ export RDDL_REPOSITORY
 # Tests that start with an empty cache of simulators compile the same again and again: once is enough.
 export PATH="/usr/lib/ccache:$PATH" CCACHE_DIR="$PWD/build/ccache" CCACHE_MAXSIZE=1G
 jobs=$(nproc)
-# Both sets run, even if the first fails; the exit status tells of either.
+# Both sets run, even if the first fails; the exit status reports either failure.
 status=0
 ctest --test-dir build --parallel "$jobs" --output-on-failure "$@" || status=1
 # The frames of sanitized code are several times as large: what just fits 8 MB of stack needs more.

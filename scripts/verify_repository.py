@@ -3,8 +3,8 @@
 
     scripts/verify_repository.py [--rddl build/bin/rddl] [--out build/verify] [NAME...] [-- OPTIONS]
 
-OPTIONS are those of `rddl verify`. What was found is kept in the folder --out, a file for each problem:
-one may interrupt this and go on later; what agreed by this very program is not verified again. Status 0: all agree.
+OPTIONS are those of `rddl verify`. Results are kept in the folder --out, a file for each problem: an interrupted
+run continues later; problems that agreed with this very program are not verified again. Status 0: all agree.
 """
 
 import argparse

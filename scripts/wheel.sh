@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Builds the wheel of the Python package, with the libraries that it needs in it, and tries it where nothing else of
-# rddlc is: in a new virtual environment, with a C++ compiler and without. The wheel lies in build/wheels/ afterwards.
+# Builds the wheel of the Python package, with the libraries that it needs in it, and tests it without anything else
+# of rddlc: in a new virtual environment, with a C++ compiler and without. The wheel lies in build/wheels/ afterwards.
 #
-#   scripts/wheel.sh [PYTHON]      for that Python; python3 if none is given
+#   scripts/wheel.sh [PYTHON]      for that Python; the default is python3
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/lib.sh

@@ -1,4 +1,4 @@
-// Whether two simulators of one problem tell the same.
+// Compares the results of two simulators of one problem.
 #pragma once
 
 #include "measure/random_course.hpp"
@@ -49,14 +49,14 @@ inline void compare_states(const rddl_problem& problem, const std::vector<std::b
     }
 }
 
-// Of all states, rewards and ends of episodes, along the course.
+// The greatest difference of all states, rewards and ends of episodes, along the course.
 inline double greatest_difference(const rddl_simulator& a, const rddl_simulator& b,
-                                  const rddlc::cli::RandomCourse& course) {
+                                  const rddlc::workbench::RandomCourse& course) {
     struct Side {
-        Side(const rddl_simulator& its_simulator, const rddlc::cli::RandomCourse& course)
+        Side(const rddl_simulator& its_simulator, const rddlc::workbench::RandomCourse& course)
             : simulator(its_simulator),
-              batch(rddlc::solvers::create_batch(its_simulator,
-                                                 rddlc::cli::course_options(course.environments))),
+              batch(rddlc::solvers::create_batch(
+                  its_simulator, rddlc::workbench::course_options(course.environments))),
               rewards(static_cast<std::size_t>(course.environments)),
               terminated(rewards.size()),
               truncated(rewards.size()),
@@ -74,7 +74,7 @@ inline double greatest_difference(const rddl_simulator& a, const rddl_simulator&
         }
 
         const rddl_simulator& simulator;
-        rddlc::solvers::Batch batch;
+        rddlc::solvers::BatchHandle batch;
         std::vector<double> rewards;
         std::vector<std::uint8_t> terminated, truncated;
         std::vector<std::byte> states;

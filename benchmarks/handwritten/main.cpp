@@ -48,14 +48,14 @@ const rddl_simulator& load(const char* file) {
 
 json compare(const rddl_simulator& emitted, const rddl_simulator& reference,
              std::int64_t environments, double seconds, int rounds) {
-    const auto course = rddlc::cli::draw_course(emitted, environments, seconds);
+    const auto course = rddlc::workbench::draw_course(emitted, environments, seconds);
     json figures{{"environments", environments},
                  {"difference", handwritten::greatest_difference(emitted, reference, course)},
                  {"emitted", json::array()},
                  {"handwritten", json::array()}};
     for (int round = 0; round < rounds; ++round) {
         const auto speed = [&](const rddl_simulator& simulator) {
-            const auto measured = rddlc::cli::measure(simulator, course, {0, 1}, seconds);
+            const auto measured = rddlc::workbench::measure(simulator, course, {0, 1}, seconds);
             return static_cast<double>(measured.steps) / measured.processor_seconds;
         };
         figures["emitted"].push_back(speed(emitted));

@@ -38,7 +38,7 @@ struct MountainCar {
         actions.force = L::Real::load(reinterpret_cast<const double*>(records));
     }
 
-    // Begin and slope of each segment; what follows the last one has no slope and no end.
+    // Begin and slope of each segment; the part after the last one has no slope and no end.
     static constexpr std::size_t segments = std::size(mountain_car::slopes);
     static constexpr auto starts = [] {
         std::array<double, segments + 2> all{};

@@ -1,5 +1,5 @@
 // A simulator written by hand for one instance, behind the functions of rddl_simulator that
-// stepping a batch needs. A problem P gives what is its own:
+// stepping a batch needs. A problem P defines:
 //
 //     width, horizon                  environments stepped together in registers; steps
 //     stochastic                      something is drawn at random
@@ -11,13 +11,13 @@
 //     store(state, lane, record)      the state record
 //
 // Rules of the game: a step is computed from the state record and the action record, as in the
-// simulators that we emit; what the caller gives and gets is the same; the random numbers are the
-// same, too (docs/randomness.md). Anything else is allowed.
+// simulators that we emit; the inputs and outputs of the caller are the same; the random numbers
+// are also the same (docs/randomness.md). Anything else is allowed.
 #pragma once
 
 #include "registers.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 #include <rddl/simulator.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@
 
 namespace handwritten {
 
-// Where random numbers come from: the coordinates of a draw but for site and index.
+// The source of random numbers: the coordinates of a draw except site and index.
 template <class Word>
 struct Draws {
     Word step;
     rddl::philox::Key<Word> key;
 
-    // Those with indices 2 block and 2 block + 1.
+    // The numbers with indices 2 block and 2 block + 1.
     auto two(Word site, Word block) const {
         const auto words = rddl::philox::generate<rddl::philox::draw_rounds>(
             rddl::philox::Block<Word>{step, site, block, Word{std::uint64_t{0}}}, key);
@@ -130,16 +130,16 @@ class Reference {
         }
     };
 
-    struct Batch {
+    struct Environments {
         Word seed;
         std::int64_t count;
         std::size_t action_size, state_size;
         std::vector<Single> singles;    // of a batch that is too small for registers, or
-        std::vector<Several> severals;  // of others; what is not full has lanes that nobody sees
+        std::vector<Several> severals;  // of others; some may have unused lanes
     };
 
     static rddl_batch* create(const rddl_simulator* simulator, const rddl_batch_options* options) {
-        auto batch = std::make_unique<Batch>();
+        auto batch = std::make_unique<Environments>();
         batch->seed = options->seed;
         batch->count = options->environment_count;
         batch->action_size = static_cast<std::size_t>(simulator->problem->action_size);
@@ -166,7 +166,7 @@ class Reference {
     static void destroy(rddl_batch* batch) { delete &as(batch); }
 
     static rddl_error step(rddl_batch* handle, const void* actions, const rddl_transition* out) {
-        Batch& batch = as(handle);
+        Environments& batch = as(handle);
         const auto* const records = static_cast<const std::byte*>(actions);
         for (std::size_t i = 0; i < batch.singles.size(); ++i)
             batch.singles[i].advance(batch.seed, records + i * batch.action_size, out->rewards + i,
@@ -183,7 +183,7 @@ class Reference {
     }
 
     // The last registers, which are not full.
-    static void step_rest(Batch& batch, std::size_t full, const std::byte* records,
+    static void step_rest(Environments& batch, std::size_t full, const std::byte* records,
                           const rddl_transition* out) {
         constexpr std::size_t n = P::width;
         const std::size_t done = full * n, rest = static_cast<std::size_t>(batch.count) - done;
@@ -199,7 +199,7 @@ class Reference {
 
     static rddl_error get_state(const rddl_batch* handle, std::int64_t begin, std::int64_t count,
                                 void* states) {
-        const Batch& batch = as(const_cast<rddl_batch*>(handle));
+        const Environments& batch = as(const_cast<rddl_batch*>(handle));
         auto* record = static_cast<std::byte*>(states);
         for (std::int64_t i = begin; i < begin + count; ++i, record += batch.state_size) {
             const auto place = static_cast<std::size_t>(i);
@@ -211,7 +211,7 @@ class Reference {
         return RDDL_OK;
     }
 
-    static Batch& as(rddl_batch* handle) { return *reinterpret_cast<Batch*>(handle); }
+    static Environments& as(rddl_batch* handle) { return *reinterpret_cast<Environments*>(handle); }
 };
 
 }  // namespace handwritten

@@ -1,8 +1,8 @@
-// What the hand-written simulators share, for single values and for several in registers.
+// Shared parts of the hand-written simulators, for single values and for several in registers.
 #pragma once
 
-#include <rddl/math.hpp>
-#include <rddl/pack_ops.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -117,7 +117,8 @@ constexpr std::uint64_t to_even_bits(std::uint64_t bits) {
     return (bits | bits << 1) & 0x5555555555555555;
 }
 
-// Those with even numbers in the lower half, the others in the upper half, and the reverse.
+// Moves the bits with even numbers to the lower half and the others to the upper half, and the
+// reverse.
 constexpr std::uint64_t halves(std::uint64_t bits) {
     return even_bits(bits) | even_bits(bits >> 1) << 32;
 }

@@ -5,7 +5,7 @@
 #include "registers.hpp"
 #include "tables.hpp"
 
-#include <rddl/distributions/normal_quantile.hpp>
+#include <rddl/random/distributions/normal_quantile.hpp>
 
 #include <array>
 #include <cmath>
@@ -47,7 +47,7 @@ struct Reservoir {
         for (std::size_t r = 0; r < count; ++r) actions.release[r] = gather(values + r, rows);
     }
 
-    // What a step needs of the instance, without divisions; which other reservoirs flow into each.
+    // The instance's data for a step, without divisions; which other reservoirs flow into each.
     struct Tables {
         double outflow[count], evaporation[count];
         int sources[count * count], ends[count];

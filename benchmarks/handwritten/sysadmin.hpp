@@ -24,7 +24,7 @@ struct SysAdmin {
         typename L::Word reboot;
     };
 
-    // A running computer goes on with probability base + per_neighbour * running neighbours.
+    // A running computer keeps running with probability base + per_neighbour * running neighbours.
     struct Chances {
         std::array<double, 64> base, per_neighbour;
     };

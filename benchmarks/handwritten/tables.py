@@ -30,7 +30,7 @@ def array(name: str, values) -> str:
 
 
 def bit_sets(name: str, rows) -> str:
-    """A number for each row, whose bit k tells whether entry k is true."""
+    """A number for each row, whose bit k says whether entry k is true."""
     numbers = [sum(1 << int(k) for k in np.flatnonzero(row)) for row in rows]
     return f"inline constexpr std::uint64_t {name}[] = {{{', '.join(f'{n:#x}' for n in numbers)}}};"
 

@@ -47,7 +47,7 @@ struct Wildfire {
         }
     }
 
-    // Of catching fire, by the number of burning neighbours; a target needs one.
+    // The probability of catching fire, by the number of burning neighbours; a target needs one.
     static constexpr std::size_t kind_size = 16;
     static inline const std::array<double, 2 * kind_size> chances = [] {
         std::array<double, 2 * kind_size> all{};

@@ -1,4 +1,4 @@
-"""What the programs that measure another simulator share."""
+"""Shared parts of the programs that measure another simulator."""
 
 import argparse
 import importlib
@@ -47,7 +47,8 @@ def timed_import(name: str) -> tuple[ModuleType, float]:
 
 
 def steps_in(seconds: float, run: Callable[[], tuple[int, float]]) -> tuple[int, float]:
-    """Repeats `run`, which tells the steps it made and the seconds they took, until the time is over."""
+    """Repeats `run`, which returns the steps it made and the seconds they took, until the time is
+    over."""
     steps, elapsed = 0, 0.0
     while elapsed < seconds:
         more_steps, more_seconds = run()

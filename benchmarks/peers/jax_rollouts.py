@@ -27,7 +27,7 @@ class Rollouts:
         self.actions = self._stacked(draw_course(env, seconds_to_draw))
 
     def measure(self, batch: int, seconds: float, cores: int) -> dict:
-        """Whole rollouts of the horizon; what compiles them is not counted."""
+        """Whole rollouts of the horizon; their compilation is not counted."""
         rollout = self._compiled_rollouts(batch)
         rollout(0)
         numbers = iter(range(1, 1 << 30))
@@ -54,7 +54,7 @@ class Rollouts:
         self.types = {name: value.dtype for name, value in outcome[0].items()}
 
     def _stacked(self, course: list[dict]) -> dict:
-        """By fluent, the first axis being time."""
+        """Arrays by fluent, the first axis being time."""
         course = [course[step % len(course)] for step in range(self.horizon)]
         return {
             name: np.stack([action[name] for action in course]).astype(self.types[name])

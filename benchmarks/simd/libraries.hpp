@@ -1,4 +1,4 @@
-// What kernel.hpp asks of a library, for each of those that are compared. main.cpp includes their
+// The functions that kernel.hpp needs, for each of the compared libraries. main.cpp includes their
 // headers.
 #pragma once
 
@@ -58,7 +58,7 @@ struct Xsimd {
     }
     static Mask less(Real a, Real b) { return a < b; }
     static Real select(Mask mask, Real a, Real b) { return xsimd::select(mask, a, b); }
-    static Real gather(const double* from, Word indices) {  // 8.1 has none
+    static Real gather(const double* from, Word indices) {  // 8.1 has no gather
         std::uint64_t at[width];
         double values[width];
         indices.store_unaligned(at);
@@ -91,7 +91,7 @@ struct Experimental {
         where(mask, b) = a;
         return b;
     }
-    static Real gather(const double* from, Word indices) {  // has none
+    static Real gather(const double* from, Word indices) {  // has no gather
         return Real([&](auto i) { return from[indices[i]]; });
     }
 };

@@ -45,7 +45,7 @@ void measure(Candidate& candidate) {
 }  // namespace
 
 int main() {
-    Candidate candidates[] = {{"rddl/simd.hpp", step<Ours>, {}, {}},
+    Candidate candidates[] = {{"rddl/lanes/simd.hpp", step<Ours>, {}, {}},
                               {"Highway", step<Highway>, {}, {}},
                               {"xsimd", step<Xsimd>, {}, {}},
                               {"std::experimental::simd", step<Experimental>, {}, {}}};

@@ -5,8 +5,8 @@
 //       -I/usr/include/eigen3 benchmarks/solvers/eigen.cpp solvers/network/network.cpp
 //       -o /tmp/eigen && /tmp/eigen
 //
-// With -DDYNAMIC Eigen does not know the sizes of layers when it is compiled, as --hidden wants it.
-// Rates are of processor time, the best of many repetitions in turn: they tell much the same on a
+// With -DDYNAMIC Eigen does not know the sizes of layers when it is compiled, as --hidden requires.
+// Rates are of processor time, the best of many repetitions in turn, so they hardly change on a
 // busy machine.
 #include "solvers/network/network.hpp"
 

@@ -1,9 +1,10 @@
-"""What PPO earns in problems that are observed in part: by what it sees, by the last four observations, and with a memory.
+"""Returns of PPO in partially observed problems: with the present observation, with the last four
+observations, and with a memory.
 
     benchmarks/solvers/memory.py --out memory.jsonl [--seeds 5] [--only Navigation] [--jobs 2]
     benchmarks/solvers/memory.py --out memory.jsonl --table
 
-Can be interrupted; what is in the file already is not done again.
+Can be interrupted; results that are in the file are not computed again.
 """
 
 import argparse

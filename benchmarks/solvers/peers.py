@@ -58,7 +58,7 @@ def sb3(arguments):
 
 
 def skdecide(arguments):
-    """Evaluations of a program a second: a father, then four children a generation."""
+    """Evaluations of a program a second: a parent, then four children a generation."""
     from skdecide import TransitionOutcome, Value
     from skdecide.builders.domain import FullyObservable
     from skdecide.domains import RLDomain

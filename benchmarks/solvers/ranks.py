@@ -2,9 +2,10 @@
 
     benchmarks/solvers/ranks.py [--steps 1000000] [--repetitions 3]
 
-Two ranks make twice the steps. What short runs take (start, loading the simulator, MPI's own start) is taken off, and each
-number is the least of the repetitions. Prints the ratio of steps per second of wall time, which tells something on a quiet
-machine with two free cores alone, and what the second rank costs in user time (waiting for the other one is system time).
+Two ranks make twice the steps. The time of short runs (start, loading the simulator, MPI's own start) is subtracted, and
+each number is the least of the repetitions. Prints the ratio of steps per second of wall time, which is meaningful only
+on a quiet machine with two free cores, and what the second rank costs in user time (waiting for the other one is system
+time).
 """
 
 import argparse

@@ -37,7 +37,7 @@ struct Parameters
                            BATCH_SIZE = 256;
     static constexpr Index STEP_LIMIT = 1'000'000, EPISODE_STEP_LIMIT = 200;
     static constexpr Index DATASET_SIZE = ON_POLICY_RUNNER_STEPS_PER_ENV * N_ENVIRONMENTS;
-    // By default two hidden layers of 64.
+    // The default is two hidden layers of 64.
     static constexpr auto ACTOR_ACTIVATION_FUNCTION =
         rlt::nn::activation_functions::ActivationFunction::ACTIVATION;
     static constexpr auto CRITIC_ACTIVATION_FUNCTION = ACTOR_ACTIVATION_FUNCTION;

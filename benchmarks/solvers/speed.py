@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PENDULUM, CAR = ("Pendulum_gym", "0"), ("MountainCar_ippc2023", "1")
 RLTOOLS = ["--envs", 4, "--rollout", 1024, "--epochs", 2, "--minibatch", 256, "--gamma", 0.9, "--lr", "1e-3"]
-# What is measured, and how many steps or evaluations it makes beyond the short run beside it.
+# The measured cases, and how many steps or evaluations each makes beyond the short run beside it.
 CASES = [
     ("PPO, Pendulum, 4 x 1,024 steps, 2 epochs of 256", PENDULUM, "ppo", [*RLTOOLS, "--steps"], 8192, 614400, 1),
     ("PPO, Pendulum, 64 x 128 steps, 4 epochs of 1,024", PENDULUM, "ppo", ["--steps"], 8192, 614400, 1),
@@ -55,7 +55,7 @@ def learning_rates(rddl, repetitions, only):
 
 
 def rollout_rate(rddl, repetitions):
-    """Steps of a network of 64-64 units that nobody trains any more."""
+    """Steps of a network of 64-64 units that is no longer trained."""
     with tempfile.TemporaryDirectory() as folder:
         processor_seconds([rddl, "train", "ppo", *PENDULUM, "--out", f"{folder}/run", "--quiet", "--steps", 8192])
 
@@ -69,7 +69,7 @@ def rollout_rate(rddl, repetitions):
 
 
 def first_policy(rddl, solver, *options):
-    """From two RDDL files to a policy that reaches the goal, with nothing compiled before."""
+    """The time from two RDDL files to a policy that reaches the goal, with nothing compiled before."""
     with tempfile.TemporaryDirectory() as folder:
         begin = time.monotonic()
         seconds = processor_seconds([rddl, "train", solver, *CAR, "--out", f"{folder}/run", "--quiet", "--stop-return", 100,

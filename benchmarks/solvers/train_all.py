@@ -116,7 +116,7 @@ def main():
     parser.add_argument("--context", help="only problems of this context, such as ippc2023")
     parser.add_argument("--only", help="only problems whose names contain this")
     parser.add_argument("--instances", type=int, default=1, help="so many of each problem")
-    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is none of the competition's")
+    parser.add_argument("--without", default=[], nargs="*", help="instances that are left out: 0 is not one of the competition's")
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--episodes", type=int, default=50)
     parser.add_argument("--memory-limit", default="8G", help="what a learner may take")

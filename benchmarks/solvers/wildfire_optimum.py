@@ -41,7 +41,7 @@ class Forest:
         states = np.arange(1 << 2 * self.cells)
         self.fuelless = (states[:, None] >> np.arange(self.cells) & 1).astype(bool)
         self.burning = (states[:, None] >> self.cells + np.arange(self.cells) & 1).astype(bool)
-        # Of each cell: that it begins to burn, where nobody acts.
+        # The probability of each cell to begin to burn, without actions.
         count = self.burning @ self.neighbours.T.astype(int)
         fresh = ~self.fuelless & ~self.burning
         self.ignition = np.where(fresh & ~(self.targets & (count == 0)), 1 / (1 + np.exp(4.5 - count)), 0.0)
@@ -139,7 +139,7 @@ def check(forest, instance, pairs):
 
 
 def optimum(forest):
-    """Of the start: the best mean return, and those of doing nothing and of random actions."""
+    """Values of the start: the best mean return, and those of doing nothing and of random actions."""
     steps = [Steps(forest.branches(action)) for action in forest.actions]
     rewards = [forest.reward(action) for action in forest.actions]
     best = nothing = random = np.zeros(len(forest.penalty))

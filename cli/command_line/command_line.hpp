@@ -1,5 +1,6 @@
-// Command lines as data: what a program and its subcommands take. The parser, the help and whatever
-// else tells of options read it. Only parse.cpp sees the library that parses.
+// Command lines as data: the options and arguments of a program and its subcommands. The parser,
+// the help and all other descriptions of options read it. Only parse.cpp sees the library that
+// parses.
 #pragma once
 
 #include "support/failure.hpp"
@@ -18,7 +19,7 @@ struct UsageError : std::runtime_error {
 };
 
 enum class OptionKind {
-    Argument,  // told by its place
+    Argument,  // identified by its place
     Flag,      // --json; "true" is taken, or what --json=WORD names
     Value,     // --seed 3
     Bytes      // --memory-limit 4G; the number of bytes is taken
@@ -33,6 +34,7 @@ struct Option {
     std::function<void(const std::string& value)> take;
     std::vector<std::string> choices;      // the only values; empty: any
     std::vector<std::string> suggestions;  // some of any, which shells offer
+    std::vector<std::string> elsewhere;    // what other faces and programs call it
     bool is_required = false;
     bool is_list = false;  // an option may be repeated, an argument takes all words that are left
     bool has_commas = false;  // between values of a list
@@ -49,16 +51,16 @@ struct Command {
     std::vector<Command> commands;
 };
 
-// Parses the words and runs the command that they name. Mistakes are told on standard error, with
-// what may have been meant; --help, --version and `help COMMAND` are known everywhere, and so are
+// Parses the words and runs the command that they name. Mistakes are reported on standard error,
+// with what may have been meant; every command knows --help, --version and `help COMMAND`, and also
 // --completions SHELL and --man-page, which print what is below.
 ExitStatus run_command_line(const Command& program, const std::string& version, int argc,
                             char** argv);
 
-// "rddl run" tells where `command` stands in the program.
+// "rddl run" is the place of `command` in the program.
 std::string help_text(const Command& command, const std::string& full_name);
 
-// What bash, zsh or fish completes; another shell is a UsageError.
+// The completions for bash, zsh or fish; another shell is a UsageError.
 std::string completions(const Command& program, const std::string& shell);
 
 // The manual page in roff.
@@ -71,7 +73,7 @@ std::vector<Option> common_options(bool is_program);
 // "-o" and "--output" of "-o,--output".
 std::vector<std::string> names_of(const Option& option);
 
-// Adders of the usual kinds. What they return may be adjusted until the next one is added.
+// Adders of the usual kinds. The returned option may be adjusted until the next one is added.
 Option& add_argument(Command& command, const std::string& name, const std::string& explanation,
                      std::function<void(const std::string&)> take);
 Option& add_option(Command& command, const std::string& names, const std::string& value_name,
@@ -99,13 +101,13 @@ Option& add_repeated_option(Command& command, const std::string& names,
     option.is_list = true;
     return option;
 }
-// VALUE,VALUE and repeated, too.
+// Also takes VALUE,VALUE and repeated options.
 Option& add_list_option(Command& command, const std::string& names, const std::string& value_name,
                         const std::string& explanation,
                         std::function<void(const std::string&)> take);
 
-// The decimal number that a word is, such as -3, 0.5 or 1e6; what is none, or lies beyond the
-// bounds, is a UsageError.
+// The decimal number that a word is, such as -3, 0.5 or 1e6; a word that is not a number, or lies
+// beyond the bounds, is a UsageError.
 template <class Number>
 Number number_of(const std::string& option, const std::string& word, Number least, Number most);
 extern template int number_of(const std::string&, const std::string&, int, int);

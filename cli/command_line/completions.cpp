@@ -1,4 +1,5 @@
-// What shells complete, made from the options of a program, so that it cannot differ from --help.
+// Completions for shells, made from the options of a program, so that they cannot differ from
+// --help.
 #include "command_line/command_line.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@ namespace rddlc::cli {
 
 namespace {
 
-// With a backslash before each of the characters that a shell would take for its own.
+// The text with a backslash before each of the characters that a shell would take for its own.
 std::string with_escapes(const std::string& text, std::string_view escaped) {
     std::string out;
     for (const char c : text) {
@@ -33,7 +34,7 @@ const std::vector<std::string>& offered_values(const Option& option) {
     return option.choices.empty() ? option.suggestions : option.choices;
 }
 
-// Those that are known for every command, too.
+// The command's options, and those that are known for every command.
 std::vector<Option> options_of(const Command& command, bool is_program) {
     std::vector<Option> options;
     for (const Option& option : command.options)
@@ -74,8 +75,8 @@ std::string branches(const Command& program, std::string text_of(const Command&,
 
 // ---------------------------------------------------------------------------------------- bash
 
-// `case` over the word before: what an option takes, else the options. Where nothing that is
-// offered fits, bash completes names of files; so do the others, but for options that have choices.
+// `case` over the word before: the values of an option, otherwise the options. If no offer fits,
+// bash completes names of files; so do the others, except for options that have choices.
 std::string bash_case(const Command& command, bool is_program, const std::string& margin) {
     const std::vector<Option> options = options_of(command, is_program);
     std::string text = margin + "case $previous in\n";
@@ -94,7 +95,8 @@ std::string bash_case(const Command& command, bool is_program, const std::string
                               fmt::join(names_of(options), " "));
 }
 
-// Of a command of the program. If it has commands of its own, one of them is the next word.
+// The completions for a command of the program. If it has commands of its own, one of them is the
+// next word.
 std::string bash_command(const Command& command, bool is_program, const std::string& margin) {
     if (command.commands.empty()) return bash_case(command, is_program, margin);
     std::string text;
@@ -152,7 +154,7 @@ std::string bash(const Command& program) {
 
 // ----------------------------------------------------------------------------------------- zsh
 
-// Between single quotes, in a specification of _arguments.
+// The text between single quotes, in a specification of _arguments.
 std::string zsh_text(const std::string& text) {
     return replaced(with_escapes(text, "\\[]:"), "'", "'\\''");
 }
@@ -207,7 +209,7 @@ std::string zsh_body(const Command& program) {
     for (const Command& command : program.commands)
         text += fmt::format("        '{}:{}'\n", command.name, zsh_text(command.summary));
     text +=
-        "        'help:Tell more about a command'\n"
+        "        'help:Explain a command'\n"
         "    )\n"
         "    _arguments -C \\\n" +
         zsh_options(program, true, "    ") +
@@ -298,7 +300,7 @@ std::string completions(const Command& program, const std::string& shell) {
     if (shell == "bash") return bash(program);
     if (shell == "zsh") return zsh(program);
     if (shell == "fish") return fish(program);
-    throw UsageError(fmt::format("--completions: '{}' is no shell that is known", shell));
+    throw UsageError(fmt::format("--completions: '{}' is not a known shell", shell));
 }
 
 }  // namespace rddlc::cli

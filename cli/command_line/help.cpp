@@ -16,7 +16,7 @@ std::string indented(std::size_t width) {
     return std::string(width, ' ');
 }
 
-// What it is called, and on its right what it is, in lines that fit the page.
+// The name, and on its right the explanation, in lines that fit the page.
 std::string entry(const std::string& name, const std::string& text) {
     std::string out = "  " + name;
     std::size_t column = out.size();

@@ -1,7 +1,9 @@
 #include "command_line/command_line.hpp"
 #include "command_line/value_of.hpp"
 #include "support/diagnostic.hpp"
+#include "support/option_names.hpp"
 #include "support/program.hpp"
+#include "support/suggestion.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -40,7 +42,7 @@ std::string respelled_word(const Command& command, const std::string& word) {
     return word;
 }
 
-// What was said of an option. Only the words are CLI11's; what they mean is found out here, so that
+// The words that were given for an option. CLI11 splits them; their meaning is found here, so that
 // all complaints have one form.
 struct Answer {
     const Option* option;
@@ -93,17 +95,17 @@ void declare(Declared& declared) {
 }
 
 std::string did_you_mean_text(const std::string& name, const std::vector<std::string>& known) {
-    const auto near = did_you_mean(name, known);
-    return near ? fmt::format("; did you mean '{}'?", *near) : "";
+    return ending_with_name(did_you_mean(name, known));
 }
 
-std::vector<std::string> option_names(const Command& command) {
-    std::vector<std::string> names;
+std::vector<KnownOption> known_options(const Command& command) {
+    std::vector<KnownOption> known;
     for (const auto& options : {common_options(!command.commands.empty()), command.options})
         for (const Option& option : options)
             if (option.kind != OptionKind::Argument)
-                for (const std::string& name : names_of(option)) names.push_back(name);
-    return names;
+                for (const std::string& name : names_of(option))
+                    known.push_back({name, option.elsewhere});
+    return known;
 }
 
 std::vector<std::string> command_names(const Command& program) {
@@ -113,7 +115,7 @@ std::vector<std::string> command_names(const Command& program) {
     return names;
 }
 
-// A handful of commands are listed, if none of them is meant.
+// A handful of commands are listed, if no similar name exists.
 std::string unknown_command(const std::string& name, const Command& program) {
     constexpr std::size_t handful = 4;
     std::string end = did_you_mean_text(name, command_names(program));
@@ -125,7 +127,7 @@ std::string unknown_command(const std::string& name, const Command& program) {
     return fmt::format("no command is called '{}'{}", name, end);
 }
 
-// What is wrong with words that CLI11 does not take, in words that help.
+// A helpful message for words that CLI11 does not take.
 std::string message_of(const CLI::ParseError& error, const std::vector<std::string>& left,
                        const Command& program, const Command* chosen) {
     const auto is_option = [](const std::string& word) {
@@ -137,7 +139,7 @@ std::string message_of(const CLI::ParseError& error, const std::vector<std::stri
     if (unknown != left.end()) {
         const std::string name = unknown->substr(0, unknown->find('='));
         return fmt::format("unknown option '{}'{}", name,
-                           did_you_mean_text(name, option_names(chosen ? *chosen : program)));
+                           option_meant_text(name, known_options(chosen ? *chosen : program)));
     }
     if (!left.empty()) return fmt::format("too many arguments: '{}'", left.front());
     return error.what();
@@ -161,7 +163,7 @@ void require_arguments(const Declared& declared) {
             throw UsageError(answer.option->names + " is required");
 }
 
-// A program that has commands is run itself if it was told enough.
+// A program that has commands is run itself if it has enough arguments.
 void require_command(const Declared& program, const Declared* chosen) {
     if (chosen || has_enough(program)) return;
     throw UsageError(fmt::format("name a command, such as '{} {}'", program.command->name,
@@ -182,8 +184,8 @@ const Option* option_named(const Command& command, const std::string& name) {
     return nullptr;
 }
 
-// `--trace=$FILE` without a FILE would take the next word for its value, and the last word has
-// none.
+// `--trace=$FILE` without a FILE would take the next word for its value, and the last word would
+// have no value.
 void require_values(const Command& command, const std::vector<std::string>& words) {
     for (const std::string& word : words) {
         if (!word.ends_with('=')) continue;
@@ -216,7 +218,7 @@ Option completions_option() {
     throw std::logic_error("no program has --completions");
 }
 
-// What --completions and --man-page ask for.
+// The page that --completions and --man-page ask for.
 std::optional<std::string> page_asked_for(const Command& program, const std::string& version,
                                           int argc, char** argv) {
     const std::string word = argc > 1 ? argv[1] : "";
@@ -235,7 +237,7 @@ ExitStatus run_declared(const Declared& declared) {
 }
 
 // `rddl train ppo ...`, or `rddl help train ppo`: a command with commands of its own is a program
-// by itself. Nothing if the words name none.
+// by itself. Returns nothing if the words name no such command.
 std::optional<ExitStatus> run_inner_program(const Command& program, const std::string& version,
                                             int argc, char** argv) {
     const bool helps = argc > 2 && std::string_view(argv[1]) == "help";

@@ -1,6 +1,7 @@
 #include "command_line/value_of.hpp"
 
 #include "support/diagnostic.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -65,8 +66,7 @@ void require_choice(const Option& option, const std::string& word) {
         return;
     const auto near = did_you_mean(word, option.choices);
     throw UsageError(fmt::format("{}: '{}' is not one of {}{}", option.names, word,
-                                 fmt::join(option.choices, ", "),
-                                 near ? fmt::format("; did you mean '{}'?", *near) : ""));
+                                 fmt::join(option.choices, ", "), ending_with_name(near)));
 }
 
 }  // namespace

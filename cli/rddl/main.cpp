@@ -18,7 +18,7 @@ Command rddl_command() {
     Command program;
     program.name = "rddl";
     program.summary =
-        "RDDL problems at work: look at them, run them, measure them.\n\n"
+        "Inspect, run and measure RDDL problems.\n\n"
         "A problem is two files, DOMAIN INSTANCE; one file that holds both; a folder of a "
         "domain.rddl\n"
         "and its instances, with the number of one unless there is only one; or the NAME and "
@@ -34,7 +34,7 @@ Command rddl_command() {
         "  rddl run domain.rddl instance.rddl --episodes 1000 --seed 7\n"
         "  rddl verify domain.rddl instance.rddl\n"
         "  rddl --explain E0203\n\n"
-        "'rddl help COMMAND' tells more about a command.";
+        "'rddl help COMMAND' explains a command.";
     const auto explanation = std::make_shared<std::string>();
     add_explain_option(program, *explanation);
     program.run = [explanation] {
@@ -55,7 +55,7 @@ Command rddl_command() {
 int main(int argc, char** argv) {
     using namespace rddlc;
     return run_program("rddl", version, [&] {
-        cli::catch_interrupts();
+        workbench::catch_interrupts();
         return cli::run_command_line(cli::rddl_command(), version, argc, argv);
     });
 }

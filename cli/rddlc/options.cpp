@@ -21,13 +21,13 @@ constexpr const char* examples =
     "Examples:\n"
     "  rddlc domain.rddl instance.rddl -o sim.cpp    a source file to compile and link\n"
     "  rddlc domain.rddl instance.rddl -o sim.so     a shared object to load\n"
-    "  rddlc domain.rddl instance.rddl --check       only look for mistakes\n"
+    "  rddlc domain.rddl instance.rddl --check       only check for errors\n"
     "  rddlc domain.rddl --check                     those of a domain, without an instance\n"
     "  rddlc --explain E0203                         what a diagnostic means\n\n"
     "Exit status: 0; 1 if errors were found; 2 for a wrong command line; 70 if rddlc itself is\n"
     "wrong, which please report.";
 
-// What the command line says, as it says it.
+// The arguments of the command line, unchecked.
 struct Arguments {
     std::vector<std::string> inputs;
     std::string policy;
@@ -58,7 +58,7 @@ struct Arguments {
     bool verbose = false;
 };
 
-// For --help.
+// The list of passes for --help.
 std::string list_of_passes() {
     std::string text = "Optimisations, in their order:\n";
     for (const PassDescription& pass : all_passes())
@@ -77,20 +77,21 @@ void add_input(Command& command, const std::string& name, const std::string& exp
                  [&arguments](const std::string& file) { arguments.inputs.push_back(file); });
 }
 
-// What is read, and what is made of it.
+// The inputs, and the output files.
 void add_file_options(Command& command, Arguments& arguments) {
-    add_input(command, "DOMAIN", "domain file, or one that holds the instance, too", arguments);
+    add_input(command, "DOMAIN", "domain file, or one that also holds the instance", arguments);
     command.options.back().is_required = true;
     add_input(command, "INSTANCE", "instance file", arguments);
     add_argument(command, "POLICY", "file with a policy block, which alone is taken from it",
                  arguments.policy);
     add_text_option(command, "--instance", "NAME",
-                    "compile the instance of this name, where the files hold several",
+                    "compile the instance of this name, if the files hold several",
                     arguments.instance);
-    add_text_option(command, "-o,--output", "FILE",
-                    "write FILE: .cpp, .hpp or .so tells what it shall be; without it the C++ text "
-                    "goes to standard output",
-                    arguments.output);
+    add_text_option(
+        command, "-o,--output", "FILE",
+        "write FILE: its extension .cpp, .hpp or .so selects the output format; without it the "
+        "C++ text goes to standard output",
+        arguments.output);
     add_repeated_option(command, "--extern", "FILE",
                         "include FILE, a C++ header that defines the external functions; may be "
                         "repeated",
@@ -110,7 +111,7 @@ void add_file_options(Command& command, Arguments& arguments) {
 
 void add_stage_options(Command& command, Arguments& arguments) {
     add_list_option(command, "--print", "FORM,...",
-                    "print a form that the problem takes on its way: ast, model, ir, ir-opt, cpp",
+                    "print an intermediate form of the problem: ast, model, ir, ir-opt, cpp",
                     [&arguments](const std::string& form) { arguments.print.push_back(form); })
         .suggestions = {"ast", "model", "ir", "ir-opt", "cpp"};
     add_text_option(command, "--stop-after", "STAGE",
@@ -138,12 +139,12 @@ void add_diagnostic_options(Command& command, Arguments& arguments) {
     add_text_option(command, "--color", "WHEN", "auto (default), always or never", arguments.color)
         .choices = {"auto", "always", "never"};
     add_explain_option(command, arguments.explanation);
-    add_flag(command, "-v,--verbose", "tell how long each stage takes", arguments.verbose);
+    add_flag(command, "-v,--verbose", "report how long each stage takes", arguments.verbose);
 }
 
 void add_code_options(Command& command, Arguments& arguments) {
     add_flag(command, "--details",
-             "the simulator can also tell interm-fluents of the last step, and which objects "
+             "the simulator can also report interm-fluents of the last step, and which objects "
              "violate a precondition",
              arguments.details);
     add_flag(command, "--emit-lines", "#line in the C++ text, for debuggers and profilers",
@@ -154,7 +155,7 @@ void add_code_options(Command& command, Arguments& arguments) {
                     arguments.lanes)
         .choices = {"1", "8", "16", "32", "64"};
     add_text_option(command, "--real", "TYPE",
-                    "what the simulator computes reals in: double (the default), or float, which "
+                    "type of reals in computations: double (the default), or float, which "
                     "is about twice as fast in batches and less exact",
                     arguments.real)
         .choices = {"double", "float"};
@@ -170,7 +171,7 @@ void add_code_options(Command& command, Arguments& arguments) {
     add_flag(command, "--fast-math",
              "compute with reals as if they were not rounded, and never inf or nan",
              arguments.fast_math);
-    add_flag(command, "--stats", "tell what each optimisation did; --stats=json as JSON",
+    add_flag(command, "--stats", "report what each optimisation did; --stats=json as JSON",
              [&arguments](const std::string& format) { arguments.statistics = format; });
 }
 
@@ -220,7 +221,7 @@ Stage last_stage(const Arguments& arguments, const std::set<Form>& print) {
         last = *stage;
     }
     if (arguments.check_only) last = std::min(last, Stage::Check);
-    // Who only wants to see a form does not wait for the stages after it.
+    // A user who only wants a form does not wait for the stages after it.
     if (!arguments.output.empty()) return last;
     const std::optional<Stage> wanted = last_wanted_stage(arguments, print);
     return wanted ? std::min(last, *wanted) : last;

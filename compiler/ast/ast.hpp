@@ -240,7 +240,7 @@ struct Constraints {
 struct DomainName {
     Name name;
 };
-// Of a domain, or of a policy, which alone may name its domain.
+// A section of a domain, or of a policy, which alone may name its domain.
 struct DomainSection {
     std::variant<DomainName, Requirements, Types, PVariables, Cpfs, Reward, Constraints> node;
     Span span;

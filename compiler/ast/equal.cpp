@@ -7,7 +7,7 @@ namespace rddlc::ast {
 
 namespace {
 
-// What counts in each struct: every field but the spans.
+// The fields of each struct that count: all except the spans.
 auto fields(const Name& n) {
     return std::tie(n.text);
 }

@@ -10,7 +10,7 @@ namespace rddlc::ast {
 
 std::string print(const Program& program);
 
-// On one line.
+// The expression on one line.
 std::string print(const Expr& expr);
 // Broken into lines where it is longer than `width`; further lines begin at column 0.
 std::string print_wrapped(const Expr& expr, std::size_t width);

@@ -287,7 +287,7 @@ class WrappingPrinter {
         return fmt::format("{}\n    {}", head, hanging(print(inner)));
     }
 
-    // An "else if" goes on in the same column.
+    // An "else if" continues in the same column.
     std::string print(const If& first) const {
         std::string text;
         const If* node = &first;

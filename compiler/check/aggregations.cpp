@@ -1,4 +1,4 @@
-// What binds variables: aggregations, distributions over objects, determinants.
+// Constructs that bind variables: aggregations, distributions over objects, determinants.
 #include "check/expressions.hpp"
 #include "check/open_ends.hpp"
 #include "check/types.hpp"
@@ -19,7 +19,7 @@ bool is_arg_reduction(Reduction op) {
     return op == Reduction::ArgMin || op == Reduction::ArgMax;
 }
 
-// Those without a value over an empty type.
+// Reductions without a value over an empty type.
 bool needs_objects(Reduction op) {
     return is_arg_reduction(op) || op == Reduction::Minimum || op == Reduction::Maximum;
 }
@@ -67,7 +67,11 @@ void warn_of_unused_variables(const std::vector<model::VariableId>& variables,
 
 Typed check_body(Reduction op, Typed body, const ast::Name& name, Scope& scope) {
     const std::string what = fmt::format("the body of '{}'", name.text);
-    if (is_bool_reduction(op)) return require_bool(std::move(body), what, scope);
+    if (is_bool_reduction(op)) {
+        Need need{model::bool_type, what, bool_needed};
+        if (body && body->type != need.type) need.hint = hint_for_number_as_body(*body, scope);
+        return require(std::move(body), need, scope);
+    }
     if (op == Reduction::Average) return require_real(std::move(body), what, scope);
     body = require_number(std::move(body), what, scope);
     if (!body) return std::nullopt;
@@ -101,6 +105,7 @@ Typed check_aggregation(const ast::Aggregation& aggregation, Span span, Scope& s
     const auto variables = binder.variables();
     if (!body || !variables || !single) return std::nullopt;
     if (needs_objects(*op) && !check_nonempty(*variables, name, context)) return std::nullopt;
+    note_aggregation(*variables, scope);
     warn_of_long_body(*op, *variables, scope);
     warn_of_unused_variables(*variables, *aggregation.body, name.text, scope);
 

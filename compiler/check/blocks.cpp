@@ -1,3 +1,4 @@
+// Over 400 lines: a choice and its warnings for each kind of block.
 #include "check/blocks.hpp"
 
 #include "check/check.hpp"
@@ -111,7 +112,7 @@ bool has_non_fluents(const ast::Instance& instance) {
     return false;
 }
 
-// Where objects and non-fluents come from: a block of their own, or an instance of the 2018 form.
+// The origin of objects and non-fluents: a block of their own, or an instance of the 2018 form.
 using Origin = std::variant<const ast::NonFluents*, const ast::Instance*>;
 
 struct TopLevel {
@@ -157,7 +158,7 @@ bool is_of_other_instance(const Origin& origin, const ast::Instance* instance) {
     return other && *other != instance;
 }
 
-// What the instance names or holds itself, else any; of several the last.
+// The origin that the instance names or holds itself, otherwise any; the last of several.
 std::optional<Origin> choose_origin(const TopLevel& top) {
     const ast::Name* name = name_given_by(top.instance);
     const bool is_there = std::ranges::any_of(

@@ -1,4 +1,4 @@
-// Which of the written blocks and sections count.
+// Chooses which of the written blocks and sections count.
 #pragma once
 
 #include "check/context.hpp"
@@ -27,7 +27,7 @@ struct Blocks {
     const ast::Constraints* state_action_constraints = nullptr;
     const ast::Constraints* state_invariants = nullptr;
 
-    // Of the policy.
+    // Sections of the policy.
     const ast::PVariables* policy_pvariables = nullptr;
     const ast::Cpfs* policy_cpfs = nullptr;
 
@@ -38,15 +38,15 @@ struct Blocks {
     const ast::Horizon* horizon = nullptr;
     const ast::Discount* discount = nullptr;
 
-    // Where horizon, max-nondef-actions and the like stand, for messages.
+    // Places of horizon, max-nondef-actions and the like, for messages.
     Span max_nondef_actions_span = {};
     Span horizon_span = {};
     Span discount_span = {};
     Span state_action_constraints_span = {};
 };
 
-// Reports missing blocks and sections, and repeated ones; nothing if there is too little to go on.
-// There is no instance if the context needs none and the program has none.
+// Reports missing blocks and sections, and repeated ones; returns nothing if too much is missing to
+// continue. There is no instance if the context needs none and the program has none.
 std::optional<Blocks> choose_blocks(const ast::Program& program, Context& context);
 
 // Horizon, discount and max-nondef-actions into the model, after the fluents are known.

@@ -64,7 +64,7 @@ std::string hint_for_arity(Operator op, std::size_t found) {
         return fmt::format(
             "nest it: '{0}[a, {0}[b, c]]'; over objects it is '{0}_{{?x : type}} ...'", name);
     }
-    return "";
+    return fmt::format("write '{}'", form_of(op));
 }
 
 bool check_call_arity(std::string_view name, std::size_t expected, const ast::Name& written,
@@ -77,46 +77,17 @@ bool check_call_arity(std::string_view name, std::size_t expected, const ast::Na
     return false;
 }
 
-enum class ResultRule {
-    KeepNumber,  // int for bool and int, real for real
-    Round,       // int; of an int it is the int itself
-    Ints,        // int operands, int result
-    Reals,       // real operands, real result
-};
-
-ResultRule rule_of(Operator op) {
-    switch (op) {
-        case Operator::Abs:
-        case Operator::Sign:
-        case Operator::Minimum:
-        case Operator::Maximum:
-        case Operator::Power:
-        case Operator::FloorModuloReal:
-            return ResultRule::KeepNumber;
-        case Operator::Round:
-        case Operator::Floor:
-        case Operator::Ceil:
-            return ResultRule::Round;
-        case Operator::FloorDivide:
-        case Operator::FloorModulo:
-            return ResultRule::Ints;
-        default:
-            return ResultRule::Reals;
-    }
-}
-
+// The common type of the operands.
 model::ValueType operand_type(Operator op, const std::vector<Typed>& operands) {
-    const ResultRule rule = rule_of(op);
-    if (rule == ResultRule::Ints) return model::int_type;
-    if (rule == ResultRule::Reals) return model::real_type;
+    if (typing_of(op) == Typing::Ints) return model::int_type;
+    if (typing_of(op) == Typing::Reals && !on_ints(op)) return model::real_type;
     model::ValueType type = model::int_type;
     for (const Typed& operand : operands) type = promoted(type, operand->type);
     return type;
 }
 
 model::ValueType result_type(Operator op, model::ValueType operand) {
-    if (op == Operator::Sign || rule_of(op) == ResultRule::Round) return model::int_type;
-    return operand;
+    return is_one_of(typing_of(op), {Typing::Sign, Typing::Rounding}) ? model::int_type : operand;
 }
 
 // Each operand a number, for div and mod an int.
@@ -125,7 +96,7 @@ bool check_operands(Operator op, std::vector<Typed>& operands, Scope& scope) {
     for (std::size_t i = 0; i < operands.size(); ++i) {
         const std::string what = argument_of(i, operands.size(), source_name_of(op));
         operands[i] = require_number(std::move(operands[i]), what, scope);
-        if (rule_of(op) == ResultRule::Ints)
+        if (typing_of(op) == Typing::Ints)
             operands[i] = require_int(std::move(operands[i]), what, scope);
         sound = sound && operands[i].has_value();
     }
@@ -135,9 +106,9 @@ bool check_operands(Operator op, std::vector<Typed>& operands, Scope& scope) {
 Typed check_function(Operator op, std::vector<Typed> operands, Span span, Scope& scope) {
     if (!check_operands(op, operands, scope)) return std::nullopt;
     const model::ValueType type = operand_type(op, operands);
-    if (rule_of(op) == ResultRule::Round && type == model::int_type)
+    if (typing_of(op) == Typing::Rounding && type == model::int_type)
         return convert(std::move(*operands[0]), type);
-    if (op == Operator::FloorModuloReal && type == model::int_type) op = Operator::FloorModulo;
+    if (type == model::int_type) op = on_ints(op).value_or(op);
     model::Apply node{op, {}};
     for (Typed& operand : operands) node.operands.push_back(convert(std::move(*operand), type));
     return model::Expr{result_type(op, type), span, std::move(node)};
@@ -146,17 +117,16 @@ Typed check_function(Operator op, std::vector<Typed> operands, Span span, Scope&
 // -------------------------------------------------------------------------- distributions
 
 model::ValueType sample_type(Distribution distribution) {
-    switch (distribution) {
-        case Distribution::Bernoulli:
+    switch (drawn_by(distribution)) {
+        case Drawn::Bool:
             return model::bool_type;
-        case Distribution::Poisson:
-        case Distribution::Binomial:
-        case Distribution::NegativeBinomial:
-        case Distribution::Geometric:
+        case Drawn::Int:
             return model::int_type;
-        default:
-            return model::real_type;
+        case Drawn::Real:
+        case Drawn::AsGiven:
+            break;
     }
+    return model::real_type;
 }
 
 // KronDelta takes bools and ints, DiracDelta any number; both give what they take.
@@ -187,10 +157,9 @@ Typed check_sample(Distribution distribution, std::vector<Typed> parameters, Spa
     model::Sample node{distribution, {}};
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const std::string what = argument_of(i, parameters.size(), name_of(distribution));
-        const bool count = distribution == Distribution::Binomial && i == 0;
         Typed parameter = require_number(std::move(parameters[i]), what, scope);
-        parameter = count ? require_int(std::move(parameter), what, scope)
-                          : require_real(std::move(parameter), what, scope);
+        parameter = takes_int(distribution, i) ? require_int(std::move(parameter), what, scope)
+                                               : require_real(std::move(parameter), what, scope);
         if (parameter) node.parameters.push_back(std::move(*parameter));
     }
     if (node.parameters.size() < parameters.size()) return std::nullopt;
@@ -210,8 +179,8 @@ Typed check_call(const ast::Call& call, Span span, Scope& scope) {
                                  .with_hint(hint_for_unknown(name, scope.context)));
         return std::nullopt;
     }
-    if (!check_call_arity(name, static_cast<std::size_t>(arity_of(*op)), call.function,
-                          arguments.size(), hint_for_arity(*op, arguments.size()), scope.context))
+    if (!check_call_arity(name, arity_of(*op), call.function, arguments.size(),
+                          hint_for_arity(*op, arguments.size()), scope.context))
         return std::nullopt;
     return check_function(*op, std::move(arguments), span, scope);
 }
@@ -227,10 +196,10 @@ Typed check_distribution(const ast::Distribution& call, Span span, Scope& scope)
                                             "distributions 'Discrete(type, @a : p, ...)'"));
         return std::nullopt;
     }
-    if (!check_call_arity(name, static_cast<std::size_t>(arity_of(*distribution)), call.name,
-                          parameters.size(), "", scope.context))
+    if (!check_call_arity(name, arity_of(*distribution), call.name, parameters.size(),
+                          fmt::format("write '{}'", form_of(*distribution)), scope.context))
         return std::nullopt;
-    if (*distribution == Distribution::KronDelta || *distribution == Distribution::DiracDelta)
+    if (is_delta(*distribution))
         return check_delta(*distribution, std::move(parameters[0]), span, scope);
     return check_sample(*distribution, std::move(parameters), span, scope);
 }

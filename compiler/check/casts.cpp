@@ -1,9 +1,11 @@
 #include "check/casts.hpp"
 
+#include "check/open_ends.hpp"
 #include "check/types.hpp"
 #include "support/match.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -17,6 +19,7 @@ using Kind = model::ValueType::Kind;
 struct Misfit {
     Span span;
     model::ValueType found;
+    std::string hint = {};  // what is probably meant instead
 };
 using Misfits = std::vector<Misfit>;
 
@@ -41,6 +44,73 @@ model::Expr fault_at(Span span, model::ValueType found, const Need& need, const 
     return {need.type, span, model::TypeFault{fault_message(span, found, need, context)}};
 }
 
+bool keeps_type(Reduction op) {
+    return op == Reduction::Sum || op == Reduction::Product || op == Reduction::Minimum ||
+           op == Reduction::Maximum;
+}
+
+// ------------------------------------------------------------- reals that are declared so
+
+// Finds the real interm-fluents that alone make an expression real: it is an int if they are
+// declared so.
+class DeclaredReals {
+  public:
+    explicit DeclaredReals(const Context& context) : context_(context) {}
+
+    // Whether `e` would be an int.
+    bool search(const model::Expr& e) {
+        if (castable(e.type, model::int_type)) return true;
+        return match(
+            e.node, [&](const model::Convert& n) { return search(*n.operand); },
+            [&](const model::Reference& n) { return note(n); },
+            [&](const model::If& n) { return search(*n.then_branch) && search(*n.else_branch); },
+            [&](const model::Switch& n) {
+                return (!n.default_case || search(**n.default_case)) &&
+                       std::ranges::all_of(
+                           n.cases, [&](const auto& value) { return !value || search(**value); });
+            },
+            [&](const model::Apply& n) { return on_ints(n.op) && all(n.operands); },
+            [&](const model::Aggregate& n) { return keeps_type(n.op) && search(*n.body); },
+            [&](const model::Sample& n) {
+                return (n.distribution == Distribution::KronDelta ||
+                        n.distribution == Distribution::DiracDelta) &&
+                       all(n.parameters);
+            },
+            [](const auto&) { return false; });
+    }
+
+    const std::vector<std::string>& names() const { return names_; }
+
+  private:
+    bool all(const std::vector<model::Expr>& expressions) {
+        return std::ranges::all_of(expressions, [&](const model::Expr& e) { return search(e); });
+    }
+
+    bool note(const model::Reference& reference) {
+        const model::Fluent& fluent = context_.fluent(reference.fluent);
+        if (fluent.role != Role::Interm && fluent.role != Role::Derived) return false;
+        if (std::ranges::find(names_, fluent.name) == names_.end()) names_.push_back(fluent.name);
+        return true;
+    }
+
+    const Context& context_;
+    std::vector<std::string> names_;
+};
+
+// A real interm-fluent may be whole by its definition; its type is the declared one all the same.
+std::string hint_for_declared_reals(const model::Expr& e, const Need& need,
+                                    const Context& context) {
+    if (need.type != model::int_type || e.type != model::real_type) return "";
+    DeclaredReals reals(context);
+    if (!reals.search(e) || reals.names().empty()) return "";
+    const bool is_one = reals.names().size() == 1;
+    return fmt::format("if '{}' {} always whole, declare {} as int",
+                       fmt::join(reals.names(), "' and '"), is_one ? "is" : "are",
+                       is_one ? "it" : "them");
+}
+
+// ------------------------------------------------------------------------------- narrowing
+
 // Rewrites an expression to a lower type, as if each operation worked on what its operands really
 // are: `if (c) then 1 else 2.5` is int where c holds.
 class Narrowing {
@@ -59,7 +129,8 @@ class Narrowing {
             [&](model::Aggregate&& n) { return aggregate(std::move(n), span, to); },
             [&](model::Sample&& n) { return delta(std::move(n), span, to); },
             [&](model::External&& n) -> Typed {
-                // An external function gives what it gives, but nobody knows that it is an object.
+                // The type of an external function's result is not checked, but it is never known
+                // to be an object.
                 if (is_object(to)) return std::nullopt;
                 return model::Expr{to, span, std::move(n)};
             },
@@ -72,17 +143,18 @@ class Narrowing {
     model::Expr branch(model::ExprBox&& box, model::ValueType to, bool& fits) {
         const Span span = box->span;
         const model::ValueType found = natural_type(*box);
+        std::string hint = hint_for_declared_reals(*box, need_, context_);
         const std::size_t before = misfits_.size();
         if (Typed narrowed = at(std::move(*box), to)) {
             fits = true;
             return std::move(*narrowed);
         }
         misfits_.resize(before);
-        misfits_.push_back({span, found});
+        misfits_.push_back({span, found, std::move(hint)});
         return fault_at(span, found, need_, context_);
     }
 
-    // Before it was promoted to match the other branches.
+    // The type before it was promoted to match the other branches.
     static model::ValueType natural_type(const model::Expr& e) {
         const auto* cast = std::get_if<model::Convert>(&e.node);
         return cast ? cast->operand->type : e.type;
@@ -107,25 +179,6 @@ class Narrowing {
         return model::Expr{to, span, std::move(n)};
     }
 
-    // Operators that give an int for ints.
-    static std::optional<Operator> on_ints(Operator op) {
-        switch (op) {
-            case Operator::Add:
-            case Operator::Subtract:
-            case Operator::Multiply:
-            case Operator::Negate:
-            case Operator::Abs:
-            case Operator::Minimum:
-            case Operator::Maximum:
-            case Operator::Power:
-                return op;
-            case Operator::FloorModuloReal:
-                return Operator::FloorModulo;
-            default:
-                return std::nullopt;
-        }
-    }
-
     Typed apply(model::Apply&& n, Span span, model::ValueType to) {
         const std::optional<Operator> op = on_ints(n.op);
         if (!op || to != model::int_type) return std::nullopt;
@@ -138,9 +191,7 @@ class Narrowing {
     }
 
     Typed aggregate(model::Aggregate&& n, Span span, model::ValueType to) {
-        const bool keeps_type = n.op == Reduction::Sum || n.op == Reduction::Product ||
-                                n.op == Reduction::Minimum || n.op == Reduction::Maximum;
-        if (!keeps_type || to != model::int_type) return std::nullopt;
+        if (!keeps_type(n.op) || to != model::int_type) return std::nullopt;
         Typed body = at(std::move(*n.body), to);
         if (!body) return std::nullopt;
         return model::Expr{to, span,
@@ -148,7 +199,7 @@ class Narrowing {
     }
 
     Typed delta(model::Sample&& n, Span span, model::ValueType to) {
-        if (n.distribution != Distribution::KronDelta && n.distribution != Distribution::DiracDelta)
+        if (!is_delta(n.distribution))
             return std::nullopt;
         Typed value = at(std::move(n.parameters[0]), to);
         if (!value) return std::nullopt;
@@ -161,10 +212,22 @@ class Narrowing {
     Misfits misfits_;
 };
 
-void warn(Span span, model::ValueType found, const Need& need, Context& context) {
-    context.report(diagnose(type_fault, span, fault_message(span, found, need, context))
-                       .with_hint("a run that gets here stops with a fault" +
-                                  (need.hint.empty() ? "" : "; " + need.hint)));
+// The body of an aggregation may have taken in what was meant to be compared with it.
+std::string hint_for_open_end(Span span, model::ValueType found, const Need& need,
+                              const Scope& scope) {
+    if (need.type != model::bool_type || is_object(found)) return "";
+    return hint_for_comparison_in_body(span, scope);
+}
+
+void warn(const Misfit& misfit, const Need& need, Scope& scope) {
+    std::string meant = misfit.hint.empty()
+                            ? hint_for_open_end(misfit.span, misfit.found, need, scope)
+                            : misfit.hint;
+    if (meant.empty()) meant = need.hint;
+    scope.context.report(diagnose(type_fault, misfit.span,
+                                  fault_message(misfit.span, misfit.found, need, scope.context))
+                             .with_hint("a run that gets here stops with a fault" +
+                                        (meant.empty() ? "" : "; " + meant)));
 }
 
 std::string hint_for(model::ValueType found, const Need& need) {
@@ -177,17 +240,9 @@ std::string hint_for(model::ValueType found, const Need& need) {
     return "";
 }
 
-// A real interm-fluent may be whole by its definition; its type is the declared one all the same.
-std::string hint_for_declared_real(const model::Expr& e, const Need& need, const Context& context) {
-    const auto* reference = std::get_if<model::Reference>(&e.node);
-    if (!reference || need.type != model::int_type || e.type != model::real_type) return "";
-    const model::Fluent& fluent = context.fluent(reference->fluent);
-    if (fluent.role != Role::Interm && fluent.role != Role::Derived) return "";
-    return fmt::format("if '{}' is always whole, declare it as int", fluent.name);
-}
-
 void report_misfit(Span span, model::ValueType found, const Need& need, Scope& scope,
                    std::string hint) {
+    if (hint.empty()) hint = hint_for_open_end(span, found, need, scope);
     Diagnostic diagnostic{
         need.code, span,
         fmt::format("{} must be {}, found {}", need.what, describe(scope.context, need.type),
@@ -222,8 +277,7 @@ Typed try_require(model::Expr expression, const Need& need, Scope& scope) {
     Narrowing narrowing(need, scope.context);
     Typed result = narrowing.at(std::move(expression), need.type);
     if (result)
-        for (const Misfit& misfit : narrowing.misfits())
-            warn(misfit.span, misfit.found, need, scope.context);
+        for (const Misfit& misfit : narrowing.misfits()) warn(misfit, need, scope);
     return result;
 }
 
@@ -231,7 +285,7 @@ Typed require(Typed expression, const Need& need, Scope& scope) {
     if (!expression) return std::nullopt;
     const Span span = expression->span;
     const model::ValueType found = expression->type;
-    std::string hint = hint_for_declared_real(*expression, need, scope.context);
+    std::string hint = hint_for_declared_reals(*expression, need, scope.context);
     Typed result = try_require(std::move(*expression), need, scope);
     if (!result) report_misfit(span, found, need, scope, std::move(hint));
     return result;
@@ -260,7 +314,7 @@ Typed require_real(Typed expression, std::string_view what, Scope& scope) {
 }
 
 model::Expr fault_instead_of(const model::Expr& expression, const Need& need, Scope& scope) {
-    warn(expression.span, expression.type, need, scope.context);
+    warn({expression.span, expression.type, {}}, need, scope);
     return fault_at(expression.span, expression.type, need, scope.context);
 }
 

@@ -40,7 +40,7 @@ Typed require_number(Typed expression, std::string_view what, Scope& scope);
 // A number, cast to real.
 Typed require_real(Typed expression, std::string_view what, Scope& scope);
 
-// As require(), but nothing is reported where no path fits.
+// The same as require(), but nothing is reported if no path fits.
 Typed try_require(model::Expr expression, const Need& need, Scope& scope);
 // A fault in place of `expression`, whose type is wrong on this path; with the warning.
 model::Expr fault_instead_of(const model::Expr& expression, const Need& need, Scope& scope);

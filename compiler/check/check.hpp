@@ -1,4 +1,4 @@
-// What was written -> what it means: names resolved, types known, casts explicit, CPFs in order.
+// Text to meaning: names resolved, types known, casts explicit, CPFs in order.
 #pragma once
 
 #include "ast/ast.hpp"
@@ -14,8 +14,8 @@ namespace rddlc {
 // A domain without an instance.
 bool is_domain_alone(const ast::Program& program);
 
-// Reports every error of such a program that can be told without objects and values. The model, if
-// there are none, lacks these: types have no objects, and fluents no values.
+// Reports every error of such a program that can be found without objects and values. Without
+// errors it returns a model that lacks these: types have no objects, and fluents no values.
 std::optional<model::Model> check_domain(const ast::Program& program, const Sources& sources,
                                          Diagnostics& diagnostics,
                                          Standard standard = Standard::PyRddlGym);
@@ -25,7 +25,7 @@ std::optional<model::Model> check(const ast::Program& program, const Sources& so
                                   Diagnostics& diagnostics,
                                   Standard standard = Standard::PyRddlGym);
 
-// The name in `non-fluents = NAME`; null without one. Of several the last counts.
+// The name in `non-fluents = NAME`; null without one. The last of several counts.
 const ast::Name* named_non_fluents(const ast::Instance& instance);
 
 }  // namespace rddlc

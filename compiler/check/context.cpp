@@ -1,5 +1,7 @@
 #include "check/context.hpp"
 
+#include "support/suggestion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +19,7 @@ std::optional<std::string> name_meant(const Context& context, std::string_view n
 
 std::string suggestion(const Context& context, std::string_view name,
                        const Candidates& candidates) {
-    const auto near = name_meant(context, name, candidates);
-    return near ? fmt::format("did you mean '{}'?", *near) : "";
+    return hint_of_name(name_meant(context, name, candidates));
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

@@ -1,4 +1,4 @@
-// What the parts of the checker share while the model grows.
+// Shared data of the parts of the checker while the model grows.
 #pragma once
 
 #include "ast/ast.hpp"
@@ -34,7 +34,7 @@ struct Names {
     // Declared with an error that was reported: what follows from it is not reported again.
     std::unordered_set<model::TypeId> broken_types;
     std::unordered_set<model::FluentId> broken_fluents;
-    // Those whose objects nobody has given: what depends on the objects is not checked.
+    // Types without given objects: nothing that depends on the objects is checked.
     std::unordered_set<model::TypeId> open_types;
 };
 
@@ -76,7 +76,7 @@ std::vector<std::string> keys(const std::unordered_map<std::string, T>& map) {
 }
 
 // The name that was meant, if one of the candidates is near. They are only made while there are few
-// errors: the search looks at every one of them.
+// errors: the search compares every one of them.
 using Candidates = std::function<std::vector<std::string>()>;
 std::optional<std::string> name_meant(const Context& context, std::string_view name,
                                       const Candidates& candidates);

@@ -20,7 +20,7 @@ void warn_of_constant_condition(const ast::Expr& condition, Context& context) {
 }
 
 // The type that all branches can have: one object type, or the largest of the primitive ones.
-// Reported if there is none.
+// Reports an error if there is no such type.
 std::optional<model::ValueType> common_type(const std::vector<const model::Expr*>& branches,
                                             std::string_view what, Scope& scope) {
     model::ValueType type = branches.front()->type;
@@ -46,8 +46,8 @@ struct Label {
     Span span;
 };
 
-// For each member of the type, which of the labels names it. Reports labels that name no member
-// and labels used twice.
+// The label that names each member of the type. Reports labels that name no member and labels used
+// twice.
 std::optional<std::vector<std::optional<std::size_t>>> match_labels(
     const std::vector<Label>& labels, model::TypeId type_id, Context& context) {
     const model::Type& type = context.type(type_id);
@@ -112,7 +112,7 @@ Typed check_subject(const ast::Expr& expression, Scope& scope) {
     return std::nullopt;
 }
 
-// The labels of all cases but the default, which is at most one. False if some are no literals.
+// The labels of all cases except the default, which is at most one. False if some are not literals.
 bool collect_labels(const ast::Switch& choice, std::vector<Label>& labels,
                     std::vector<const ast::SwitchCase*>& labelled, const ast::SwitchCase*& fallback,
                     Context& context) {

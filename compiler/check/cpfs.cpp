@@ -2,6 +2,7 @@
 #include "check/definitions.hpp"
 #include "check/expressions.hpp"
 #include "check/types.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,9 +23,12 @@ Definition definition_of(Role role) {
             return Definition::Interm;
         case Role::Observ:
             return Definition::Observ;
-        default:
-            return Definition::NextState;
+        case Role::State:
+        case Role::NonFluent:
+        case Role::Action:
+            break;
     }
+    return Definition::NextState;
 }
 
 Definition policy_definition_of(Role role) {
@@ -36,7 +40,7 @@ std::string name_of_cpf(const ast::Cpf& cpf) {
     return cpf.name.text + (cpf.primed ? "'" : "");
 }
 
-// Of the domain's cpfs, or of the policy's.
+// Checks the CPFs of the domain, or of the policy.
 class CpfChecker {
   public:
     CpfChecker(Context& context, std::vector<model::Cpf>& cpfs, bool of_policy)
@@ -96,7 +100,7 @@ class CpfChecker {
         if (meant) meant_.insert(context_.names.fluents.at(*meant));
         context_.report(diagnose(undeclared_cpf, cpf.name.span,
                                  fmt::format("'{}' is not declared in 'pvariables'", cpf.name.text))
-                            .with_hint(meant ? fmt::format("did you mean '{}'?", *meant) : ""));
+                            .with_hint(hint_of_name(meant)));
     }
 
     // Whether a CPF may be written like this for this fluent.

@@ -1,4 +1,4 @@
-// What the domain defines by expressions: CPFs, reward, conditions.
+// Definitions of the domain by expressions: CPFs, reward, conditions.
 #pragma once
 
 #include "check/blocks.hpp"
@@ -9,7 +9,7 @@
 
 namespace rddlc::checking {
 
-// Whose definition an expression is; decides what it may depend on.
+// The definition to which an expression belongs; decides what it may depend on.
 enum class Definition : std::uint8_t {
     Derived,
     Interm,
@@ -20,13 +20,13 @@ enum class Definition : std::uint8_t {
     StateInvariant,
     Termination,
     InitialValue,
-    // In a policy.
+    // Definitions of a policy.
     PolicyAction,
     PolicyDerived,
     PolicyState,
 };
 
-// Which CPF mentions which fluents.
+// The fluents that a CPF mentions.
 struct CpfUses {
     std::size_t cpf;  // index into Model::cpfs or Policy::cpfs
     std::vector<FluentUse> uses;

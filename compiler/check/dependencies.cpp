@@ -1,4 +1,4 @@
-// What may depend on what, cycles, and the order of evaluation.
+// Rules of dependence, cycles, and the order of evaluation.
 #include "check/definitions.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 // ------------------------------------------------------------------------------ the rules
 
-// What a definition may mention besides non-fluents; of a policy's, what it may mention of the
+// The fluents that a definition may mention besides non-fluents; for a policy's, those of the
 // domain, where state stands for what it observes.
 struct Rule {
     Definition definition;
@@ -130,7 +130,7 @@ struct Edge {
     std::size_t to;  // a CPF
     Span span;       // where it is mentioned
 };
-// For each CPF the CPFs it mentions, each once.
+// The CPFs that each CPF mentions, each once.
 using Graph = std::vector<std::vector<Edge>>;
 
 Graph build_graph(const std::vector<model::Cpf>& cpfs, const std::vector<CpfUses>& all_uses,

@@ -9,14 +9,14 @@ namespace rddlc::checking {
 // Everything is reported; nothing is returned if a part was wrong.
 Typed check_expression(const ast::Expr& expression, Scope& scope);
 
-// Without the brackets around it.
+// The expression without the brackets around it.
 const ast::Expr& without_groups(const ast::Expr& expression);
 
 // references.cpp
 Typed check_variable(const ast::Variable& variable, Span span, Scope& scope);
 Typed check_literal(const ast::Literal& literal, Span span, Scope& scope);
 Typed check_reference(const ast::Reference& reference, Span span, Scope& scope);
-// The fluent that is referred to, with so many arguments; what they are is not looked at.
+// The fluent that is referred to, with so many arguments; the arguments are not checked.
 std::optional<model::FluentId> check_fluent(const ast::Reference& reference,
                                             std::size_t argument_count, Span span, Scope& scope);
 
@@ -43,7 +43,8 @@ bool check_square(std::string_view function, model::VariableId row, model::Varia
                   Span span, Context& context);
 Typed check_matrix_function(const ast::MatrixFunction& function, Span span, Scope& scope);
 Typed check_external(const ast::External& external, Span span, Scope& scope);
-// Only as the whole right-hand side of a CPF, whose parameters are all that is in scope.
+// Accepts them only as the whole right-hand side of a CPF, whose parameters are all that is in
+// scope.
 Typed check_random_vector(const ast::RandomVector& vector, Span span, Scope& scope);
 
 }  // namespace rddlc::checking

@@ -18,7 +18,7 @@ constexpr std::int64_t max_groundings = std::int64_t{1} << 25;
 // Non-fluents take as much room as they have values other than the default.
 constexpr std::int64_t max_groundings_of_tables = std::int64_t{1} << 40;
 
-// What other languages call the types of values.
+// The type of values that other languages call by this name.
 std::string range_in_other_languages(std::string name) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
     if (name == "float" || name == "double" || name == "number" || name == "real") return "real";
@@ -95,7 +95,7 @@ bool resolve_parameters(const ast::PVariable& declaration, model::Fluent& fluent
     return known;
 }
 
-// Of the instance's objects, which the domain cannot name.
+// Whether its values are the instance's objects, which the domain cannot name.
 bool has_object_range(const model::Fluent& fluent, const Context& context) {
     return fluent.range.kind == model::ValueType::Kind::Object &&
            !context.type(fluent.range.type).enumerated;
@@ -132,7 +132,7 @@ void resolve_default(const ast::PVariable& declaration, model::Fluent& fluent, B
                                .with_hint("the instance gives no values to a policy"));
         return;
     }
-    // After an error any value will do: what matters is that there is a default.
+    // Any value will do after an error: it matters only that there is a default.
     fluent.default_value = model::Value{false};
     if (block == Block::Domain && has_object_range(fluent, context)) return;
     const std::optional<model::Value> value =

@@ -24,8 +24,8 @@ struct Pair {
 
 // Looks for two lists of objects, one for each parameter, that are one text when they are joined.
 // Two texts are compared from left to right: one of them is ahead of the other by the rest of an
-// object. What may follow depends on this rest and on how many objects both have, and no such state
-// is looked at twice.
+// object. The continuation depends on this rest and on how many objects both have, and no such
+// state is visited twice.
 class Search {
   public:
     // The words of each parameter; they outlive it.
@@ -70,7 +70,7 @@ class Search {
         return words;
     }
 
-    // Can both go on so that they are equal in the end? `rest` is what the one behind lacks.
+    // Whether both can be continued to be equal. `rest` is what the one behind lacks.
     bool meet(Text& ahead, Text& behind, const std::string& rest) {
         if (behind.size() == parameters_.size()) return false;
         if (!seen_.emplace(ahead.size(), behind.size(), rest).second) return false;
@@ -121,7 +121,7 @@ bool has_separator(const std::string& object) {
     return object.find(separator) != object.npos || object.starts_with('_');
 }
 
-// By type: the words, and whether one of them has a separator inside.
+// The words of a type, and whether one of them has a separator inside.
 struct NamesOfType {
     Words words;
     bool has_separators = false;

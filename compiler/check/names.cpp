@@ -46,8 +46,8 @@ std::vector<std::string> candidates(const ast::Reference& reference, const Conte
         names.insert(names.end(), members.begin(), members.end());
         return names;
     }
-    for (int i = 0; i <= static_cast<int>(Distribution::Kumaraswamy); ++i)
-        names.emplace_back(name_of(static_cast<Distribution>(i)));
+    const std::vector<std::string> distributions = distribution_names();
+    names.insert(names.end(), distributions.begin(), distributions.end());
     return names;
 }
 

@@ -1,4 +1,4 @@
-// What to say about a name that means nothing.
+// Messages about an unknown name.
 #pragma once
 
 #include "check/scope.hpp"
@@ -9,20 +9,21 @@
 
 namespace rddlc::checking {
 
-// With the likely cause: a misspelling, "a-b" without blanks, a function with round brackets.
+// Reports it with the likely cause: a misspelling, "a-b" without blanks, a function with round
+// brackets.
 void report_unknown_name(const ast::Reference& reference, Scope& scope);
 
-// For "True" and the like; else empty.
+// A hint for "True" and the like; else empty.
 std::string hint_for_bool(std::string_view name);
 
-// The name that is meant, else which there are. Empty if there are none.
+// The name that is meant, else a list of all. Empty if there are no names.
 std::string suggestion_or_list(const Context& context, std::string_view name,
                                const std::vector<std::string>& names);
 
 // The literals a domain may use, without "@".
 std::vector<std::string> enumerated_members(const Context& context);
 
-// With "@".
+// The names with "@".
 std::vector<std::string> as_literals(std::vector<std::string> names);
 
 }  // namespace rddlc::checking

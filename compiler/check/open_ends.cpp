@@ -1,6 +1,7 @@
 #include "check/open_ends.hpp"
 
 #include "ast/precedence.hpp"
+#include "check/expressions.hpp"
 #include "support/match.hpp"
 
 #include <fmt/format.h>
@@ -63,6 +64,37 @@ std::vector<const ast::Binary*> left_edge(const ast::Expr& body) {
     return operators;
 }
 
+void add_open_edge(const ast::Expr& e, std::vector<const ast::Binary*>& operators);
+
+// The operators that an `if` or another construct at the end of `e` has taken in.
+void add_taken_in(const ast::Expr& e, std::vector<const ast::Binary*>& operators) {
+    if (const auto* unary = std::get_if<ast::Unary>(&e.node))
+        add_taken_in(*unary->operand, operators);
+    else if (const auto* binary = std::get_if<ast::Binary>(&e.node))
+        add_taken_in(*binary->right, operators);
+    else if (const auto* condition = std::get_if<ast::If>(&e.node))
+        add_open_edge(*condition->else_branch, operators);
+    else if (const auto construct = open_construct(e))
+        add_open_edge(*construct->body, operators);
+}
+
+void add_open_edge(const ast::Expr& e, std::vector<const ast::Binary*>& operators) {
+    const std::vector<const ast::Binary*> left = left_edge(e);
+    operators.insert(operators.end(), left.begin(), left.end());
+    add_taken_in(e, operators);
+}
+
+// The operators before which the body might have ended, in the order of the text.
+std::vector<const ast::Binary*> open_edge(const ast::Expr& body) {
+    std::vector<const ast::Binary*> operators;
+    add_open_edge(body, operators);
+    return operators;
+}
+
+bool is_comparison(BinaryOperator op) {
+    return ast::precedence(op) == ast::precedence(BinaryOperator::Equal);
+}
+
 bool begins_with_brackets(const ast::Expr& body) {
     const ast::Expr* first = &body;
     while (const auto* unary = std::get_if<ast::Unary>(&first->node)) first = &*unary->operand;
@@ -103,9 +135,10 @@ bool is_same_outside(std::optional<Reduction> op, BinaryOperator after) {
         case Reduction::ForAll:
         case Reduction::Exists:
             return after == BinaryOperator::And || after == BinaryOperator::Or;
-        default:
-            return false;
+        case Reduction::Product:
+            break;
     }
+    return false;
 }
 
 // Whether an operator on the left and one on the right give the same in either order.
@@ -115,17 +148,10 @@ bool commute(const ast::Expr& left, BinaryOperator right) {
     if (const auto* unary = std::get_if<ast::Unary>(&left.node))
         return unary->op == ast::UnaryOperator::Plus ||
                (unary->op == ast::UnaryOperator::Minus && scales);
-    switch (std::get<ast::Binary>(left.node).op) {
-        case BinaryOperator::Multiply:
-            return scales;
-        case BinaryOperator::Add:
-            return shifts;
-        case BinaryOperator::And:
-        case BinaryOperator::Or:
-            return right == std::get<ast::Binary>(left.node).op;
-        default:
-            return false;
-    }
+    const BinaryOperator op = std::get<ast::Binary>(left.node).op;
+    if (op == BinaryOperator::Multiply) return scales;
+    if (op == BinaryOperator::Add) return shifts;
+    return right == op && (op == BinaryOperator::And || op == BinaryOperator::Or);
 }
 
 // Whether an operator on the left would take an operand before one on the right does.
@@ -179,21 +205,28 @@ std::string text_before(const ast::Expr& construct, const std::vector<const ast:
            blank;
 }
 
-// The brackets that RDDL reads, and those that were probably meant.
+// The part of the body before an operator.
+Span body_before(const OpenConstruct& parts, const ast::Binary& end) {
+    return {parts.body->span.file, parts.body->span.begin, end.left->span.end};
+}
+
+// The operator and all behind it in the body.
+Span body_from(const OpenConstruct& parts, const ast::Binary& end) {
+    return {parts.body->span.file, end.op_span.begin, parts.body->span.end};
+}
+
+// The brackets that RDDL reads, and those that were probably meant: the body ends before `end`.
 std::string both_readings(const ast::Expr& construct, const OpenConstruct& parts,
-                          const std::vector<const ast::Binary*>& tail,
-                          const std::vector<const ast::Expr*>& left, const Scope& scope) {
+                          const ast::Binary& end, const std::vector<const ast::Expr*>& left,
+                          const Scope& scope) {
     constexpr std::size_t longest = 40;
     const Sources& sources = scope.context.sources;
-    const Span body = parts.body->span;
-    const Span operator_span = tail.front()->op_span;
-    const Span rest{body.file, operator_span.begin, body.end};
     const std::string before = text_before(construct, left, scope);
     const std::string head = head_of(construct, parts, scope);
     const std::string group =
-        shortened(sources.text_on_one_line(tail.front()->left->span), longest, "[...]");
-    const std::string after = shortened(sources.text_on_one_line(rest), longest,
-                                        fmt::format("{} ...", sources.text(operator_span)));
+        shortened(sources.text_on_one_line(body_before(parts, end)), longest, "[...]");
+    const std::string after = shortened(sources.text_on_one_line(body_from(parts, end)), longest,
+                                        fmt::format("{} ...", sources.text(end.op_span)));
     return fmt::format("RDDL reads '{0}{1}[{2} {3}]'; '{0}[{1}{2}] {3}' was probably meant", before,
                        head, group, after);
 }
@@ -223,6 +256,19 @@ std::vector<model::VariableId> ids_of(const OpenConstruct& construct, const Scop
     return ids;
 }
 
+// Whether the left operand, which begins the checked `body`, is a bool.
+bool is_bool_before(const ast::Binary& end, const model::Expr& body) {
+    const Span left = without_groups(*end.left).span;
+    const model::Expr* e = &body;
+    while (true) {
+        const auto* cast = std::get_if<model::Convert>(&e->node);
+        if (!cast && e->span == left) return e->type == model::bool_type;
+        const auto* apply = std::get_if<model::Apply>(&e->node);
+        if (!cast && !apply) return false;
+        e = cast ? &*cast->operand : &apply->operands.front();
+    }
+}
+
 }  // namespace
 
 bool uses_any(Span span, const std::vector<model::VariableId>& variables, const Scope& scope) {
@@ -238,16 +284,60 @@ void warn_of_long_body(std::optional<Reduction> op, const std::vector<model::Var
     const OpenConstruct parts = *open_construct(construct);
     const std::vector<const ast::Binary*> tail = left_edge(*parts.body);
     if (tail.empty() || !begins_with_brackets(*tail.front()->left)) return;
-    const Span rest{construct.span.file, tail.front()->op_span.begin, parts.body->span.end};
+    const Span rest = body_from(parts, *tail.front());
     if (uses_any(rest, variables, scope)) return;
     const std::vector<const ast::Expr*> left = operators_on_the_left(scope);
     if (!matters(op, tail, left) && !draws_in(rest, scope)) return;
     scope.context.report(
         diagnose(
             long_body, rest,
-            fmt::format("this belongs to the body of '{}', which goes on to the end", parts.name))
+            fmt::format("this belongs to the body of '{}', which extends to the end", parts.name))
             .note(tail.front()->left->span, "the body does not end with these brackets")
-            .with_hint(both_readings(construct, parts, tail, left, scope)));
+            .with_hint(both_readings(construct, parts, *tail.front(), left, scope)));
+}
+
+void note_aggregation(const std::vector<model::VariableId>& variables, Scope& scope) {
+    scope.aggregations.push_back({scope.path.back(), operators_on_the_left(scope), variables});
+}
+
+std::string hint_for_comparison_in_body(Span misfit, const Scope& scope) {
+    for (const CheckedAggregation& each : scope.aggregations) {
+        const Span span = each.whole->span;
+        const Span first = each.left.empty() ? span : each.left.back()->span;
+        if (span.end != misfit.end || !contains(misfit, first)) continue;
+        const OpenConstruct parts = *open_construct(*each.whole);
+        for (const ast::Binary* end : open_edge(*parts.body))
+            if (is_comparison(end->op) && !uses_any(body_from(parts, *end), each.variables, scope))
+                return both_readings(*each.whole, parts, *end, each.left, scope);
+    }
+    return "";
+}
+
+std::string hint_for_number_as_body(const model::Expr& body, const Scope& scope) {
+    const ast::Expr& construct = *scope.path.back();
+    const OpenConstruct parts = *open_construct(construct);
+    for (const ast::Binary* end : left_edge(*parts.body)) {
+        if (!is_bool_before(*end, body)) continue;
+        if (uses_any(body_from(parts, *end), ids_of(parts, scope), scope)) continue;
+        return both_readings(construct, parts, *end, operators_on_the_left(scope), scope);
+    }
+    return "";
+}
+
+std::string hint_for_compared_object(const Scope& scope) {
+    const auto& comparison = std::get<ast::Binary>(scope.path.back()->node);
+    const auto around = std::span(scope.path).first(scope.path.size() - 1);
+    for (const ast::Expr* each : around) {
+        const auto* aggregation = std::get_if<ast::Aggregation>(&each->node);
+        const auto op = aggregation ? reduction_named(aggregation->op.text) : std::nullopt;
+        if (op != Reduction::ArgMin && op != Reduction::ArgMax) continue;
+        const OpenConstruct parts = *open_construct(*each);
+        const std::vector<const ast::Binary*> edge = open_edge(*parts.body);
+        if (std::ranges::find(edge, &comparison) == edge.end()) continue;
+        if (uses_any(body_from(parts, comparison), ids_of(parts, scope), scope)) continue;
+        return both_readings(*each, parts, comparison, {}, scope);
+    }
+    return "";
 }
 
 std::string hint_for_bound_again(const std::string& name, const Scope& scope) {
@@ -255,14 +345,14 @@ std::string hint_for_bound_again(const std::string& name, const Scope& scope) {
     if (!outer) return "use another name";
     const OpenConstruct parts = *open_construct(*outer);
     const Span inner = scope.path.back()->span;
-    for (const ast::Binary* binary : left_edge(*parts.body)) {
-        if (!contains(binary->right->span, inner)) continue;
-        if (uses_any(binary->right->span, ids_of(parts, scope), scope)) break;
+    for (const ast::Binary* end : open_edge(*parts.body)) {
+        if (!contains(end->right->span, inner)) continue;
+        if (uses_any(body_from(parts, *end), ids_of(parts, scope), scope)) continue;
         constexpr std::size_t longest = 60;
-        const std::string body =
-            shortened(scope.context.sources.text_on_one_line(binary->left->span), longest, "[...]");
+        const std::string body = shortened(
+            scope.context.sources.text_on_one_line(body_before(parts, *end)), longest, "[...]");
         return fmt::format(
-            "the body of '{}' goes on to the end and takes this in; to end it before, put brackets "
+            "the body of '{}' extends to the end and includes this; to end it before, put brackets "
             "around the whole of it: '[{}{}]'",
             parts.name, head_of(*outer, parts, scope), body);
     }

@@ -1,5 +1,6 @@
 // Unary and binary operators.
 #include "check/expressions.hpp"
+#include "check/open_ends.hpp"
 #include "check/types.hpp"
 
 #include <fmt/format.h>
@@ -104,9 +105,10 @@ Typed check_comparison(const BinaryPlace& place, Typed left, Typed right, Scope&
     const bool objects = is_object(left->type) || is_object(right->type);
     if (objects && left->type != right->type) {
         scope.context.report(
-            {not_comparable, place.op_span,
-             fmt::format("cannot compare {} with {}", describe(scope.context, left->type),
-                         describe(scope.context, right->type))});
+            diagnose(not_comparable, place.op_span,
+                     fmt::format("cannot compare {} with {}", describe(scope.context, left->type),
+                                 describe(scope.context, right->type)))
+                .with_hint(hint_for_compared_object(scope)));
         return std::nullopt;
     }
     if (objects && is_order(place.op)) {
@@ -135,9 +137,9 @@ bool is_constant(const ast::Expr& expression) {
            std::holds_alternative<ast::Real>(expression.node);
 }
 
-// Which operand of '^' and '|' is evaluated first: the right one if it is a literal or a plain
-// reference, otherwise the left one. The other may be skipped, so its type may be wrong as long as
-// that happens.
+// Decides which operand of '^' and '|' is evaluated first: the right one if it is a literal or a
+// plain reference, otherwise the left one. The other may be skipped, so its type may be wrong as
+// long as that happens.
 bool right_goes_first(const ast::Expr& right) {
     const ast::Expr& inner = without_groups(right);
     return is_constant(inner) || std::holds_alternative<ast::Reference>(inner.node) ||
@@ -163,7 +165,7 @@ bool is_literal_number(const ast::Expr& expression) {
            std::holds_alternative<ast::Real>(expression.node);
 }
 
-// What stands directly behind an operator that has this right side: the x of x * 2 > y.
+// The expression directly behind an operator that has this right side: the x of x * 2 > y.
 const ast::Expr& leftmost(const ast::Expr& expression) {
     const auto* binary = std::get_if<ast::Binary>(&without_groups(expression).node);
     return binary ? leftmost(*binary->left) : without_groups(expression);
@@ -177,7 +179,7 @@ bool is_meant_as_power(const BinaryPlace& place) {
            (binary && is_arithmetic(operator_of(binary->op)));
 }
 
-// 'a ^ 2.0 > 1.0' is a matter of bools, but who compares literals means something else.
+// 'a ^ 2.0 > 1.0' is about bools, but a comparison of literals suggests another meaning.
 void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     const ast::Expr& inner = without_groups(place.right);
     const auto* binary = std::get_if<ast::Binary>(&inner.node);
@@ -185,9 +187,10 @@ void warn_of_compared_literals(const BinaryPlace& place, Context& context) {
     if (!is_literal_number(without_groups(*binary->left)) ||
         !is_literal_number(without_groups(*binary->right)))
         return;
-    context.report(diagnose(compared_literals, inner.span,
-                            "both sides of this comparison are literals, so it tells nothing")
-                       .with_hint(power_hint));
+    context.report(
+        diagnose(compared_literals, inner.span,
+                 "both sides of this comparison are literals, so the result never changes")
+            .with_hint(power_hint));
 }
 
 Typed check_lazy_logic(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
@@ -233,21 +236,13 @@ Typed check_strict_logic(const BinaryPlace& place, Typed left, Typed right, Scop
 }
 
 Typed combine(const BinaryPlace& place, Typed left, Typed right, Scope& scope) {
-    switch (place.op) {
-        case Operator::And:
-        case Operator::Or:
-            return check_lazy_logic(place, std::move(left), std::move(right), scope);
-        case Operator::Implies:
-        case Operator::Equivalent:
-            return check_strict_logic(place, std::move(left), std::move(right), scope);
-        case Operator::Add:
-        case Operator::Subtract:
-        case Operator::Multiply:
-        case Operator::Divide:
-            return check_arithmetic(place, std::move(left), std::move(right), scope);
-        default:
-            return check_comparison(place, std::move(left), std::move(right), scope);
-    }
+    if (is_comparison(place.op))
+        return check_comparison(place, std::move(left), std::move(right), scope);
+    if (typing_of(place.op) != Typing::Logic)
+        return check_arithmetic(place, std::move(left), std::move(right), scope);
+    if (is_one_of(place.op, {Operator::And, Operator::Or}))
+        return check_lazy_logic(place, std::move(left), std::move(right), scope);
+    return check_strict_logic(place, std::move(left), std::move(right), scope);
 }
 
 Typed check_sign(Operator op, const ast::Unary& unary, Span span, Scope& scope) {

@@ -1,4 +1,5 @@
-// What is visible at a place of an expression, and what the expression has used so far.
+// The names that are visible at a place of an expression, and those that the expression has used so
+// far.
 #pragma once
 
 #include "check/context.hpp"
@@ -30,6 +31,12 @@ struct VariableUse {
     model::VariableId variable;
     Span span;
 };
+// An aggregation with the operators that end in it, from the innermost on.
+struct CheckedAggregation {
+    const ast::Expr* whole;
+    std::vector<const ast::Expr*> left;
+    std::vector<model::VariableId> variables;
+};
 
 // One for each CPF, condition and reward.
 struct Scope {
@@ -39,7 +46,8 @@ struct Scope {
     std::vector<FluentUse> fluent_uses = {};
     std::vector<VariableUse> variable_uses = {};
     std::vector<Span> draws = {};
-    // What is being checked, with everything around it, outermost first.
+    std::vector<CheckedAggregation> aggregations = {};
+    // The expression that is being checked, with everything around it, outermost first.
     std::vector<const ast::Expr*> path = {};
     std::optional<model::TypeId> range = {};  // an enumerated type that the whole is of
     bool may_name_objects = false;            // those of the instance: in its own expressions
@@ -70,7 +78,7 @@ class Binder {
     std::vector<std::optional<model::VariableId>> variables_;
 };
 
-// The variable of that name; reported if it is not in scope. Nothing, too, if its type was wrong.
+// The variable of that name; reported if it is not in scope. Also nothing if its type was wrong.
 std::optional<model::VariableId> resolve_variable(const std::string& name, Span span, Scope& scope);
 
 }  // namespace rddlc::checking

@@ -9,7 +9,7 @@ namespace {
 
 using ObjectLists = std::unordered_map<std::string, const ast::ObjectList*>;
 
-// For a type listed twice the last list counts.
+// The last list of a type that is listed twice counts.
 ObjectLists collect_lists(const ast::Objects* objects, Context& context) {
     ObjectLists lists;
     if (!objects) return lists;
@@ -47,7 +47,7 @@ void add_objects(model::TypeId id, const std::vector<ast::Name>& objects, Contex
     }
 }
 
-// Without its objects.
+// Declares the type without its objects.
 std::optional<model::TypeId> declare_type(const ast::TypeDeclaration& declaration,
                                           Context& context) {
     const std::string& name = declaration.name.text;

@@ -117,7 +117,7 @@ std::optional<model::Value> value_of(const ast::Constant& constant, const model:
 
 namespace {
 
-// What the instance says about one fluent: the assignments by the groundings that they set.
+// The instance's values of one fluent: the assignments by the groundings that they set.
 using Given = std::unordered_map<std::int64_t, const ast::Assignment*>;
 
 struct Section {

@@ -11,7 +11,7 @@ namespace rddlc::checking {
 std::optional<model::Value> value_of(const ast::Constant& constant, const model::Fluent& fluent,
                                      Code code, Context& context);
 
-// As many times its default as the fluent has groundings; zeros if it has none.
+// Fills in the default once for each grounding of the fluent; zeros without a default.
 void fill_with_default(model::Fluent& fluent, Context& context);
 
 // The tables of non-fluents, state-fluents and action-fluents: defaults, then what the instance

@@ -231,7 +231,7 @@ Typed check_external(const ast::External& external, Span span, Scope& scope) {
         if (vector) node.arguments.push_back(vector->reference);
     }
     if (!sound) return std::nullopt;
-    // What it gives is known when it is called; casts.cpp lets it stand for any number.
+    // The type of its result is known when it is called; casts.cpp lets it stand for any number.
     return model::Expr{model::real_type, span, std::move(node)};
 }
 

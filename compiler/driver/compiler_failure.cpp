@@ -23,7 +23,7 @@ bool names_a_place(std::string_view line) {
     return before != line.npos && before + 1 < end && line[before] == ':';
 }
 
-// What the system and compilers say when something is lacking, and what then helps.
+// Messages of the system and compilers about missing resources, and hints that help.
 struct Lack {
     const char* phrase;
     const char* hint;

@@ -1,5 +1,5 @@
-// Whose fault it is that the C++ compiler made nothing: a mistake of ours is what it finds one in,
-// and nothing else.
+// The cause of a failed C++ compilation: it is a bug of ours if the compiler finds an error in our
+// text, and only then.
 #pragma once
 
 #include "driver/process.hpp"
@@ -18,10 +18,9 @@ bool names_a_mistake(const ProcessResult& failed);
 // Whether it says that it lacks memory or room, or that it was killed.
 bool lacks_resources(const ProcessResult& failed);
 
-// Whether a text that we have written is wrong. So it is if the compiler names a mistake and lacks
-// nothing, if CXX adds no options of the user's, and if `compiles_runtime`: the headers of our
-// runtime alone are no problem for it, so that it is new enough. The last is asked only if all else
-// holds.
+// Whether a text that we have written is wrong. It is if the compiler names a mistake and lacks
+// nothing, if CXX adds no options of the user's, and if `compiles_runtime`: the compiler accepts
+// the headers of our runtime alone, so it is new enough. The last is asked only if all else holds.
 bool is_our_mistake(const ProcessResult& failed, const std::function<bool()>& compiles_runtime);
 
 // Any other failure, with what the compiler says.

@@ -1,4 +1,4 @@
-// The machine's C++ compiler: who it is, and which options it knows.
+// The machine's C++ compiler: its name, and the options that it knows.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@ namespace rddlc {
 // $CXX, split at blanks, or c++.
 std::vector<std::string> cpp_compiler();
 
-// Of the flags of cmake/RddlSimulatorFlags.cmake those that the compiler takes without a word of
-// complaint. Others than GCC and clang are not known by name: each compiler is asked, once in a
-// process. All of them if it cannot be asked, so that it says itself what is wrong with it.
+// The flags of cmake/RddlSimulatorFlags.cmake that the compiler takes without a complaint.
+// Compilers other than GCC and clang are not known by name: each compiler is asked, once in a
+// process. Returns all flags if it cannot be asked, so that it reports itself what is wrong.
 std::vector<std::string> simulator_flags(const std::vector<std::string>& compiler);
 
 }  // namespace rddlc

@@ -2,6 +2,7 @@
 
 #include "ast/print.hpp"
 #include "check/check.hpp"
+#include "details/make_details.hpp"
 #include "driver/codes.hpp"
 #include "driver/extern_headers.hpp"
 #include "driver/files.hpp"
@@ -18,7 +19,6 @@
 #include "ir/verify.hpp"
 #include "model/print.hpp"
 #include "parse/parse.hpp"
-#include "passes/make_details.hpp"
 #include "passes/passes.hpp"
 #include "support/match.hpp"
 #include "support/render.hpp"
@@ -33,8 +33,8 @@
 namespace rddlc {
 namespace {
 
-// Where --real=float is of no use: policies and functions of whole tables compute with doubles, and
-// a register may hold more than 8 floats.
+// Refuses --real=float where it is of no use: policies and functions of whole tables compute with
+// doubles, and a register may hold more than 8 floats.
 void refuse_float_reals(const CompileOptions& options, const ir::Program& program,
                         Diagnostics& diagnostics) {
     const auto refuse = [&](const std::string& why) {
@@ -118,7 +118,7 @@ EmitOptions emit_options(const CompileOptions& options) {
             .extern_headers = include_paths(options)};
 }
 
-// Who gives several files means one of them to be the instance.
+// With several inputs, one must be the instance.
 bool may_stand_alone(const CompileOptions& options) {
     return options.domain_may_stand_alone && options.inputs.size() == 1;
 }
@@ -146,7 +146,7 @@ void run_stages(Run& run) {
     run.show(Form::Ast, [&] { return ast::print(tree); });
     if (run.ends_after(Stage::Parse)) return;
 
-    // Without an instance there is no model, but much to check.
+    // A problem without an instance has no model, but much to check.
     if (may_stand_alone(run.options) && is_domain_alone(tree)) {
         result.is_domain_alone = true;
         const auto domain = run.measure(Stage::Check, [&] {
@@ -160,7 +160,7 @@ void run_stages(Run& run) {
         return;
     }
 
-    // What was written -> what it means: names, types, casts, the order of the CPFs.
+    // Text to meaning: names, types, casts, the order of the CPFs.
     result.model = run.measure(Stage::Check,
                                [&] { return check(tree, result.sources, diagnostics, standard); });
     if (diagnostics.has_errors()) return;
@@ -180,7 +180,7 @@ void run_stages(Run& run) {
 
     // The IR keeps its invariants, or else the compiler is wrong.
     result.program = run.measure(Stage::Verify, [&] { return verified(*std::move(grounded)); });
-    // What those want to know who ask about a step, by a program that no pass changes.
+    // The program for --details, built from unoptimised IR.
     if (run.options.details) {
         result.details = make_details(*result.program);
         result.details->program = verified(std::move(result.details->program));

@@ -24,7 +24,7 @@
 
 namespace rddlc {
 
-// In the order in which they run.
+// The stages in the order in which they run.
 enum class Stage { Read, Parse, Check, Ground, Verify, Optimise, Emit, Write };
 std::string_view name_of(Stage stage);  // "read", ...
 std::optional<Stage> stage_named(std::string_view name);
@@ -70,14 +70,14 @@ struct StageTime {
     std::chrono::duration<double> time;
 };
 
-// What a compilation leaves behind; what comes after an error or after `stop_after` is absent.
+// The results of a compilation; those of stages after an error or after `stop_after` are absent.
 struct Compilation {
     explicit Compilation(const DiagnosticOptions& options) : diagnostics(options) {}
 
     Sources sources;
     UsedFiles used;  // inputs, and outputs that are written
     Diagnostics diagnostics;
-    bool is_domain_alone = false;  // no instance was given, and none was needed
+    bool is_domain_alone = false;  // without an instance, which was not needed
     std::optional<model::Model> model;
     std::optional<ir::Program> program;  // optimised, if it came so far
     std::optional<ir::Details> details;  // if they are wanted
@@ -91,14 +91,14 @@ struct Compilation {
 // Never throws for what users can do; std::logic_error is a mistake of the compiler itself.
 Compilation compile(const CompileOptions& options);
 
-// Of all optimisations, in their order.
+// The names of all optimisations, in their order.
 std::vector<std::string> pass_names();
 
 // Why this is not the name of a pass, for users: "there is no pass 'x'; did you mean 'y'?".
 std::optional<std::string> complaint_about_pass(std::string_view name);
 
-// What stands below diagnostics: how many there are, how `program` explains the first error, and
-// what was not checked for lack of an instance. Empty if there is nothing to tell.
+// The lines below diagnostics: their number, how `program` explains the first error, and what was
+// not checked for lack of an instance. Empty if there is nothing to report.
 std::string closing_lines(const Compilation& compilation, std::string_view program);
 
 // "no instance was given: ..."

@@ -15,7 +15,7 @@ struct Page {
     std::string_view text;  // Markdown
 };
 
-// In the order of their names.
+// The pages in the order of their names.
 extern const std::span<const Page> pages;
 
 std::optional<std::string_view> explain(Code code);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a line `#include "name"`.
+// The name in a line `#include "name"`.
 std::optional<std::string_view> included_name(std::string_view line) {
     for (const std::string_view part : {"#", "include", "\""}) {
         const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
@@ -54,11 +54,11 @@ std::optional<std::string> why_unreadable(const fs::path& header) {
     const fs::file_type type = fs::status(header, ignored).type();
     if (type == fs::file_type::directory) return std::strerror(EISDIR);
     if (fs::exists(fs::file_status(type)) && type != fs::file_type::regular)
-        return "it is no regular file";
+        return "it is not a regular file";
     return std::ifstream(header) ? std::nullopt : std::optional<std::string>(std::strerror(errno));
 }
 
-// As it stands where the current folder is gone.
+// The name stays as it is if the current folder is gone.
 fs::path full_name(const fs::path& path) {
     std::error_code error;
     const fs::path full = fs::absolute(path, error);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Before any work is done, so that nobody waits for it.
+// Runs before any work is done, so that errors come at once.
 void check_outputs(const CompileOptions& options, UsedFiles used, Diagnostics& diagnostics) {
     for (const auto& output : {options.output, options.declaration_file, options.dependency_file}) {
         if (!output) continue;
@@ -31,7 +31,7 @@ void check_kind(const fs::path& output, Diagnostics& diagnostics) {
     diagnostics.report(Diagnostic{
         .code = unknown_output_kind,
         .span = {},
-        .message = fmt::format("cannot tell from its name what '{}' shall be", output.string())}
+        .message = fmt::format("the name '{}' does not show the kind of output", output.string())}
                            .with_hint("end it in .cpp, .hpp or .so"));
 }
 

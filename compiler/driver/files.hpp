@@ -11,11 +11,11 @@
 namespace rddlc {
 
 enum class OutputKind { Source, Header, SharedObject };
-// By the extension: .cpp .cc .cxx, .hpp .hh .h, .so; nothing for any other.
+// The kind by the extension: .cpp .cc .cxx, .hpp .hh .h, .so; nothing for any other.
 std::optional<OutputKind> output_kind(const std::filesystem::path& path);
 
-// Loads all inputs and looks at the outputs' names, before any work is done. Reports what cannot be
-// read or written; `used` gets the files that are read.
+// Loads all inputs and checks the outputs' names, before any work is done. Reports files that
+// cannot be read or written; `used` gets the files that are read.
 std::vector<FileId> read_inputs(const CompileOptions& options, Sources& sources, UsedFiles& used,
                                 Diagnostics& diagnostics);
 

@@ -3,6 +3,7 @@
 #include "check/check.hpp"
 #include "driver/codes.hpp"
 #include "support/match.hpp"
+#include "support/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +20,7 @@ void report_no_instance(const std::string& name, std::vector<std::string> names,
     constexpr std::size_t most_shown = 10;
     std::string hint = "the files hold no instance";
     if (const auto near = did_you_mean(name, names)) {
-        hint = fmt::format("did you mean '{}'?", *near);
+        hint = hint_of_name(near);
     } else if (!names.empty()) {
         const bool all = names.size() <= most_shown;
         if (!all) names.resize(most_shown);

@@ -1,4 +1,4 @@
-// Which of the blocks in the given files a compilation takes.
+// Chooses the blocks of the given files that a compilation takes.
 #pragma once
 
 #include "ast/ast.hpp"

@@ -7,7 +7,7 @@
 namespace rddlc {
 namespace {
 
-// What the emitted file holds as a whole.
+// The limit of all values in an emitted file.
 constexpr std::int64_t most_values = std::int64_t{1} << 25;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What an emitted file can hold.
+// The limits of an emitted file.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Until there is something to read, or the output ends. False when the time is over before.
+// Waits until there is something to read, or the output ends. False when the time is over before.
 bool wait_for_output(int descriptor, std::optional<Clock::time_point> end) {
     while (end) {
         const auto left =
@@ -55,7 +55,7 @@ std::string_view name_of(std::string_view variable) {
     return variable.substr(0, variable.find('='));
 }
 
-// Ours, but for those that are replaced.
+// Our environment, except for the variables that are replaced.
 std::vector<std::string> environment_with(std::vector<std::string> variables) {
     const std::vector<std::string> given = variables;
     for (char** ours = environ; *ours; ++ours)

@@ -9,7 +9,7 @@
 
 namespace rddlc {
 
-// What is kept of a process's output, in bytes, but for the end of the last read.
+// The largest output of a process that is kept, in bytes, not counting the end of the last read.
 inline constexpr std::size_t most_process_output = std::size_t{1} << 24;
 
 struct ProcessResult {

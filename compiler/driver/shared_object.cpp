@@ -6,7 +6,7 @@
 #include "driver/process.hpp"
 #include "support/files.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ const char* processor_level() {
     return nullptr;
 }
 
-// With the beginning of what the compiler says.
+// The diagnostic with the beginning of the compiler's messages.
 Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::string& output) {
     constexpr int most_lines = 30;
     std::vector<std::string> names;
@@ -72,19 +72,19 @@ Diagnostic refused(const std::vector<fs::path>& extern_headers, const std::strin
     return diagnostic;
 }
 
-// In English, so that one can tell what it says.
+// The messages are in English, so that they can be parsed.
 std::optional<ProcessResult> run_compiler(const std::vector<std::string>& command) {
     return run_process(command, {"LC_ALL=C"});
 }
 
-// Beside this thread if the system has another one, else when the result is asked for. The command
-// is copied: where no thread starts, libstdc++ 12 moves from its arguments a second time.
+// Runs beside this thread if the system has another one, else when the result is asked for. The
+// command is copied: if no thread starts, libstdc++ 12 moves from its arguments a second time.
 std::future<std::optional<ProcessResult>> start_compiler(const std::vector<std::string>& command) {
     return std::async(run_compiler, command);
 }
 
-// The compiler and what all its calls have in common. What is hidden is called without a detour
-// through a table of the linker.
+// The compiler and the common options of all its calls. Hidden functions are called without a
+// detour through a table of the linker.
 std::vector<std::string> compiler_command(Processors processors) {
     std::vector<std::string> command = cpp_compiler();
     const std::vector<std::string> flags = simulator_flags(command);
@@ -96,13 +96,13 @@ std::vector<std::string> compiler_command(Processors processors) {
     return command;
 }
 
-// Not by a mistake in what it compiles if it was interrupted.
+// An interrupted compiler has not refused the text.
 bool is_refused(const std::optional<ProcessResult>& result) {
     return result && result->status != 0 && !result->was_killed();
 }
 
-// Names within a folder of what is prepared. Compilers look for the third when they are told to
-// include the second, which stands for it where they do not take it.
+// Names within a folder of prepared files. Compilers look for the third when they are told to
+// include the second, which replaces it if they do not accept it.
 constexpr const char* batches_name = "batches.o";
 constexpr const char* header_name = "simulator.hpp";
 constexpr const char* precompiled_name = "simulator.hpp.gch";
@@ -126,8 +126,8 @@ bool succeeds(const std::optional<ProcessResult>& result) {
     return result && result->status == 0;
 }
 
-// With what is prepared, which saves most of the time; where the compiler refuses a part of that,
-// without. The user's headers come before those of the runtime, so that these are not prepared.
+// Compiles with the prepared files, which saves most of the time; without them if the compiler
+// refuses one. The user's headers come before those of the runtime, so that these are not prepared.
 std::optional<ProcessResult> compile(const std::vector<std::string>& command,
                                      const std::optional<fs::path>& prepared,
                                      bool has_extern_headers) {
@@ -155,7 +155,7 @@ struct Part {
     const char* entry;  // null: that of the dispatcher, which chooses between the others
 };
 
-// Lower ones first (rddl/dispatch.cpp says why).
+// Lower ones first (rddl/interface/dispatch.cpp says why).
 constexpr Part parts[] = {{"dispatch", "x86-64", nullptr},
                           {"sse2", "x86-64", "rddl_simulator_sse2"},
                           {"avx2", "x86-64-v3", "rddl_simulator_avx2"},
@@ -164,7 +164,8 @@ constexpr Part parts[] = {{"dispatch", "x86-64", nullptr},
 std::vector<std::string> part_command(const Part& part, const fs::path& source,
                                       const fs::path& object) {
     std::vector<std::string> command = compiler_command(Processors::Any);
-    const fs::path dispatcher = runtime_include_folder().value_or("") / "rddl" / "dispatch.cpp";
+    const fs::path dispatcher =
+        runtime_include_folder().value_or("") / "rddl" / "interface" / "dispatch.cpp";
     command.insert(command.end(), {"-march=" + std::string(part.level), "-c", "-o", object.string(),
                                    part.entry ? source.string() : dispatcher.string()});
     if (part.entry) {
@@ -174,8 +175,8 @@ std::vector<std::string> part_command(const Part& part, const fs::path& source,
     return command;
 }
 
-// For every instruction set, at once, and linked. What is not zero is the status of one of the
-// compilers.
+// Compiles for every instruction set, at once, and links. A non-zero result is the status of one of
+// the compilers.
 std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::path& output) {
     std::vector<std::future<std::optional<ProcessResult>>> running;
     std::vector<std::string> linking = compiler_command(Processors::Any);
@@ -199,8 +200,8 @@ std::optional<ProcessResult> compile_all_sets(const fs::path& source, const fs::
 
 #endif
 
-// For any processor: where the compiler refuses the instruction sets of x86-64, for the one that it
-// compiles for by itself.
+// Compiles for any processor; if the compiler refuses the instruction sets of x86-64, for its
+// default target.
 std::optional<ProcessResult> compile_for_any(const fs::path& source, const fs::path& output) {
 #ifdef __x86_64__
     auto result = compile_all_sets(source, output);
@@ -222,7 +223,7 @@ bool compiles_headers(const fs::path& output, Processors processors) {
     return done;
 }
 
-// Without one, or where the system starts no more processes.
+// The diagnostic if the compiler is missing, or the system starts no more processes.
 Diagnostic not_started(const std::string& compiler, int error) {
     const bool is_missing = error == ENOENT || error == EACCES || error == ENOTDIR;
     return Diagnostic{.code = no_cpp_compiler,
@@ -257,8 +258,8 @@ std::optional<std::string> complaint_about_environment() {
         return fmt::format("RDDLC_INCLUDE is '{}', which holds no rddl/simulator.hpp", include);
     const std::string set = environment_value("RDDL_INSTRUCTION_SET");
     if (!set.empty() && set != "sse2" && set != "avx2" && set != "avx512")
-        return fmt::format("RDDL_INSTRUCTION_SET is '{}', which is none of sse2, avx2 and avx512",
-                           set);
+        return fmt::format(
+            "RDDL_INSTRUCTION_SET is '{}', which is not one of sse2, avx2 and avx512", set);
     return std::nullopt;
 }
 

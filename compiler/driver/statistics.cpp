@@ -45,7 +45,7 @@ std::string statistics_text(const std::vector<PassRun>& runs) {
     text += line(width, "(before)", runs.front().before, "", "");
     for (const PassRun& run : runs) {
         text += line(width, run.name, run.after, fmt::format("{:.2f}", run.time.count() * 1e3),
-                     deeds(run.report));
+                     run.undone ? "undone: a step would cost more" : deeds(run.report));
     }
     return text;
 }
@@ -60,6 +60,7 @@ std::string statistics_json(const std::vector<PassRun>& runs) {
         array.push_back(
             {{"pass", run.name},
              {"did", did},
+             {"undone", run.undone},
              {"nodes", before_and_after(run.before.nodes, run.after.nodes)},
              {"operations", before_and_after(run.before.operations, run.after.operations)},
              {"milliseconds", run.time.count() * 1e3}});

@@ -1,4 +1,4 @@
-// What the passes did in one compilation: `rddlc --stats`.
+// The effects of the passes in one compilation: `rddlc --stats`.
 #pragma once
 
 #include "passes/passes.hpp"

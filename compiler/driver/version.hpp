@@ -2,7 +2,7 @@
 
 namespace rddlc {
 
-// Of the compiler, such as "0.2.0".
+// The version of the compiler, such as "0.2.0".
 extern const char* const version;
 
 }  // namespace rddlc

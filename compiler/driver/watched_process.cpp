@@ -16,7 +16,7 @@
 namespace rddlc {
 namespace {
 
-// As posix_spawn takes them; they point into the strings.
+// Pointers as posix_spawn takes them; they point into the strings.
 std::vector<char*> pointers(const std::vector<std::string>& words) {
     std::vector<char*> all;
     for (const std::string& word : words) all.push_back(const_cast<char*>(word.c_str()));
@@ -24,7 +24,7 @@ std::vector<char*> pointers(const std::vector<std::string>& words) {
     return all;
 }
 
-// What posix_spawn wants to know. Made before the fork: nothing may be allocated after it.
+// The arguments of posix_spawn. Made before the fork: nothing may be allocated after it.
 struct Start {
     Start(const std::vector<std::string>& words, const std::vector<std::string>& variables,
           int output)
@@ -57,7 +57,7 @@ bool is_ignored(int signal) {
     return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-// What we ignore, as under nohup, ends nothing.
+// The signals that end the process. Those that we ignore, as under nohup, are not among them.
 sigset_t watched_signals() {
     sigset_t signals;
     ::sigemptyset(&signals);
@@ -75,8 +75,8 @@ void close_all_others() {
 #endif
 }
 
-// Compilers remove their temporary files when they are asked to end. What then still runs is
-// killed.
+// Compilers remove their temporary files when they are asked to end. Processes that then still run
+// are killed.
 void end_group(pid_t program) {
     constexpr timespec patience{1, 0};
     sigset_t ended;
@@ -91,7 +91,7 @@ int status_like(int status) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-// In the process of our own, where nothing may be allocated.
+// Runs in a process of our own, where nothing may be allocated.
 [[noreturn]] void watch(const Start& start, const sigset_t& signals, pid_t parent, int told) {
 #ifdef __linux__
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -118,7 +118,7 @@ int status_like(int status) {
     }
 }
 
-// What the process says of the start, or that it says nothing.
+// The error that the process reports of its start, or 0.
 int read_error(int descriptor) {
     int error = 0;
     ssize_t count = 0;

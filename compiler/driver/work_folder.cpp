@@ -49,7 +49,7 @@ fs::path temporary_parent() {
 
 WorkFolder::WorkFolder(const fs::path& parent, const std::string& prefix, const std::string& hint) {
     remove_abandoned(parent, prefix);
-    // Before it is locked, another process may take the new folder for one that was left.
+    // Another process may take the new folder for an abandoned one before it is locked.
     do {
         if (lock_ >= 0) ::close(lock_);
         std::string name = (parent / (prefix + "XXXXXX")).string();

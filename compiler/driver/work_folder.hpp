@@ -1,4 +1,4 @@
-// A folder of our own in which something is made, which nobody sees before it is complete.
+// A folder of our own for output that is hidden until it is complete.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,12 @@
 
 namespace rddlc {
 
-// Removed at the end. What a process that was killed has left is removed by the next one that makes
-// a folder at the same place: each holds a lock on its own, which the system takes from the dead.
+// Removed at the end. The next process that makes a folder at the same place removes those of
+// killed ones: each process holds a lock on its own, which the system releases when it dies.
 class WorkFolder {
   public:
-    // In `parent`, which exists, with a name that begins with `prefix`; nobody else may enter it.
-    // Throws UnwritableFile with the advice `hint`.
+    // Creates it in `parent`, which exists, with a name that begins with `prefix`; no other user
+    // may enter it. Throws UnwritableFile with the advice `hint`.
     WorkFolder(const std::filesystem::path& parent, const std::string& prefix,
                const std::string& hint);
     ~WorkFolder();
@@ -25,7 +25,7 @@ class WorkFolder {
     int lock_ = -1;
 };
 
-// In $TMPDIR or /tmp.
+// A folder in $TMPDIR or /tmp.
 class TemporaryFolder : public WorkFolder {
   public:
     TemporaryFolder();

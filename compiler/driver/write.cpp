@@ -8,7 +8,7 @@
 namespace rddlc {
 namespace {
 
-// As make reads it.
+// The path as make reads it.
 std::string escaped(const std::string& path) {
     std::string result;
     for (char c : path) {
@@ -29,7 +29,7 @@ std::string dependency_rule(const CompileOptions& options) {
     return rule + "\n";
 }
 
-// Made in a folder of its own, so that nobody reads what is not complete.
+// The object is made in a folder of its own, so that no program reads an incomplete one.
 void write_shared_object(const std::filesystem::path& output, const std::string& text,
                          const CompileOptions& options, UsedFiles& used, Diagnostics& diagnostics) {
     const TemporaryFolder work;

@@ -1,16 +1,16 @@
 #include "emit/emit.hpp"
 
-#include "emit/about.hpp"
-#include "emit/details.hpp"
-#include "emit/externals.hpp"
-#include "emit/functions.hpp"
-#include "emit/identifiers.hpp"
-#include "emit/line_directives.hpp"
-#include "emit/literals.hpp"
-#include "emit/moderate.hpp"
-#include "emit/tables.hpp"
+#include "emit/cpp/line_directives.hpp"
+#include "emit/cpp/literals.hpp"
+#include "emit/lower/about.hpp"
+#include "emit/lower/details.hpp"
+#include "emit/lower/externals.hpp"
+#include "emit/lower/functions.hpp"
+#include "emit/lower/moderate.hpp"
+#include "emit/lower/tables.hpp"
+#include "emit/lower/unit.hpp"
+#include "emit/names/identifiers.hpp"
 #include "emit/templates.hpp"
-#include "emit/unit.hpp"
 #include "support/template_slots.hpp"
 
 #include <algorithm>
@@ -99,7 +99,8 @@ std::string emit(const ir::Program& program, const Sources& sources, const EmitO
     std::optional<DetailsUnit> details_unit;
     if (details) details_unit.emplace(*details, sources, options);
     const std::string text = file(unit, details_unit ? &*details_unit : nullptr);
-    return cpp::restore_lines(without_double_blanks(text), options.output_name);
+    const std::string whole = without_double_blanks(text);
+    return options.line_directives ? cpp::restore_lines(whole, options.output_name) : whole;
 }
 
 std::string emit_declaration(const ir::Program& program, const EmitOptions& options) {

@@ -146,7 +146,7 @@ std::size_t width_before_point(std::string_view number) {
     return std::min(number.find('.'), number.size());
 }
 
-// What is aligned in a table: as much as the page is wide enough for.
+// The columns that are aligned in a table: as many as fit on the page.
 enum class Alignment { ValuesAndCells, Cells, Nothing };
 
 // A column of a table: how the cells in it are spaced.

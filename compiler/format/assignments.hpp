@@ -8,8 +8,8 @@
 
 namespace rddlc::format {
 
-// The assignments of a section, whose tokens come next. What stands on one line stays on one line
-// as far as the page is wide; lines about the same fluents are aligned. A line that begins below
+// The assignments of a section, whose tokens come next. Assignments on one line stay on one line as
+// far as the page is wide; lines about the same fluents are aligned. A line that begins below
 // another than the first assignment of the line above stays there.
 void print_assignments(const std::vector<ast::Assignment>& assignments, Cursor& cursor,
                        std::size_t indent, std::vector<TextLine>& lines);

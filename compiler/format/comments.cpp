@@ -69,7 +69,7 @@ class Reader {
         at_ = end;
     }
 
-    // On the line of a token, or below such a comment and in its column.
+    // Whether it is on the line of a token, or below such a comment and in its column.
     bool continues_a_comment() const {
         if (tokens_.empty() || !above_.empty()) return false;
         return line_breaks_ == 0 || (line_breaks_ == 1 && column_ == comment_column_);
@@ -90,7 +90,7 @@ class Reader {
         return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
     }
 
-    // As the lexer of grammar/RDDL.g4 has it.
+    // Finds tokens as the lexer of grammar/RDDL.g4 does.
     std::size_t token_length() const {
         const char first = peek(0);
         if (at_ == text_.size()) return 0;
@@ -113,7 +113,7 @@ class Reader {
         return length;
     }
 
-    // Of "e-3" behind a number.
+    // The length of "e-3" behind a number.
     std::size_t exponent_length(std::size_t begin) const {
         if (peek(begin) != 'e' && peek(begin) != 'E') return 0;
         const bool has_sign = peek(begin + 1) == '+' || peek(begin + 1) == '-';

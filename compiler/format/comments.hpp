@@ -1,7 +1,7 @@
 // The words of a file, each with the comments that belong to it.
 //
-// The parser skips comments. Here the text is read once more, after it has been parsed: nothing in
-// it is wrong, so that words, numbers and marks are all there is.
+// The parser skips comments. Here the text is read again, after it has been parsed: it has no
+// errors, so it consists of words, numbers and marks only.
 #pragma once
 
 #include <cstdint>

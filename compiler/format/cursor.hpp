@@ -2,14 +2,16 @@
 #pragma once
 
 #include "format/comments.hpp"
-#include "format/document.hpp"
+#include "support/document.hpp"
 
 #include <stdexcept>
 #include <utility>
 
 namespace rddlc::format {
 
-// What stands above a declaration.
+using namespace document;
+
+// The comments and blank lines above a declaration.
 struct Lead {
     std::vector<CommentAbove> comments;
     bool blank_line_before = false;  // between the comments, if any, and the declaration

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of expression.
 #include "format/expressions.hpp"
 
 #include "ast/precedence.hpp"
@@ -97,7 +98,7 @@ class ExpressionLayout {
         return align(group(concat(std::move(parts)), true));
     }
 
-    // As many operands on a line as fit.
+    // Fills each line with as many operands as fit.
     static Doc filled(const Doc& first, const std::vector<Operand>& others) {
         std::vector<Doc> parts{first};
         for (const Operand& other : others)
@@ -281,7 +282,7 @@ class ExpressionLayout {
         return align(group(concat(std::move(lines)), broken));
     }
 
-    // What follows it: the next if of the chain, or null.
+    // Returns the next if of the chain, or null.
     const Expr* add_branch(const Expr& rest, std::vector<Branch>& branches, bool& broken) {
         broken |= cursor_.next().begins_line();
         Doc keyword = token();

@@ -6,8 +6,8 @@
 
 namespace rddlc::format {
 
-// The tokens of `expr` come next. Where the text breaks a chain of operators, an if, the body of
-// an aggregation or the cases of a switch, the layout does, too, even if it fits on one line.
+// The tokens of `expr` come next. If the text breaks a chain of operators, an if, the body of an
+// aggregation or the cases of a switch, the layout also does, even if it fits on one line.
 Doc layout_expression(const ast::Expr& expr, Cursor& cursor);
 
 // Whether the lines of a broken layout are indented from the line on which the expression begins,

@@ -28,7 +28,7 @@ std::string in_columns(const Item& item, const std::vector<std::size_t>& widths)
     return text;
 }
 
-// A line that is on the page by itself shall not leave it for its neighbours' sake.
+// A line that fits on the page by itself must not leave it because of its neighbours.
 bool aligns(std::span<const Item> items, std::size_t indent,
             const std::vector<std::size_t>& widths) {
     constexpr std::size_t widest_gap = 32;
@@ -87,7 +87,7 @@ std::size_t comment_column(std::span<const TextLine> lines) {
 
 void join_block(std::span<const TextLine> lines, std::string& text) {
     const std::size_t column = comment_column(lines);
-    std::size_t last_column = column;  // which a comment that goes on keeps
+    std::size_t last_column = column;  // which a continued comment keeps
     for (const TextLine& line : lines) {
         text += line.text;
         if (!line.comment.empty()) {

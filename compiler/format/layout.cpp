@@ -58,7 +58,7 @@ class Layout {
         return true;
     }
 
-    // What stands above a block or a section.
+    // Prints the comments above a block or a section.
     void print_lead_of_part(bool set_apart) {
         Lead lead = cursor_.take_lead();
         const bool has_blank_line =
@@ -194,8 +194,8 @@ class Layout {
         return {std::move(lead), {std::move(head)}, std::move(right)};
     }
 
-    // "= value;" behind a head of the given width. What is longer than a line begins below the head
-    // if it is so written, or the head is long.
+    // "= value;" behind a head of the given width. A value that is longer than a line begins below
+    // the head if it is so written, or the head is long.
     Doc equation(const ast::Expr& value, std::size_t head_width) {
         constexpr std::size_t long_head = 32;
         const bool has_comment = !cursor_.next().behind.empty();

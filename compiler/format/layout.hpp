@@ -3,9 +3,11 @@
 
 #include "ast/ast.hpp"
 #include "format/comments.hpp"
-#include "format/document.hpp"
+#include "support/document.hpp"
 
 namespace rddlc::format {
+
+using namespace document;
 
 // The lines of a file. `program` holds the blocks of that file and nothing else.
 std::vector<TextLine> layout(const ast::Program& program, std::vector<Token> tokens);

@@ -8,8 +8,8 @@
 
 namespace rddlc::format {
 
-// The tokens up to and including `stop`, which is not inside brackets. Lists break where the
-// text does and where they are full, and go on below their first member.
+// The tokens up to and including `stop`, which is not inside brackets. Lists break where the text
+// does and where they are full, and continue below their first member.
 Doc plain(Cursor& cursor, std::string_view stop);
 
 // The tokens up to `stop`, without it, and a blank.

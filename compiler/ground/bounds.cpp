@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// By how much a strict inequality moves a real bound, as in pyRDDLGym.
+// The distance by which a strict inequality moves a real bound, as in pyRDDLGym.
 constexpr double strictness = 1e-5;
 
 // `fluent(indices) op limit` for all values of the variables.
@@ -110,7 +110,7 @@ class Narrowing {
         : lowered_(lowered), result_(result), diagnostics_(diagnostics), evaluator_(lowered) {}
 
     void apply(const Constraint& constraint) {
-        ir::Context context;
+        Context context;
         ir::Evaluator::Frame frame(evaluator_, {}, context);
         contradicted_ = false;
         for_all_values(constraint, 0, frame, context);
@@ -118,7 +118,7 @@ class Narrowing {
 
   private:
     void for_all_values(const Constraint& constraint, std::size_t depth,
-                        ir::Evaluator::Frame& frame, ir::Context& context) {
+                        ir::Evaluator::Frame& frame, Context& context) {
         if (depth == constraint.variables.size()) {
             narrow(constraint, frame, context);
             return;
@@ -131,7 +131,7 @@ class Narrowing {
     }
 
     // A side that faults bounds nothing; the condition will fault when it is checked.
-    void narrow(const Constraint& constraint, ir::Evaluator::Frame& frame, ir::Context& context) {
+    void narrow(const Constraint& constraint, ir::Evaluator::Frame& frame, Context& context) {
         std::vector<std::int64_t> indices;
         for (ir::NodeId index : constraint.indices) {
             indices.push_back(evaluator_.value<std::int64_t>(index, frame));
@@ -163,19 +163,15 @@ class Narrowing {
         double& lower = fluent.lower[grounding];
         double& upper = fluent.upper[grounding];
         const bool whole = fluent.scalar == ir::Scalar::Int;
-        switch (constraint.op) {
-            case Operator::LessEqual:
-                upper = std::min(upper, whole ? std::floor(limit) : limit);
-                break;
-            case Operator::Less:
-                upper = std::min(upper, whole ? std::ceil(limit) - 1 : limit - strictness);
-                break;
-            case Operator::GreaterEqual:
-                lower = std::max(lower, whole ? std::ceil(limit) : limit);
-                break;
-            default:
-                lower = std::max(lower, whole ? std::floor(limit) + 1 : limit + strictness);
-                break;
+        const bool strict = is_one_of(constraint.op, {Operator::Less, Operator::Greater});
+        if (is_one_of(constraint.op, {Operator::Less, Operator::LessEqual})) {
+            const double bound = strict ? (whole ? std::ceil(limit) - 1 : limit - strictness)
+                                        : (whole ? std::floor(limit) : limit);
+            upper = std::min(upper, bound);
+        } else {
+            const double bound = strict ? (whole ? std::floor(limit) + 1 : limit + strictness)
+                                        : (whole ? std::ceil(limit) : limit);
+            lower = std::max(lower, bound);
         }
         if (lower > upper) report_contradiction(constraint, indices, lower, upper);
     }

@@ -4,7 +4,7 @@
 #include "ir/analysis.hpp"
 #include "ir/evaluator.hpp"
 
-#include <rddl/fault_text.hpp>
+#include <rddl/interface/fault_text.hpp>
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 using Fault = rddl::FaultRecord;
 
-// In operations: what takes longer to find out is left to the runs.
+// The limit in operations: longer trials are left to the runs.
 constexpr double most_work = 1e6;
 
 // Something that may fault, whose parameters the instance fixes.
@@ -32,7 +32,7 @@ struct Suspect {
     std::vector<ir::VariableId> variables;  // that the parameters use
 };
 
-// Those of the parameters, which alone decide: the place only tells where it is.
+// The variables of the parameters, which alone decide: the place only says where the fault is.
 std::vector<ir::VariableId> variables_of(const ir::Builder& builder, const ir::Node& node,
                                          const ir::Place& place) {
     std::set<ir::VariableId> variables;
@@ -81,7 +81,7 @@ class Trial {
   public:
     explicit Trial(const ir::Program& program)
         : program_(program), evaluator_(program), frame_(evaluator_, {}, context_) {
-        // Those of the place.
+        // The place may use any variable.
         for (std::uint32_t index = 0; index < program.variables.size(); ++index)
             frame_.set({index}, 0);
     }
@@ -118,7 +118,7 @@ class Trial {
 
     const ir::Program& program_;
     ir::Evaluator evaluator_;
-    ir::Context context_;
+    Context context_;
     ir::Evaluator::Frame frame_;
     Fault first_;
 };

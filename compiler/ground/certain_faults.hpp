@@ -6,8 +6,8 @@
 
 namespace rddlc::grounding {
 
-// Warns of those in the program whose parameters the instance fixes, and which fault for every
-// object in scope. Whether a run ever gets there nobody knows, so they are no errors.
+// Warns of expressions in the program whose parameters the instance fixes, and which fault for
+// every object in scope. It is unknown whether a run ever gets there, so they are not errors.
 void warn_of_certain_faults(const ir::Builder& builder, Diagnostics& diagnostics);
 
 }  // namespace rddlc::grounding

@@ -2,7 +2,7 @@
 
 #include "model/fingerprint.hpp"
 
-#include <rddl/moderate.hpp>
+#include <rddl/values/moderate.hpp>
 
 #include <utility>
 
@@ -58,7 +58,7 @@ ir::Buffer buffer_of(const model::Model& model, bool only_moderate, model::Fluen
         .values = fluent.values,
         .span = fluent.span};
     if (only_moderate && is_chosen_outside(fluent) && buffer.scalar == ir::Scalar::Real)
-        buffer.range = ir::Range{-rddl::moderate, rddl::moderate};
+        buffer.range = Range{-rddl::moderate, rddl::moderate};
     for (model::TypeId type : fluent.parameters) {
         buffer.shape.push_back(static_cast<std::int64_t>(model.types[type].objects.size()));
     }
@@ -109,7 +109,6 @@ Declarations declare(const model::Model& model, bool only_moderate) {
     program.only_moderate = only_moderate;
     program.domain_name = model.domain_name;
     program.instance_name = model.instance_name;
-    program.fingerprint = model::fingerprint(model);
     program.horizon = model.horizon;
     program.discount = model.discount;
     program.max_nondef_actions = model.max_nondef_actions;

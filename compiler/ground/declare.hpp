@@ -9,7 +9,7 @@
 
 namespace rddlc::grounding {
 
-// Where a fluent is read from, and, for a state-fluent, where its next value is.
+// The buffer from which a fluent is read, and, for a state-fluent, the one of its next value.
 struct FluentBuffers {
     ir::BufferId current;
     std::optional<ir::BufferId> next;

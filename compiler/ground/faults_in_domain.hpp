@@ -6,8 +6,8 @@
 
 namespace rddlc {
 
-// Warns of them (W0601), for a domain that stands alone: a model without objects and values. With
-// an instance ground() tells of these and of more.
+// Warns of them (W0601) in a domain that stands alone: a model without objects and values. With an
+// instance ground() reports these and more.
 void warn_of_faults_in_domain(const model::Model& domain, Diagnostics& diagnostics);
 
 }  // namespace rddlc

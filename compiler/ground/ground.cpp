@@ -10,6 +10,7 @@
 #include "ir/builder.hpp"
 #include "ir/layout.hpp"
 #include "ir/verify.hpp"
+#include "model/fingerprint.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -81,7 +82,8 @@ std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagno
         program.terminations = lower_all(model.terminations, lowering);
         for (const model::InitialDraw& draw : model.initial_draws)
             program.reset.push_back(lowering.definition_of(draw));
-        // At the end, so that neither sites nor nodes of the simulator change with the policy.
+        // The policy comes at the end, so that neither sites nor nodes of the simulator change with
+        // it.
         if (model.policy) program.policy = policy_of(*model.policy, lowering);
         if (diagnostics.error_count() == errors_before)
             grounding::warn_of_certain_faults(builder, diagnostics);
@@ -110,7 +112,9 @@ bool reads_reals(const ir::Program& program) {
 std::optional<ir::Program> ground(const model::Model& model, Diagnostics& diagnostics,
                                   std::int64_t memory_limit) {
     auto program = ground(model, diagnostics, memory_limit, false);
-    if (!program || program->policy || !reads_reals(*program)) return program;
+    if (!program) return program;
+    program->fingerprint = model::fingerprint(model);
+    if (program->policy || !reads_reals(*program)) return program;
     Diagnostics already_reported;
     auto moderate = ground(model, already_reported, memory_limit, true);
     if (moderate) program->moderate = *std::move(moderate);

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of expression.
 #include "ground/lowering.hpp"
 
 #include "ground/codes.hpp"
@@ -11,13 +12,13 @@
 namespace rddlc::grounding {
 namespace {
 
-// In operations (ir::Facts). Passes name what is used several times; this is for nested products,
-// which would grow exponentially until then.
+// The limit in operations (ir::Facts). Passes name values that are used several times; this is for
+// nested products, which would grow exponentially until then.
 constexpr double largest_repeated_cost = 200;
 // Selects inside each other that a 'switch' becomes.
 constexpr std::size_t longest_chain = 512;
 
-// What pyRDDLGym evaluates first when it is the right operand of * ^ |.
+// Whether pyRDDLGym evaluates it first when it is the right operand of * ^ |.
 bool is_simple(const model::Expr& expr) {
     if (const auto* convert = std::get_if<model::Convert>(&expr.node)) {
         return is_simple(*convert->operand);
@@ -74,7 +75,8 @@ ir::Computation Lowering::value_of(const model::Expr& expr) {
     return {std::exchange(prelude_, {}), value, expr.span};
 }
 
-// Inside loops, outermost first. A variable over a single object needs none: its index is 0.
+// The statement inside loops, outermost first. A variable over a single object needs no loop: its
+// index is 0.
 ir::Statement Lowering::looped(ir::Statement statement,
                                std::span<const ir::VariableId> variables) const {
     for (auto variable = variables.rbegin(); variable != variables.rend(); ++variable) {
@@ -137,7 +139,7 @@ ir::Place Lowering::new_place(const model::Expr& expr, std::string what,
     return {ir::SiteId{site}, row_major_index(scope)};
 }
 
-// With the numbers of a draw of other branches, if there is one left.
+// A draw that shares its numbers with a draw of other branches, if one is left.
 ir::Place Lowering::new_draw(const model::Expr& expr, std::string what) {
     const ir::Place place = new_place(expr, std::move(what));
     const auto shared = std::ranges::find_if(
@@ -161,7 +163,7 @@ ir::NodeId Lowering::lower_as(const model::Expr& expr, ir::Scalar type) {
     return builder_.convert(lower(expr), type);
 }
 
-std::optional<ir::Range> Lowering::range_of_reals(ir::NodeId value) const {
+std::optional<Range> Lowering::range_of_reals(ir::NodeId value) const {
     if (program_[value].type != ir::Scalar::Real) return std::nullopt;
     return builder_.facts(value).range;
 }
@@ -219,18 +221,11 @@ ir::NodeId Lowering::lower(const model::TypeFault& form, const model::Expr& expr
 }
 
 ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
-    switch (form.op) {
-        case Operator::Multiply:
-            return product(form);
-        case Operator::And:
-        case Operator::Or:
-        case Operator::Implies:
-            return connective(form);
-        case Operator::Equivalent:
-            return builder_.apply(Operator::Equal, lower_all(form.operands));
-        default:
-            break;
-    }
+    if (form.op == Operator::Multiply) return product(form);
+    if (is_one_of(form.op, {Operator::And, Operator::Or, Operator::Implies}))
+        return connective(form);
+    if (form.op == Operator::Equivalent)
+        return builder_.apply(Operator::Equal, lower_all(form.operands));
     std::vector<ir::NodeId> operands = lower_all(form.operands);
     const bool on_integers = program_[operands.front()].type == ir::Scalar::Int;
     std::optional<ir::Place> place;
@@ -242,6 +237,7 @@ ir::NodeId Lowering::lower(const model::Apply& form, const model::Expr& expr) {
 
 // A simple right operand decides whether a fallible left one is evaluated, else the left operand
 // about the right one.
+// Semantics 6.3.
 ir::NodeId Lowering::connective(const model::Apply& form) {
     const bool symmetric = form.op != Operator::Implies;
     const bool right_first = symmetric && is_simple(form.operands.back());
@@ -263,7 +259,7 @@ bool Lowering::keeps_zeros(ir::NodeId factor) const {
     return facts.finite && facts.never_negative_zero && facts.range && facts.range->lower >= 0;
 }
 
-// 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
+// Semantics 6.2: 0 * x is 0 whatever x is, and x is not evaluated, if the first factor is the same for all objects
 // in scope. Where it is not, that depends on the other objects in pyRDDLGym; there it is an
 // ordinary product here.
 ir::NodeId Lowering::product(const model::Apply& form) {
@@ -274,7 +270,7 @@ ir::NodeId Lowering::product(const model::Apply& form) {
     const bool is_scalar = is_fixed_in_scope(first);
     const ir::NodeId other = is_scalar ? lower_lazily(other_expr) : lower(other_expr);
     const bool is_plain =
-        !is_scalar || ir::excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
+        !is_scalar || excludes_zero(builder_.facts(first).range) || keeps_zeros(other);
     if (!is_plain) return product_unless_zero(first, other, right_first);
     const ir::NodeId left = right_first ? other : first;
     const ir::NodeId right = right_first ? first : other;
@@ -304,7 +300,7 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
             return builder_.select(condition, then_value, rest);
         }
     }
-    // In the second branch the first factor is not zero, which the other one need not ask again.
+    // The first factor is not zero in the second branch, which the other one need not ask again.
     const auto* asks = std::get_if<ir::Select>(&program_[other].form);
     if (asks && asks->condition == test(first)) other = asks->else_value;
     const ir::NodeId left = right_first ? other : first;
@@ -312,8 +308,8 @@ ir::NodeId Lowering::product_unless_zero(ir::NodeId first, ir::NodeId other, boo
     return builder_.select(test(first), first, builder_.apply(Operator::Multiply, {left, right}));
 }
 
-// What may fault keeps its place in a lazy branch, and what the instance fixes stays an expression
-// that bounds and passes can evaluate.
+// An expression that may fault keeps its place in a lazy branch, and one that the instance fixes
+// stays an expression that bounds and passes can evaluate.
 bool Lowering::may_be_named(ir::NodeId value) const {
     const ir::Facts& facts = builder_.facts(value);
     return scope_.empty() && !facts.uniform && (!facts.may_fault || branches_ == 0);
@@ -355,8 +351,8 @@ ir::NodeId Lowering::lower(const model::Switch& form, const model::Expr&) {
     return choice(subject, labels, std::span(values).subspan(1), values.front());
 }
 
-// Labels fall. Of more than a chain should have, each half is a choice for itself: what follows
-// recurses on expressions.
+// Labels fall. A long chain is halved, and each half is a choice for itself: later passes recurse
+// on expressions.
 ir::NodeId Lowering::choice(ir::NodeId subject, std::span<const ir::NodeId> labels,
                             std::span<const ir::NodeId> values, ir::NodeId rest) {
     if (labels.size() > longest_chain) {
@@ -410,14 +406,10 @@ ir::NodeId Lowering::loops_over(const model::Aggregate& form, Reduction op, ir::
 // -------------------------------------------------------------------------------------- draws
 
 ir::NodeId Lowering::lower(const model::Sample& form, const model::Expr& expr) {
-    if (form.distribution == Distribution::KronDelta ||
-        form.distribution == Distribution::DiracDelta) {
-        return lower_as(form.parameters.front(), scalar_of(expr.type));
-    }
-    const bool counted = form.distribution == Distribution::Binomial;
+    if (is_delta(form.distribution)) return lower_as(form.parameters.front(), scalar_of(expr.type));
     std::vector<ir::NodeId> parameters;
     for (const model::Expr& parameter : form.parameters) {
-        const bool is_count = counted && parameters.empty();
+        const bool is_count = takes_int(form.distribution, parameters.size());
         parameters.push_back(lower_as(parameter, is_count ? ir::Scalar::Int : ir::Scalar::Real));
     }
     const ir::Place place = new_draw(expr, std::string(name_of(form.distribution)));

@@ -25,7 +25,7 @@ class Lowering {
 
     ir::Definition definition_of(const model::Cpf& cpf);
     ir::Definition definition_of(const model::InitialDraw& draw);
-    // Of an expression outside of any CPF: reward and conditions.
+    // The value of an expression outside of any CPF: reward and conditions.
     ir::Computation value_of(const model::Expr& expr);
 
     // Brings variables into scope, outermost first; the innermost ones leave it again.
@@ -54,9 +54,9 @@ class Lowering {
     ir::NodeId lower(const model::RandomVector& form, const model::Expr& expr);
 
     ir::NodeId lower_as(const model::Expr& expr, ir::Scalar type);
-    std::optional<ir::Range> range_of_reals(ir::NodeId value) const;
+    std::optional<Range> range_of_reals(ir::NodeId value) const;
     std::vector<ir::NodeId> lower_all(const std::vector<model::Expr>& exprs);
-    // What is not evaluated in any case.
+    // Lowers an operand that is not evaluated in every case.
     ir::NodeId lower_lazily(const model::Expr& expr);
     ir::NodeId connective(const model::Apply& form);
     ir::NodeId product(const model::Apply& form);
@@ -73,7 +73,7 @@ class Lowering {
     ir::Place new_place(const model::Expr& expr, std::string what,
                         const std::vector<ir::VariableId>& scope);
     ir::Place new_draw(const model::Expr& expr, std::string what);
-    // Of which one is evaluated.
+    // Lowers branches of which one is evaluated.
     std::vector<ir::NodeId> lower_branches(const std::vector<const model::Expr*>& branches);
     ir::NodeId integer(std::int64_t value) { return builder_.constant(value); }
     std::int64_t size_of(model::VariableId id) const;

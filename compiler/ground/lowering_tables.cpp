@@ -43,9 +43,9 @@ std::string problem_with(MatrixOperator op) {
         case MatrixOperator::Determinant:
             break;
         case MatrixOperator::Inverse:
-            return "the matrix of 'inverse' is singular, or has elements that are no numbers";
+            return "the matrix of 'inverse' is singular, or has elements that are not numbers";
         case MatrixOperator::PseudoInverse:
-            return "the matrix of 'pinverse' has elements that are no numbers";
+            return "the matrix of 'pinverse' has elements that are not numbers";
         case MatrixOperator::Cholesky:
             return "the matrix of 'cholesky' is not positive definite";
     }
@@ -56,7 +56,7 @@ std::string problem_with(MatrixOperator op) {
 
 // ------------------------------------------------------------------------------------- tables
 
-// In the way of what comes after: what has been lowered so far may be read from then on.
+// Runs the statement before the next ones: they may read the values that have been lowered so far.
 void Lowering::run_before(ir::Statement statement, std::span<const ir::VariableId> variables) {
     prelude_.push_back(looped(std::move(statement), variables));
 }
@@ -140,7 +140,7 @@ void Lowering::call_matrix_operator(MatrixOperator op, const Matrix& matrix, ir:
     run_before({std::move(call)}, matrix.outer);
 }
 
-// Those that any of the nodes depends on.
+// The candidates on which any of the nodes depends.
 std::vector<ir::VariableId> Lowering::variables_in(const std::vector<ir::NodeId>& nodes,
                                                    const Variables& candidates) const {
     Variables used;
@@ -187,7 +187,7 @@ ir::BufferId Lowering::buffer_of(const model::VectorReference& reference) const 
     return reference.next ? *buffers.next : buffers.current;
 }
 
-// With the variables in place of the axes, in their order.
+// The indices with the variables in place of the axes, in their order.
 std::vector<ir::NodeId> Lowering::indices_of(const model::VectorReference& reference,
                                              const Variables& axes) {
     auto axis = axes.begin();
@@ -205,8 +205,7 @@ ir::NodeId Lowering::element_of(const model::VectorReference& reference, const V
     return builder_.load(buffer_of(reference), indices_of(reference, axes));
 }
 
-// The fluent itself where it is a table of that type whose last dimensions are the axes; else a
-// copy.
+// The fluent itself if it is a table of that type whose last dimensions are the axes; else a copy.
 ir::TableView Lowering::view_of(const model::VectorReference& reference, const Variables& axes,
                                 ir::Scalar scalar, std::string_view name, const model::Expr& expr) {
     const auto leading = static_cast<std::ptrdiff_t>(reference.slots.size() - axes.size());
@@ -278,7 +277,7 @@ ir::NodeId Lowering::lower(const model::External& form, const model::Expr& expr)
     return builder_.load(result, indices_of(dimensions));
 }
 
-// Of the fluent's own type.
+// The argument keeps the fluent's own type.
 ir::TableView Lowering::argument_of(const model::VectorReference& reference,
                                     const model::Expr& expr) {
     Variables axes;

@@ -30,7 +30,7 @@ double copies_of(ir::Storage storage) {
     return 0;
 }
 
-// With the bounds of numbers that the user sees.
+// Includes the bounds of numbers that the user sees.
 double bytes_of(const ir::Buffer& buffer) {
     const bool is_bounded =
         (buffer.storage == ir::Storage::State || buffer.storage == ir::Storage::Action) &&

@@ -1,5 +1,7 @@
+// Over 400 lines: one traversal and the questions about its results.
 #include "ir/analysis.hpp"
 
+#include "ir/cost_model.hpp"
 #include "support/match.hpp"
 
 #include <algorithm>
@@ -11,41 +13,6 @@
 namespace rddlc::ir {
 namespace {
 
-constexpr double cheap_cost = 6;
-constexpr double elementary_cost = 20;
-
-// In units of an addition.
-double cost_of(Operator op) {
-    switch (op) {
-        case Operator::Divide:
-        case Operator::FloorDivide:
-        case Operator::FloorModulo:
-        case Operator::Sqrt:
-            return 4;
-        case Operator::FloorModuloReal:
-        case Operator::Power:
-        case Operator::Exp:
-        case Operator::Ln:
-        case Operator::Cos:
-        case Operator::Sin:
-        case Operator::Tan:
-        case Operator::Acos:
-        case Operator::Asin:
-        case Operator::Atan:
-        case Operator::Cosh:
-        case Operator::Sinh:
-        case Operator::Tanh:
-        case Operator::Log:
-        case Operator::Hypot:
-        case Operator::Atan2:
-        case Operator::LnGamma:
-        case Operator::Gamma:
-            return elementary_cost;
-        default:
-            return 1;
-    }
-}
-
 // Joins what is known of operands into what is known of their user.
 class Collector {
   public:
@@ -54,6 +21,7 @@ class Collector {
 
     Facts facts_of(const Node& node) {
         for (NodeId operand : operands_of(node)) add(known_[operand.index]);
+        facts_.cost += own_cost(program_, node);
         match(node.form, [&](const auto& form) { describe(node.type, form); });
         facts_.finite = node.type != Scalar::Real || (facts_.range && is_finite(*facts_.range)) ||
                         (program_.assumes_finite && !is_fixed(node));
@@ -94,7 +62,6 @@ class Collector {
     }
 
     void describe(Scalar, const Load& load) {
-        facts_.cost += 1;
         const Buffer& buffer = program_[load.buffer];
         facts_.uniform &= is_constant(load.buffer);
         facts_.range = is_constant(load.buffer)        ? tables_.range(program_, load.buffer)
@@ -102,7 +69,7 @@ class Collector {
                                                        : object_range(buffer);
     }
 
-    // Of a fluent whose values are objects.
+    // The range of a fluent whose values are objects.
     std::optional<Range> object_range(const Buffer& buffer) const {
         if (!buffer.fluent) return std::nullopt;
         const auto type = program_.fluents[*buffer.fluent].object_type;
@@ -112,15 +79,10 @@ class Collector {
 
     void describe(Scalar, const Search& search) {
         const auto size = static_cast<double>(program_[search.table].count());
-        facts_.cost += 2 * std::ceil(std::log2(size + 1));
         facts_.range = Range{0, size};
     }
 
-    void describe(Scalar, const Bits& bits) {
-        const std::int64_t count = program_[bits.buffer].count() - bits.first;
-        facts_.cost += static_cast<double>(std::min<std::int64_t>(count, 64));
-        facts_.uniform = false;
-    }
+    void describe(Scalar, const Bits&) { facts_.uniform = false; }
 
     void describe(Scalar type, const Local&) {
         facts_.uniform = false;
@@ -134,11 +96,10 @@ class Collector {
     }
 
     void describe(Scalar type, const Apply& apply) {
-        facts_.cost += cost_of(apply.op);
-        facts_.elementary |= apply.op == Operator::Sqrt || cost_of(apply.op) == elementary_cost;
+        facts_.elementary |= apply.op == Operator::Sqrt || is_elementary(apply.op);
         std::vector<std::optional<Range>> ranges;
         for (NodeId operand : apply.operands) ranges.push_back(range(operand));
-        if (type == Scalar::Real) facts_.range = ir::range_of(apply.op, ranges);
+        if (type == Scalar::Real) facts_.range = range_of(apply.op, ranges);
         if (facts_.range && is_square(apply))
             facts_.range->lower = std::max(facts_.range->lower, 0.0);
         if (type == Scalar::Bool) facts_.range = Range{0, 1};
@@ -154,7 +115,7 @@ class Collector {
                                        std::span<const std::optional<Range>> operands) const {
         if (apply.op == Operator::CountOnes) return Range{0, most_ones(apply.operands.front())};
         if (apply.op != Operator::Add && apply.op != Operator::Subtract) return std::nullopt;
-        const auto range = ir::range_of(apply.op, operands);
+        const auto range = range_of(apply.op, operands);
         const bool is_exact = range && range->lower > -exact_ints && range->upper < exact_ints;
         return is_exact ? range : std::nullopt;
     }
@@ -182,7 +143,6 @@ class Collector {
     }
 
     void describe(Scalar, const Select& select) {
-        facts_.cost += 1;
         const auto a =
             is_guarded_product(program_, select) ? Range{0, 0} : range(select.then_value);
         const auto b = range(select.else_value);
@@ -191,8 +151,7 @@ class Collector {
 
     void describe(Scalar, const Reduce& reduce) {
         const std::int64_t size = program_[reduce.variable].size;
-        bind(reduce.variable, reduce.body,
-             reduce.bounds ? length_of(*reduce.bounds, size) : static_cast<double>(size));
+        bind(reduce.variable, reduce.body, repetitions(program_, reduce));
         if (reduce.op == Reduction::ArgMin || reduce.op == Reduction::ArgMax)
             facts_.range = Range{0, static_cast<double>(size - 1)};
         if (reduce.op == Reduction::Sum && program_[reduce.body].type == Scalar::Int)
@@ -200,8 +159,8 @@ class Collector {
         const auto& body = range(reduce.body);
         if (program_[reduce.body].type != Scalar::Real || !body) return;
         const auto count = static_cast<double>(size);
-        if (reduce.op == Reduction::Sum) facts_.range = ir::range_of_sum(*body, count);
-        if (reduce.op == Reduction::Product) facts_.range = ir::range_of_product(*body, count);
+        if (reduce.op == Reduction::Sum) facts_.range = rddlc::range_of_sum(*body, count);
+        if (reduce.op == Reduction::Product) facts_.range = range_of_product(*body, count);
         if (reduce.op == Reduction::Minimum || reduce.op == Reduction::Maximum) facts_.range = body;
     }
 
@@ -220,33 +179,22 @@ class Collector {
                    : std::numeric_limits<double>::infinity();
     }
 
-    // On average, where the bounds are neighbours in a table of where rows begin.
-    double length_of(const Bounds& bounds, std::int64_t size) const {
-        const auto* end = std::get_if<Load>(&program_[bounds.end].form);
-        const std::int64_t rows = end ? program_[end->buffer].count() - 1 : 1;
-        return static_cast<double>(size) / static_cast<double>(std::max<std::int64_t>(rows, 1));
-    }
-
     void describe(Scalar, const Sample& sample) {
         std::vector<std::optional<Range>> ranges;
         for (NodeId parameter : sample.parameters) ranges.push_back(range(parameter));
         draw(!always_in_domain(sample.distribution, ranges));
-        facts_.range = ir::range_of(sample.distribution, ranges);
-        facts_.cost += 20;
+        facts_.range = range_of(sample.distribution, ranges);
     }
 
     void describe(Scalar, const Discrete& discrete) {
         draw(true);
         facts_.range = Range{0, static_cast<double>(discrete.weights.size() - 1)};
-        facts_.cost += 20;
     }
 
     void describe(Scalar, const DiscreteOver& discrete) {
-        bind(discrete.variable, discrete.weight,
-             static_cast<double>(program_[discrete.variable].size));
+        bind(discrete.variable, discrete.weight, repetitions(program_, discrete));
         facts_.range = Range{0, static_cast<double>(program_[discrete.variable].size - 1)};
         draw(true);
-        facts_.cost += 20;
     }
 
     void describe(Scalar, const Fault&) {
@@ -254,11 +202,10 @@ class Collector {
         facts_.uniform = false;
     }
 
-    // The body's own cost is in there already, once.
-    void bind(VariableId variable, NodeId body, double repetitions) {
+    // The cost of the body is in there already, once.
+    void bind(VariableId variable, NodeId body, double times) {
         std::erase(facts_.free_variables, variable);
-        const double times = std::max(repetitions, 1.0);
-        facts_.cost += known_[body.index].cost * (times - 1) + times;
+        facts_.cost += known_[body.index].cost * (times - 1);
     }
 
     void draw(bool may_fault) {
@@ -269,7 +216,8 @@ class Collector {
 
     // ------------------------------------------------------------------- zeros and their signs
 
-    // Of reals. What underflows is a zero, whose sign is that of what was rounded.
+    // The sign of real zeros: an underflow gives a zero with the sign of the number that was
+    // rounded.
     bool is_never_negative_zero(const Constant& constant) const {
         return !is_negative_zero(constant.value);
     }
@@ -288,34 +236,22 @@ class Collector {
     }
     bool is_never_negative_zero(const Apply& apply) const {
         const NodeId a = apply.operands.front(), b = apply.operands.back();
-        switch (apply.op) {
-            case Operator::Add:
-                return never_negative_zero(a) || never_negative_zero(b);
-            case Operator::Subtract:  // only -0.0 - 0.0 is
-                return a == b || never_negative_zero(a) || excludes_zero(range(b));
-            case Operator::Multiply:
-                return a == b || (has_no_sign(a) && has_no_sign(b));
-            case Operator::Divide:
-                return has_no_sign(a) && has_no_sign(b);
-            case Operator::Power:
-                return has_no_sign(a);
-            case Operator::Sqrt:
-                return never_negative_zero(a);
-            // Of equal numbers they take the first.
-            case Operator::Minimum:
-                return never_negative_zero(a) &&
-                       (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
-            case Operator::Maximum:
-                return never_negative_zero(a) &&
-                       (never_negative_zero(b) || is_never_negative(range(a)));
-            case Operator::Abs:
-            case Operator::Exp:
-            case Operator::Cosh:
-            case Operator::Hypot:
-                return true;
-            default:
-                return false;
-        }
+        const Operator op = apply.op;
+        if (op == Operator::Add) return never_negative_zero(a) || never_negative_zero(b);
+        if (op == Operator::Subtract)  // only -0.0 - 0.0 is
+            return a == b || never_negative_zero(a) || excludes_zero(range(b));
+        if (op == Operator::Multiply) return a == b || (has_no_sign(a) && has_no_sign(b));
+        if (op == Operator::Divide) return has_no_sign(a) && has_no_sign(b);
+        if (op == Operator::Power) return has_no_sign(a);
+        if (op == Operator::Sqrt) return never_negative_zero(a);
+        // Equal operands give the first one.
+        if (op == Operator::Minimum)
+            return never_negative_zero(a) &&
+                   (never_negative_zero(b) || (range(a) && range(a)->upper <= 0));
+        if (op == Operator::Maximum)
+            return never_negative_zero(a) &&
+                   (never_negative_zero(b) || is_never_negative(range(a)));
+        return is_one_of(op, {Operator::Abs, Operator::Exp, Operator::Cosh, Operator::Hypot});
     }
     template <class Form>
     bool is_never_negative_zero(const Form&) const {
@@ -330,7 +266,7 @@ class Collector {
         return range && range->lower >= 0;
     }
 
-    // Of the operators that may fault.
+    // Whether an operator that may fault is defined for these operands.
     static bool always_defined(Operator op, std::span<const std::optional<Range>> operands) {
         if (op == Operator::Power) return operands[1] && operands[1]->lower >= 0;
         if (op == Operator::Defined) return operands[0].has_value();
@@ -374,42 +310,6 @@ void append_roots(const Computation& computation, std::vector<NodeId>& roots) {
     roots.push_back(computation.value);
 }
 
-// A call costs what it takes to read its tables and fill its output.
-double cost_of(const Program& program, const Call& call, const std::vector<Facts>& facts) {
-    double cost = 1;
-    for (NodeId operand : operands_of(call)) cost += facts[operand.index].cost;
-    for (const TableView& input : call.inputs)
-        cost += static_cast<double>(program[input.buffer].count());
-    return cost + static_cast<double>(program[call.output.buffer].count());
-}
-
-double cost_of(const Program& program, const Block& block, const std::vector<Facts>& facts) {
-    const auto cost_of_node = [&](NodeId id) {
-        return facts[id.index].cost;
-    };
-    double cost = 0;
-    for (const Statement& statement : block) {
-        cost += match(
-            statement.form, [&](const Let& let) { return cost_of_node(let.value) + 1; },
-            [&](const Store& store) {
-                double sum = cost_of_node(store.value) + 1;
-                for (NodeId index : store.indices) sum += cost_of_node(index);
-                return sum;
-            },
-            [&](const Loop& loop) {
-                const auto size = static_cast<double>(program[loop.variable].size);
-                return size * (1 + cost_of(program, loop.body, facts));
-            },
-            [&](const Call& call) { return cost_of(program, call, facts); });
-    }
-    return cost;
-}
-
-double cost_of(const Program& program, const Computation& computation,
-               const std::vector<Facts>& facts) {
-    return cost_of(program, computation.body, facts) + facts[computation.value.index].cost;
-}
-
 // Program and Definition both const, or neither.
 template <class AnyDefinition, class AnyProgram>
 std::vector<AnyDefinition*> definitions_in(AnyProgram& program) {
@@ -446,17 +346,6 @@ std::vector<Facts> all_facts(const Program& program) {
     facts.reserve(program.nodes.size());
     for (const Node& node : program.nodes) facts.push_back(facts_of(program, node, facts, tables));
     return facts;
-}
-
-double cost_of_step(const Program& program) {
-    const std::vector<Facts> facts = all_facts(program);
-    double cost = cost_of(program, program.reward, facts);
-    for (const Definition& definition : program.step)
-        cost += cost_of(program, definition.body, facts);
-    for (const auto* conditions : {&program.invariants, &program.terminations}) {
-        for (const Computation& condition : *conditions) cost += cost_of(program, condition, facts);
-    }
-    return cost;
 }
 
 bool is_cheap(const Facts& facts) {

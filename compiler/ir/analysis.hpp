@@ -2,8 +2,8 @@
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/range.hpp"
 #include "ir/table_facts.hpp"
+#include "vocabulary/range.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rddlc::ir {
 
-// What holds of a node wherever it is used.
+// Facts about a node that hold wherever it is used.
 struct Facts {
     bool may_fault = false;  // evaluating it may record a fault
     bool random = false;     // it draws
@@ -26,18 +26,15 @@ struct Facts {
     bool elementary = false;  // computes an elementary function: a root, exp, a power, ...
     // Roughly the number of simple operations of one evaluation, loops multiplied out.
     double cost = 0;
-    std::optional<Range> range;  // within which its value lies for certain; none: anything, or nan
+    std::optional<Range> range;  // within which its value certainly lies; absent: anything, or nan
     std::vector<VariableId> free_variables;  // sorted; those not bound inside the node
 };
 
-// Of a node whose operands' facts are already in `known`.
+// The facts of a node whose operands' facts are already in `known`.
 Facts facts_of(const Program& program, const Node& node, std::span<const Facts> known,
                TableFacts& tables);
-// Of all nodes of the program, by NodeId::index.
+// The facts of all nodes of the program, by NodeId::index.
 std::vector<Facts> all_facts(const Program& program);
-
-// The cost of one step, of its reward and of the tests of the new state.
-double cost_of_step(const Program& program);
 
 // Evaluating the node where it is not needed does no harm: it neither faults nor draws, and costs
 // no more than a handful of operations. A Select of two cheap branches needs no branch.
@@ -64,7 +61,7 @@ std::optional<BufferId> buffer_read_by(const Node& node);
 // The variable that a node binds in its body (Reduce, DiscreteOver).
 std::optional<VariableId> bound_variable(const Node& node);
 
-// The value of a constant of this type; none: it is something else.
+// The value of a constant of this type; nothing if it is something else.
 template <class T>
 std::optional<T> constant(const Program& program, NodeId id) {
     const auto* form = std::get_if<Constant>(&program[id].form);
@@ -72,7 +69,8 @@ std::optional<T> constant(const Program& program, NodeId id) {
     return value ? std::optional(*value) : std::nullopt;
 }
 
-// Where the bounds are an element of a table and the next one, so that they are a row's: the first.
+// The first bound, if the bounds are an element of a table and the next one, so that they are a
+// row's.
 const Load* row_of(const Program& program, const Bounds& bounds);
 
 // The definitions of reset, of the step and of the policy.
@@ -98,7 +96,7 @@ bool fills_tables(const Block& block);
 // Does it pass tables to functions? That takes room in Scratch.
 bool calls_functions(const Block& block);
 
-// What a call evaluates before it looks at its tables.
+// The operands that a call evaluates before it reads its tables.
 std::vector<NodeId> operands_of(const Call& call);
 
 // Every value and index that the statements evaluate, in order, those of nested loops included.
@@ -108,7 +106,7 @@ std::vector<NodeId> roots_of(const Computation& computation);
 // All of the program: the step, the reward, the conditions and the policy.
 std::vector<NodeId> roots_of(const Program& program);
 
-// By NodeId::index: is the node part of something that the program evaluates?
+// Whether each node, by NodeId::index, is part of something that the program evaluates.
 std::vector<bool> reachable_nodes(const Program& program);
 
 // The buffers of the state and the action whose reals have a range, so that a step relies on it.

@@ -19,7 +19,7 @@ namespace rddlc::ir {
 
 class Builder {
   public:
-    // Adds to the program's pool and tables. While a builder lives, nobody else may add nodes.
+    // Adds to the program's pool and tables. While a builder lives, only it may add nodes.
     explicit Builder(Program& program);
 
     const Program& program() const { return program_; }
@@ -32,11 +32,11 @@ class Builder {
     NodeId index(VariableId variable);
     NodeId load(BufferId buffer, std::vector<NodeId> indices);
     NodeId search(BufferId table, NodeId value);
-    // `buffer` is no Constant.
+    // `buffer` is not a Constant.
     NodeId bits(BufferId buffer, std::int64_t first);
     NodeId local(LocalId local, Scalar type);
     NodeId convert(NodeId operand, Scalar type);
-    // `place` for exactly the operators that may fault (model/vocabulary.hpp).
+    // `place` for exactly the operators that may fault (vocabulary/vocabulary.hpp).
     NodeId apply(Operator op, std::vector<NodeId> operands, std::optional<Place> place = {});
     NodeId select(NodeId condition, NodeId then_value, NodeId else_value);
     // Over an empty variable only for reductions that have a value there.

@@ -1,9 +1,8 @@
 #include "ir/call.hpp"
 
 #include "ir/analysis.hpp"
+#include "support/failure.hpp"
 #include "support/match.hpp"
-
-#include <cstdlib>
 
 namespace rddlc::ir {
 
@@ -18,7 +17,7 @@ CallSignature signature_of(MatrixOperator op) {
         case MatrixOperator::Cholesky:
             return {{2}, false, 0, {}, 2, Scalar::Real};
     }
-    std::abort();
+    own_mistake("a callee without a signature");
 }
 
 CallSignature signature_of(VectorDistribution distribution) {
@@ -32,7 +31,7 @@ CallSignature signature_of(VectorDistribution distribution) {
         case VectorDistribution::Multinomial:  // probabilities, and trials
             return {{1}, false, 0, Scalar::Int, 1, Scalar::Int};
     }
-    std::abort();
+    own_mistake("a callee without a signature");
 }
 
 bool is_external(const Callee& callee) {

@@ -1,4 +1,5 @@
-// What the functions behind Call expect, in one table. External functions expect what they get.
+// The requirements of the functions behind Call, in one table. External functions accept any
+// arguments.
 #pragma once
 
 #include "ir/ir.hpp"
@@ -13,7 +14,7 @@
 namespace rddlc::ir {
 
 struct CallSignature {
-    std::vector<std::size_t> input_axes;  // 1: a vector, 2: a square matrix; of Real
+    std::vector<std::size_t> input_axes;  // 1: a vector, 2: a square matrix; the elements are Real
     bool overwrites_inputs;               // to work in them: they are Scratch
     std::size_t room;                     // of the inputs, how many at the end are nothing else
     std::optional<Scalar> scalar;         // the type of the scalar, where there is one
@@ -26,7 +27,7 @@ CallSignature signature_of(VectorDistribution distribution);
 
 bool is_external(const Callee& callee);
 
-// As in RDDL: "cholesky", "Dirichlet", "$inflow".
+// The name as in RDDL: "cholesky", "Dirichlet", "$inflow".
 std::string name_of(const Program& program, const Callee& callee);
 
 // It draws at random, so it has a place.
@@ -39,9 +40,9 @@ struct Extent {
 };
 Extent extent_of(const Program& program, const Call& call);
 
-// What the call changes: the output, and inputs that it works in.
+// The buffers that the call changes: the output, and inputs that it works in.
 std::vector<BufferId> written_buffers(const Call& call);
-// What the stores and calls of a block change, those of nested loops included.
+// The buffers that the stores and calls of a block change, those of nested loops included.
 std::set<BufferId> written_buffers(const Block& block);
 bool overwrites_inputs(const Callee& callee);
 

@@ -1,5 +1,5 @@
-// What a step computes on its way, as a program of its own: for those who ask about the last step
-// (rddl/details.hpp).
+// The intermediate values of a step, as a program of its own, for callers that ask about the last
+// step (rddl/interface/details.hpp).
 #pragma once
 
 #include "ir/ir.hpp"
@@ -9,7 +9,7 @@
 
 namespace rddlc::ir {
 
-// For which objects a precondition holds: those of the `forall`s that it begins with.
+// The objects for which a precondition holds: those of the `forall`s that it begins with.
 struct ConditionTable {
     BufferId holds;  // Observation, Bool, over the objects of `scope`
     std::vector<VariableId> scope;

@@ -1,3 +1,4 @@
+// Over 400 lines: a function for each kind of node and statement.
 #include "ir/evaluator.hpp"
 
 #include "ir/analysis.hpp"
@@ -8,7 +9,7 @@
 #include "support/failure.hpp"
 #include "support/match.hpp"
 
-#include <rddl/distributions.hpp>
+#include <rddl/random/distributions.hpp>
 
 #include <fmt/format.h>
 
@@ -38,7 +39,8 @@ void choose_counts(const TableArguments& multinomial, rddl::Place place, Outcome
 // Constant tables for which these bytes leave no room are looked up where they are.
 constexpr std::size_t most_packed = std::size_t{1} << 25;
 
-// To write out all elements would take much longer than to look up those that somebody reads.
+// Writing out all elements of such a table would take much longer than looking up those that are
+// read.
 bool is_sparse(const Table& table) {
     return table.size() > 64 * (std::ssize(table.exceptions()) + 1024);
 }
@@ -309,16 +311,16 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                  [&](const Constant& form) -> T { return std::get<T>(form.value); },
                  [&](const Index& form) -> T {
                      if constexpr (is_int) return frame.slots_[form.variable.index].integer;
-                     unreachable_operator();
+                     own_mistake("a form of the IR has no value of this type");
                  },
                  [&](const Load& form) -> T { return load<T>(form, frame); },
                  [&](const Search& form) -> T {
                      if constexpr (is_int) return search(form, frame);
-                     unreachable_operator();
+                     own_mistake("a form of the IR has no value of this type");
                  },
                  [&](const Bits& form) -> T {
                      if constexpr (is_int) return bits(form, frame);
-                     unreachable_operator();
+                     own_mistake("a form of the IR has no value of this type");
                  },
                  [&](const Local& form) -> T {
                      return Frame::of<T>(frame.slots_[local_slots_[form.local.index]]);
@@ -333,11 +335,11 @@ T Evaluator::value(NodeId id, Frame& frame) const {
                  [&](const Sample& form) -> T { return draw<T>(form, frame); },
                  [&](const Discrete& form) -> T {
                      if constexpr (is_int) return draw(form, id, frame);
-                     unreachable_operator();
+                     own_mistake("a form of the IR has no value of this type");
                  },
                  [&](const DiscreteOver& form) -> T {
                      if constexpr (is_int) return draw(form, frame);
-                     unreachable_operator();
+                     own_mistake("a form of the IR has no value of this type");
                  },
                  [&](const Fault& form) -> T {
                      return rddl::fault<T>(frame.context_, place(form.place, frame));
@@ -370,7 +372,7 @@ T Evaluator::convert_operand(const Convert& form, Frame& frame) const {
     if constexpr (std::is_same_v<T, double>) {
         return rddl::to_real(value<std::int64_t>(form.operand, frame));
     }
-    unreachable_operator();
+    own_mistake("a form of the IR has no value of this type");
 }
 
 template <>
@@ -385,26 +387,27 @@ bool Evaluator::apply<bool>(const Apply& form, Frame& frame) const {
         case Scalar::Real:
             return compare(form.op, value<double>(a, frame), value<double>(b, frame));
     }
-    unreachable_operator();
+    own_mistake("a form of the IR has no value of this type");
 }
 
-// The right operands of And and Or cannot fault (verify.hpp), so nobody notices a short circuit.
+// The right operands of And and Or cannot fault (verify.hpp), so a short circuit changes nothing.
 bool Evaluator::apply_to_bools(const Apply& form, Frame& frame) const {
     const bool a = value<bool>(form.operands.front(), frame);
     if (form.op == Operator::Not) return !a;
     if (form.op == Operator::And && !a) return false;
     if (form.op == Operator::Or && a) return true;
-    return apply_logic(form.op, a, value<bool>(form.operands.back(), frame));
+    return kernels_of(form.op).of_bools(a, value<bool>(form.operands.back(), frame));
 }
 
 template <>
 std::int64_t Evaluator::apply<std::int64_t>(const Apply& form, Frame& frame) const {
     const NodeId a = form.operands.front();
     const NodeId b = form.operands.back();
-    if ((*program_)[a].type == Scalar::Real) return apply_to_int(form.op, value<double>(a, frame));
+    if ((*program_)[a].type == Scalar::Real)
+        return kernels_of(form.op).to_int(value<double>(a, frame));
     const std::int64_t left = value<std::int64_t>(a, frame);
     const std::int64_t right = a == b ? left : value<std::int64_t>(b, frame);
-    return apply_int(form.op, left, right, place(form.place, frame), frame.context_);
+    return kernels_of(form.op).of_ints({left, right, place(form.place, frame), frame.context_});
 }
 
 template <>
@@ -414,7 +417,7 @@ double Evaluator::apply<double>(const Apply& form, Frame& frame) const {
     const double left = value<double>(a, frame);
     const double right = a == b ? left : value<double>(b, frame);
     const double result =
-        apply_real(form.op, left, right, place(form.place, frame), frame.context_);
+        kernels_of(form.op).of_reals({left, right, place(form.place, frame), frame.context_});
     return rounding_ ? rounding_->of_function(form.op, result) : result;
 }
 
@@ -463,7 +466,11 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
                 return rddl::minimum_over<T>(size, body(T{}));
             case Reduction::Maximum:
                 return rddl::maximum_over<T>(size, body(T{}));
-            default:
+            case Reduction::ForAll:
+            case Reduction::Exists:
+            case Reduction::Average:
+            case Reduction::ArgMin:
+            case Reduction::ArgMax:
                 break;
         }
     }
@@ -475,12 +482,12 @@ T Evaluator::reduce(const Reduce& form, Frame& frame) const {
         }
         return least ? rddl::arg_min<T>(size, body(T{})) : rddl::arg_max<T>(size, body(T{}));
     }
-    unreachable_operator();
+    own_mistake("a form of the IR has no value of this type");
 }
 
 // ---------------------------------------------------------------------------------- draws
 
-// With outcomes, a draw is made all the same, to record what is wrong with its parameters.
+// A draw with outcomes is also made, to record faults of its parameters.
 template <class T>
 T Evaluator::draw(const Sample& form, Frame& frame) const {
     const rddl::Place here = place(form.place, frame);
@@ -506,9 +513,9 @@ T Evaluator::draw(const Sample& form, Frame& frame) const {
         if (outcomes && !is_certain(form.distribution, a, b))
             refuse_to_list(name_of(form.distribution));
         if constexpr (std::is_same_v<T, double>) {
-            return draw_real(form.distribution, a, b, here, frame.context_);
+            return draw_real(form.distribution, {a, b, here, frame.context_});
         } else {
-            return draw_int(form.distribution, a, b, here, frame.context_);
+            return draw_int(form.distribution, {a, b, here, frame.context_});
         }
     }
 }

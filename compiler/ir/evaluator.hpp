@@ -5,11 +5,11 @@
 
 #include "ir/external_functions.hpp"
 #include "ir/ir.hpp"
-#include "ir/kernels.hpp"
 #include "ir/outcomes.hpp"
 #include "ir/rounding.hpp"
+#include "vocabulary/kernels.hpp"
 
-#include <rddl/reductions.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <array>
 #include <cstddef>
@@ -23,11 +23,11 @@ namespace rddlc::ir {
 // Writes a buffer's values to where it begins in a record.
 void write_values(const Buffer& buffer, std::byte* to);
 
-// A record for each storage; null where a computation has none.
+// A record for each storage; null if a computation does not use it.
 struct Records {
     std::array<std::byte*, 8> begin{};  // by Storage
 
-    // Of read-only storages too: verify() says that nothing stores to them.
+    // Also sets read-only storages: verify() says that nothing stores to them.
     Records& set(Storage storage, const std::byte* record) {
         begin[static_cast<std::size_t>(storage)] = const_cast<std::byte*>(record);
         return *this;
@@ -36,21 +36,21 @@ struct Records {
 
 class Evaluator {
   public:
-    // The program must outlive the evaluator, and not change; there may come more nodes that do not
-    // draw, and constant tables. The functions are by ExternalId; whoever runs no calls needs none.
+    // The program must outlive the evaluator, and not change; more nodes that do not draw, and more
+    // constant tables, may be added. The functions are by ExternalId; a program without calls needs
+    // no functions.
     explicit Evaluator(const Program& program, ExternalFunctions functions = {});
 
     // Evaluates with other last digits from now on. `rounding` must outlive this.
     void round_by(Rounding& rounding) { rounding_ = &rounding; }
 
-    // Before values that read constant tables which are new.
+    // Call it before values that read new constant tables.
     void know_added_tables();
 
     // One evaluation: the records, and room for loop indices and locals.
     class Frame {
       public:
-        // Without outcomes, draws are random; with them, Failure says which draw has no finite
-        // list.
+        // Draws are random without outcomes; with them, Failure says which draw has no finite list.
         Frame(const Evaluator& evaluator, Records records, Context& context,
               Outcomes* outcomes = nullptr);
         Frame(const Frame&) = delete;
@@ -85,13 +85,13 @@ class Evaluator {
     // T is the C++ type of the node's type: bool, int64_t or double.
     template <class T>
     T value(NodeId id, Frame& frame) const;
-    // Of any type; none if a fault has been recorded.
+    // The value of any type; nothing if a fault has been recorded.
     std::optional<Value> value_unless_fault(NodeId id, Frame& frame) const;
 
   private:
     static constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
 
-    // Where a buffer's first element lies.
+    // The place of a buffer's first element.
     struct Origin {
         std::size_t record;  // index into Records::begin
         std::size_t offset;
@@ -102,7 +102,7 @@ class Evaluator {
     void pack(BufferId table);
     void number_slots();
 
-    // Where the element begins, or the part that the leading indices choose.
+    // The place of the element, or of the part that the leading indices choose.
     std::int64_t row_major(BufferId id, const std::vector<NodeId>& indices, Frame& frame) const;
     template <class T>
     T load(const Load& form, Frame& frame) const;

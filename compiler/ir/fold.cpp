@@ -1,33 +1,29 @@
 #include "ir/fold.hpp"
 
-#include "ir/kernels.hpp"
 #include "support/match.hpp"
+#include "vocabulary/kernels.hpp"
 
-#include <rddl/reductions.hpp>
+#include <rddl/values/reductions.hpp>
 
 #include <limits>
 
 namespace rddlc::ir {
 namespace {
 
-bool gives_int(Operator op) {
-    return op == Operator::Sign || op == Operator::Round || op == Operator::Floor ||
-           op == Operator::Ceil;
-}
-
 Value apply(Operator op, bool a, bool b, Context&) {
-    return apply_logic(op, a, b);
+    return kernels_of(op).of_bools(a, b);
 }
 
 Value apply(Operator op, std::int64_t a, std::int64_t b, Context& context) {
     if (is_comparison(op)) return compare(op, a, b);
-    return apply_int(op, a, b, {}, context);
+    return kernels_of(op).of_ints({a, b, {}, context});
 }
 
 Value apply(Operator op, double a, double b, Context& context) {
     if (is_comparison(op)) return compare(op, a, b);
-    if (gives_int(op)) return apply_to_int(op, a);
-    return apply_real(op, a, b, {}, context);
+    const OperatorKernels& kernels = kernels_of(op);
+    if (kernels.to_int) return kernels.to_int(a);
+    return kernels.of_reals({a, b, {}, context});
 }
 
 template <class T>
@@ -46,9 +42,12 @@ std::optional<Value> fold_numeric(Reduction op, std::int64_t size, T body) {
         case Reduction::ArgMin:
         case Reduction::ArgMax:
             return std::int64_t{0};
-        default:
-            return std::nullopt;
+        case Reduction::Average:
+        case Reduction::ForAll:
+        case Reduction::Exists:
+            break;
     }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -102,9 +101,14 @@ std::optional<Value> fold_empty(Reduction op, Scalar type) {
             return true;
         case Reduction::Exists:
             return false;
-        default:
-            return std::nullopt;
+        case Reduction::Average:
+        case Reduction::Minimum:
+        case Reduction::Maximum:
+        case Reduction::ArgMin:
+        case Reduction::ArgMax:
+            break;
     }
+    return std::nullopt;
 }
 
 }  // namespace rddlc::ir

@@ -13,13 +13,13 @@ std::int64_t count_at_most(const Table& sorted, const Value& value);
 
 Value convert(const Value& value, Scalar type);
 
-// None where it faults.
+// Nothing if it faults.
 std::optional<Value> fold(Operator op, std::span<const Value> operands);
 
-// Of a body that is the same for all of `size` > 0 objects.
+// The reduction of a body that is the same for all of `size` > 0 objects.
 std::optional<Value> fold(Reduction op, std::int64_t size, const Value& body);
 
-// Over no objects; none for those that have no value there.
+// The value over no objects; nothing for reductions that have no value there.
 std::optional<Value> fold_empty(Reduction op, Scalar type);
 
 }  // namespace rddlc::ir

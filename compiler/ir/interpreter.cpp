@@ -3,7 +3,7 @@
 #include "ir/analysis.hpp"
 #include "ir/layout.hpp"
 
-#include <rddl/moderate.hpp>
+#include <rddl/values/moderate.hpp>
 
 #include <algorithm>
 #include <span>

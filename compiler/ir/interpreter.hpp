@@ -1,4 +1,4 @@
-// Runs a program without a C++ compiler: an engine for rddl::Batch (rddl/engine.hpp), and the
+// Runs a program without a C++ compiler: an engine for rddl::Batch (rddl/step/engine.hpp), and the
 // oracle that compiled simulators are tested against, bit for bit.
 #pragma once
 
@@ -21,10 +21,10 @@ class Interpreter {
     explicit Interpreter(Program program, ExternalFunctions functions = {});
 
     const Program& program() const { return *program_; }
-    // As Evaluator::round_by.
+    // See Evaluator::round_by.
     void round_by(Rounding& rounding) { evaluator_.round_by(rounding); }
 
-    // In bytes.
+    // Sizes in bytes.
     std::size_t state_size() const { return state_size_; }
     std::size_t action_size() const { return action_size_; }
     std::size_t observation_size() const { return observation_size_; }
@@ -45,8 +45,8 @@ class Interpreter {
                 std::byte* next, std::byte* observation, Context& context,
                 Outcomes* outcomes) const;
 
-    // Of a program for moderate values only: are all reals of the state and the action moderate
-    // that it takes to be? Any other program may step from anywhere.
+    // Whether all reals of the state and the action are moderate that a program for moderate values
+    // assumes so. Any other program may step from anywhere.
     bool may_step_from(const std::byte* state, const std::byte* action) const;
 
     // Does any termination condition hold?
@@ -57,7 +57,7 @@ class Interpreter {
     int violated_precondition(const std::byte* state, const std::byte* action,
                               Context& context) const;
 
-    // The policy block (rddl/engine.hpp: PolicyEngine), if there is one.
+    // The policy block (rddl/step/engine.hpp: PolicyEngine), if there is one.
     bool has_policy() const { return program_->policy.has_value(); }
     std::size_t memory_size() const { return memory_size_; }
     void reset_policy(std::byte* memory) const;

@@ -10,11 +10,11 @@
 // right operand of And, Or and Implies cannot fault; buffers are read after they are computed.
 #pragma once
 
-#include "ir/range.hpp"
 #include "model/table.hpp"
-#include "model/vocabulary.hpp"
 #include "support/box.hpp"
 #include "support/source.hpp"
+#include "vocabulary/range.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -26,7 +26,7 @@
 
 namespace rddlc {
 
-// What a simulator computes reals in: 64 bits, as the interpreter does, or 32.
+// The type in which a simulator computes reals: 64 bits, as the interpreter does, or 32.
 enum class RealType : std::uint8_t { Double, Float };
 std::string_view name_of(RealType real);  // "double", "float"
 
@@ -93,7 +93,7 @@ struct Buffer {
     }
 };
 
-// Where a draw or a fault happens: a site of the program text and the place inside its scope.
+// The place of a draw or a fault: a site of the program text and the place inside its scope.
 // Site::series and the index are the counter of the random number generator, so a draw is the same
 // wherever and whenever it is evaluated.
 struct Place {
@@ -225,8 +225,8 @@ struct Store {
 struct Loop {
     VariableId variable;
     Block body;
-    // With the loops right inside of it, it may run over several objects at once: no iteration
-    // needs another (passes/evaluate_together.hpp).
+    // The loop, with the loops right inside of it, may run over several objects at once: no
+    // iteration needs another (passes/lanes/evaluate_together.hpp).
     bool several_at_once = false;
 };
 // A part of a buffer: the leading dimensions have indices, the others are passed whole.
@@ -278,7 +278,7 @@ struct ObjectType {
     std::vector<std::string> objects;
 };
 
-// A pvariable as declared: what the simulator tells about itself.
+// A pvariable as declared: the simulator's description of itself.
 struct Fluent {
     std::string name;
     Role role;
@@ -287,10 +287,10 @@ struct Fluent {
     std::vector<std::uint32_t> parameter_types;  // index into Program::types
     std::optional<BufferId> buffer;              // absent: nothing reads it (a pass found out)
     Span span;
-    // NonFluent: what the instance says, whatever passes make of the buffer; else empty.
+    // NonFluent: the instance's values, whatever passes make of the buffer; else empty.
     Table values;
-    // Per grounding, from action-preconditions and state-invariants (semantics of env-and-viz 1.1);
-    // -inf/+inf where nothing bounds it. Only for numeric State and Action fluents; else empty.
+    // The bounds per grounding, from action-preconditions and state-invariants (Semantics 8.4);
+    // -inf/+inf without a bound. Only for numeric State and Action fluents; else empty.
     std::vector<double> lower, upper;
 };
 
@@ -306,11 +306,12 @@ struct Program {
     std::string domain_name;
     std::string instance_name;
     std::uint64_t fingerprint = 0;  // of the dynamics (model/fingerprint.hpp)
-    // Of emitted code. Constants are those of doubles here, and rounded where they are written.
+    // The reals of emitted code. Constants are those of doubles here, and rounded where they are
+    // written.
     RealType real = RealType::Double;
     // --fast-math: reals that are computed are taken to be never inf or nan.
     bool assumes_finite = false;
-    // Right only for steps from moderate states and actions (rddl/moderate.hpp).
+    // Right only for steps from moderate states and actions (rddl/values/moderate.hpp).
     bool only_moderate = false;
     // Makes such steps in place of this program, with less work. It has the same sites.
     std::optional<Box<Program>> moderate = {};
@@ -324,10 +325,10 @@ struct Program {
     std::vector<External> externals;
     std::uint32_t local_count = 0;
 
-    // What is drawn when an episode starts, into State buffers that hold their values already.
-    // Reads constants only.
+    // The draws at the start of an episode, into State buffers that hold their values already. They
+    // read constants only.
     std::vector<Definition> reset;
-    // The CPFs in evaluation order. Those that fill Observation buffers run like all others, in
+    // The CPFs in evaluation order. CPFs that fill Observation buffers run like all others, in
     // their place.
     std::vector<Definition> step;
     Computation reward;                      // Real
@@ -335,7 +336,7 @@ struct Program {
     std::vector<Computation> invariants;
     std::vector<Computation> terminations;
 
-    std::int64_t horizon = 0;  // 0: none
+    std::int64_t horizon = 0;  // 0: no horizon (pos-inf)
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;
 

@@ -1,4 +1,4 @@
-// Where each buffer lies in its record: plain C struct rules, fluents in declaration order.
+// The place of each buffer in its record: plain C struct rules, fluents in declaration order.
 #pragma once
 
 #include "ir/ir.hpp"

@@ -22,7 +22,7 @@ void set_dimensions(const Program& program, Buffer& table,
         table.shape.push_back(program[variable].size);
         if (program[variable].type) table.types.push_back(*program[variable].type);
     }
-    // Of objects in all dimensions, or in none.
+    // Types are known in all dimensions or dropped.
     if (table.types.size() != table.shape.size()) table.types.clear();
 }
 

@@ -17,8 +17,8 @@ namespace rddlc::ir {
 void set_dimensions(const Program& program, Buffer& table,
                     const std::vector<VariableId>& variables);
 
-// Knows which names are taken and which constant tables there are, so that a table more takes no
-// look at all others. Others may append to the program's buffers as well.
+// Knows which names are taken and which constant tables exist, so that one more table needs no
+// search through all others. Others may also append to the program's buffers.
 class NewTables {
   public:
     // The program must outlive this.
@@ -30,12 +30,12 @@ class NewTables {
     BufferId add(Buffer table);
 
     // A table that the step fills with the values of an expression, with a dimension for each of
-    // these loop indices, named as it wishes if nobody else is.
+    // these loop indices. It gets the wished name if that is free.
     BufferId scratch(const std::string& wish, Scalar scalar, std::optional<Range> range,
                      const std::vector<VariableId>& variables, Span span);
 
-    // A constant table like this one, if there is one already; else a new one, named as it wishes
-    // if nobody else is.
+    // A constant table like this one, if one exists; otherwise a new one. It gets the wished name
+    // if that is free.
     BufferId constant(Buffer table);
 
   private:

@@ -2,7 +2,7 @@
 
 #include "support/failure.hpp"
 
-#include <rddl/distributions/saddle_point.hpp>
+#include <rddl/random/distributions/saddle_point.hpp>
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t most_trials = 1'000'000;
 
-// The first one with a positive probability from `begin` on; the size if there is none.
+// The first one with a positive probability from `begin` on; the size if all are 0.
 std::size_t next_possible(const std::vector<double>& probabilities, std::size_t begin) {
     const auto found = std::find_if(probabilities.begin() + static_cast<std::ptrdiff_t>(begin),
                                     probabilities.end(), [](double p) { return p > 0; });
@@ -38,23 +38,6 @@ std::vector<double> binomial_probabilities(std::int64_t trials, double p) {
     for (std::size_t k = 0; k < probabilities.size(); ++k)
         probabilities[k] = std::exp(rddl::ln_binomial_probability(static_cast<double>(k), n, p));
     return probabilities;
-}
-
-bool is_certain(Distribution distribution, double a, double b) {
-    switch (distribution) {
-        case Distribution::Uniform:
-            return a == b;
-        case Distribution::Normal:
-            return b == 0;
-        case Distribution::Poisson:
-            return a == 0;
-        case Distribution::Geometric:
-            return a >= 1;
-        case Distribution::NegativeBinomial:
-            return b >= 1;
-        default:
-            return false;
-    }
 }
 
 std::int64_t Outcomes::choose(rddl::Place place, std::vector<double> probabilities,

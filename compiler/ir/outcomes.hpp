@@ -1,9 +1,7 @@
 // The outcomes of a step's draws, one combination after the other, instead of random ones.
 #pragma once
 
-#include "model/vocabulary.hpp"
-
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +11,9 @@
 
 namespace rddlc::ir {
 
-// Of the counts from 0 to trials, for trials >= 0 and 0 <= p <= 1. Throws a Failure where the list
-// would be too long.
+// The probabilities of the counts from 0 to trials, for trials >= 0 and 0 <= p <= 1. Throws a
+// Failure if the list would be too long.
 std::vector<double> binomial_probabilities(std::int64_t trials, double p);
-
-// Whether a draw with these parameters has one result only, such as a normal one without variance.
-bool is_certain(Distribution distribution, double a, double b);
 
 // Evaluations that are given it ask it at each finite draw. They are made again and again, each
 // with other choices, until next() says that there are no more: depth first, in the order of the
@@ -27,15 +22,15 @@ bool is_certain(Distribution distribution, double a, double b);
 //     do { evaluate; use probability(); } while (outcomes.next());
 class Outcomes {
   public:
-    // An index into the probabilities, of which at least one is positive; what is chosen has a
-    // positive one. A draw that is evaluated twice is one draw. part: of a vector that is drawn.
+    // An index into the probabilities, of which at least one is positive; the chosen one is
+    // positive. A draw that is evaluated twice is one draw. part: of a vector that is drawn.
     std::int64_t choose(rddl::Place place, std::vector<double> probabilities, std::size_t part = 0);
 
     // Counts of the trials in each category, whose probabilities sum up to about 1.
     void choose_multinomial(rddl::Place place, std::int64_t trials,
                             std::span<const double> probabilities, std::span<std::int64_t> counts);
 
-    // Of the choices made since the last next().
+    // The probability of the choices made since the last next().
     double probability() const;
 
     // False if all combinations have been made.

@@ -34,35 +34,27 @@ struct Infix {
 };
 
 std::optional<Infix> infix_of(Operator op) {
-    switch (op) {
-        case Operator::Add:
-            return Infix{"+", sum_level};
-        case Operator::Subtract:
-            return Infix{"-", sum_level};
-        case Operator::Multiply:
-            return Infix{"*", product_level};
-        case Operator::Divide:
-            return Infix{"/", product_level};
-        case Operator::Equal:
-        case Operator::Equivalent:
-            return Infix{"==", equality_level};
-        case Operator::NotEqual:
-            return Infix{"!=", equality_level};
-        case Operator::Less:
-            return Infix{"<", order_level};
-        case Operator::LessEqual:
-            return Infix{"<=", order_level};
-        case Operator::Greater:
-            return Infix{">", order_level};
-        case Operator::GreaterEqual:
-            return Infix{">=", order_level};
-        case Operator::And:
-            return Infix{"&&", and_level};
-        case Operator::Or:
-            return Infix{"||", or_level};
-        default:
-            return std::nullopt;
-    }
+    struct Row {
+        Operator op;
+        Infix infix;
+    };
+    constexpr Row rows[] = {
+        {Operator::Add, {"+", sum_level}},
+        {Operator::Subtract, {"-", sum_level}},
+        {Operator::Multiply, {"*", product_level}},
+        {Operator::Divide, {"/", product_level}},
+        {Operator::Equal, {"==", equality_level}},
+        {Operator::Equivalent, {"==", equality_level}},
+        {Operator::NotEqual, {"!=", equality_level}},
+        {Operator::Less, {"<", order_level}},
+        {Operator::LessEqual, {"<=", order_level}},
+        {Operator::Greater, {">", order_level}},
+        {Operator::GreaterEqual, {">=", order_level}},
+        {Operator::And, {"&&", and_level}},
+        {Operator::Or, {"||", or_level}},
+    };
+    const auto* row = std::ranges::find(rows, op, &Row::op);
+    return row == std::end(rows) ? std::nullopt : std::optional(row->infix);
 }
 
 std::optional<std::string_view> prefix_of(Operator op) {

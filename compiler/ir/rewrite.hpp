@@ -1,5 +1,5 @@
-// Rebuilding programs, for passes: every expression goes through a builder again, so that what a
-// replacement makes known is folded at once, and what nobody uses any more is gone.
+// Rebuilding programs, for passes: every expression goes through a builder again, so that constants
+// that a replacement reveals are folded at once, and unused nodes are gone.
 #pragma once
 
 #include "ir/builder.hpp"
@@ -11,17 +11,17 @@
 
 namespace rddlc::ir {
 
-// Given a node's old id, and the node with its operands rewritten already: what stands for it;
-// none: itself.
+// Gets a node's old id, and the node with its operands rewritten already; returns its replacement,
+// or nothing to keep it.
 using Replace = std::function<std::optional<NodeId>(Builder&, NodeId, const Node&)>;
 
 // The program with every reachable node replaced, operands first.
 Program rewrite(Program program, const Replace& replace);
-// A node with others in place of those below it (or of itself) that are keys of `known`; what it
-// finds out is added there.
+// A node with others in place of those below it (or of itself) that are keys of `known`; new
+// results are added there.
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known);
-// The same where `find` gives what stands for a node that is not known yet; none: itself, with what
-// is found in its operands. So the outermost nodes that something is found for are replaced.
+// The same if `find` gives the replacement of a node that is not known yet, or nothing to keep it
+// with replacements in its operands. So the outermost nodes with a replacement are replaced.
 using Find = std::function<std::optional<NodeId>(NodeId)>;
 NodeId replace_in(Builder& builder, NodeId id, std::map<NodeId, NodeId>& known, const Find& find);
 // Drops unreachable nodes.

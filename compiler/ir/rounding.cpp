@@ -29,7 +29,7 @@ double Rounding::of_function(Operator op, double result) {
     return result + error(result, usual);
 }
 
-// Knuth's two-sum tells what is lost.
+// Knuth's two-sum gives the lost part.
 double Rounding::sum(double a, double b) {
     const double sum = a + b, second = sum - a;
     const double lost = (a - (sum - second)) + (b - second);

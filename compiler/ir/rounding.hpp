@@ -1,11 +1,12 @@
 // Other last digits: how far apart two right answers may be where values cancel.
 //
-// Monte Carlo arithmetic (D. S. Parker, 1997), of what differs between right implementations alone:
-// results of elementary functions, and sums and products, whose order is free. Operators that IEEE
-// rounds, and sums that are exact, stay as they are, so that comparisons of exact values do, too.
+// Monte Carlo arithmetic (D. S. Parker, 1997), of the differences between right implementations
+// alone: results of elementary functions, and sums and products, whose order is free. Operators
+// that IEEE rounds, and sums that are exact, stay as they are, and so do comparisons of exact
+// values.
 #pragma once
 
-#include "model/vocabulary.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <cstdint>
 #include <random>
@@ -16,9 +17,9 @@ class Rounding {
   public:
     explicit Rounding(std::uint64_t seed) : random_(seed) {}
 
-    // What another library may give for this result of an operator on reals.
+    // A result that another library may give for this operator on reals.
     double of_function(Operator op, double result);
-    // What adding or multiplying in another order may give.
+    // A result that adding or multiplying in another order may give.
     double sum(double a, double b);
     double product(double a, double b);
 

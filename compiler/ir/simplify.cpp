@@ -14,20 +14,9 @@ bool has_value(const Program& program, NodeId id, const Value& expected) {
 
 // The same result for zeros of both signs.
 bool is_blind_to_signs_of_zero(Operator op) {
-    if (is_comparison(op)) return true;
-    switch (op) {
-        case Operator::Abs:
-        case Operator::Sign:
-        case Operator::Round:
-        case Operator::Floor:
-        case Operator::Ceil:
-        case Operator::Exp:
-        case Operator::Cos:
-        case Operator::Cosh:
-            return true;
-        default:
-            return false;
-    }
+    return is_comparison(op) ||
+           is_one_of(op, {Operator::Abs, Operator::Sign, Operator::Round, Operator::Floor,
+                          Operator::Ceil, Operator::Exp, Operator::Cos, Operator::Cosh});
 }
 
 class Simplifier {
@@ -36,41 +25,31 @@ class Simplifier {
         : builder_(builder), op_(op), a_(operands.front()), b_(operands.back()) {}
 
     std::optional<NodeId> simplify() {
-        switch (op_) {
-            case Operator::Add:
-                return add();
-            case Operator::Subtract:
-                return subtract();
-            case Operator::Multiply:
-                return multiply();
-            case Operator::Divide:
-                return is(b_, 1.0) ? std::optional(a_) : std::nullopt;
-            case Operator::Negate:
-                return operand_of(a_, Operator::Negate);
-            case Operator::And:
-                return both();
-            case Operator::Or:
-                return either();
-            case Operator::Not:
-                return negation();
-            case Operator::Implies:
-                return implication();
-            case Operator::Equal:
-            case Operator::Equivalent:
-                return equality();
-            case Operator::NotEqual:
-                return inequality();
-            case Operator::Minimum:
-            case Operator::Maximum:
-                return extremum();
-            case Operator::BitAnd:
-                return common_bits();
-            case Operator::BitOr:
-            case Operator::BitXor:
-                return united_bits();
-            default:
-                return std::nullopt;
-        }
+        struct Rule {
+            Operator op;
+            std::optional<NodeId> (Simplifier::*simplify)();
+        };
+        constexpr Rule rules[] = {
+            {Operator::Add, &Simplifier::add},
+            {Operator::Subtract, &Simplifier::subtract},
+            {Operator::Multiply, &Simplifier::multiply},
+            {Operator::Divide, &Simplifier::divide},
+            {Operator::Negate, &Simplifier::negate},
+            {Operator::And, &Simplifier::both},
+            {Operator::Or, &Simplifier::either},
+            {Operator::Not, &Simplifier::negation},
+            {Operator::Implies, &Simplifier::implication},
+            {Operator::Equal, &Simplifier::equality},
+            {Operator::Equivalent, &Simplifier::equality},
+            {Operator::NotEqual, &Simplifier::inequality},
+            {Operator::Minimum, &Simplifier::extremum},
+            {Operator::Maximum, &Simplifier::extremum},
+            {Operator::BitAnd, &Simplifier::common_bits},
+            {Operator::BitOr, &Simplifier::united_bits},
+            {Operator::BitXor, &Simplifier::united_bits},
+        };
+        const auto* rule = std::ranges::find(rules, op_, &Rule::op);
+        return rule == std::end(rules) ? std::nullopt : (this->*rule->simplify)();
     }
 
   private:
@@ -113,7 +92,7 @@ class Simplifier {
     bool is_zero(NodeId id) const { return is(id, std::int64_t{0}) || is(id, 0.0); }
     bool is_one(NodeId id) const { return is(id, std::int64_t{1}) || is(id, 1.0); }
 
-    // Of equal numbers they take the first: max[0.0, x] is x only if that is greater than 0.
+    // Equal operands give the first one: max[0.0, x] is x only if x is greater than 0.
     std::optional<NodeId> extremum() {
         if (a_ == b_) return a_;
         const NodeId b = without_zero(b_);
@@ -148,6 +127,9 @@ class Simplifier {
         if (is(b_, std::int64_t{0}) && droppable(a_)) return b_;
         return std::nullopt;
     }
+
+    std::optional<NodeId> divide() { return is(b_, 1.0) ? std::optional(a_) : std::nullopt; }
+    std::optional<NodeId> negate() { return operand_of(a_, Operator::Negate); }
 
     std::optional<NodeId> both() {
         if (is(a_, true) || a_ == b_) return b_;
@@ -186,18 +168,11 @@ class Simplifier {
         if (op == Operator::Equal) return Operator::NotEqual;
         if (op == Operator::NotEqual) return Operator::Equal;
         if (reals) return std::nullopt;
-        switch (op) {
-            case Operator::Less:
-                return Operator::GreaterEqual;
-            case Operator::LessEqual:
-                return Operator::Greater;
-            case Operator::Greater:
-                return Operator::LessEqual;
-            case Operator::GreaterEqual:
-                return Operator::Less;
-            default:
-                return std::nullopt;
-        }
+        if (op == Operator::Less) return Operator::GreaterEqual;
+        if (op == Operator::LessEqual) return Operator::Greater;
+        if (op == Operator::Greater) return Operator::LessEqual;
+        if (op == Operator::GreaterEqual) return Operator::Less;
+        return std::nullopt;
     }
 
     std::optional<NodeId> equality() {

@@ -24,7 +24,7 @@ namespace rddlc::ir {
 //     min[x, x], x && x                      x
 std::optional<NodeId> simplify(Builder& builder, Operator op, std::span<const NodeId> operands);
 
-// x of 0.0 + x; any other node is itself. The same number, but for the sign of a zero.
+// x of 0.0 + x; any other node is itself. The same number, except for the sign of a zero.
 NodeId without_zero(const Program& program, NodeId id);
 
 //     select(true, a, b)                     a

@@ -28,7 +28,7 @@ double most_ones_of(const Table& words) {
     return most;
 }
 
-// What is known, or else what `find` gives.
+// The known fact, or else the result of `find`.
 template <class T, class Find>
 T known(std::optional<T>& fact, const Find& find) {
     if (!fact) fact = find();

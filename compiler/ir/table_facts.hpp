@@ -1,25 +1,26 @@
-// What the values of constant tables tell about the nodes that read them.
+// Facts about the values of constant tables, for the nodes that read them.
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/range.hpp"
+#include "vocabulary/range.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace rddlc::ir {
 
-// The least and the greatest value; none if there are no values, or a nan.
+// The least and the greatest value; nothing if there are no values, or a nan.
 std::optional<Range> range_of(const Table& values);
 
 // Found out when it is first asked for, and then known: many nodes read the same table.
 class TableFacts {
   public:
-    // Of constant buffers, whose values do not change while this lives. There may come more.
+    // The range of constant buffers, whose values do not change while this lives. More may be
+    // added.
     std::optional<Range> range(const Program& program, BufferId table);
-    // Of a table of where rows begin: the length of the longest one.
+    // The length of the longest row of a table of where rows begin.
     double longest_row(const Program& program, BufferId table);
-    // Of a table of ints: the most bits that are 1 in one of them.
+    // The largest number of 1 bits in an element of a table of ints.
     double most_ones(const Program& program, BufferId table);
     // Is some element -0.0?
     bool has_negative_zero(const Program& program, BufferId table);

@@ -1,7 +1,7 @@
 #include "ir/table_kernels.hpp"
 
-#include <rddl/distributions/vectors.hpp>
-#include <rddl/linear_algebra.hpp>
+#include <rddl/random/distributions/vectors.hpp>
+#include <rddl/values/linear_algebra.hpp>
 
 namespace rddlc::ir {
 namespace {

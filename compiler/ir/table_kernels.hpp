@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ir/ir.hpp"
-#include "ir/kernels.hpp"
+#include "vocabulary/kernels.hpp"
 
 #include <array>
 #include <cstddef>

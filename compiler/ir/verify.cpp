@@ -1,3 +1,4 @@
+// Over 400 lines: a rule of the IR after the other, for each kind of node and statement.
 #include "ir/verify.hpp"
 
 #include "ir/analysis.hpp"
@@ -56,9 +57,8 @@ class Verifier {
         }
         std::map<Likeness, int> counts;
         for (const Buffer& buffer : program_.buffers) ++counts[likeness(buffer, buffer.storage)];
-        const bool makes_states = std::ranges::any_of(program_.buffers, [](const Buffer& buffer) {
-            return buffer.storage == Storage::Next;
-        });
+        const bool makes_states = std::ranges::any_of(
+            program_.buffers, [](const Buffer& buffer) { return buffer.storage == Storage::Next; });
         for (const Buffer& buffer : program_.buffers) {
             if (buffer.storage == Storage::State && makes_states)
                 require(counts[likeness(buffer, Storage::Next)] == 1, "'{}' has no next state",
@@ -86,7 +86,7 @@ class Verifier {
         require(buffer.values.all_of(typed), "'{}' has values of another type", buffer.name);
     }
 
-    // What a buffer and that of its next value have in common, apart from the storage.
+    // The common properties of a buffer and that of its next value, apart from the storage.
     using Likeness = std::tuple<std::string_view, std::vector<std::int64_t>, Scalar, Storage>;
     static Likeness likeness(const Buffer& buffer, Storage storage) {
         return {buffer.name, buffer.shape, buffer.scalar, storage};
@@ -185,7 +185,7 @@ class Verifier {
         }
     }
 
-    // For complaints: to print every node would take the square of their number.
+    // The text for complaints: printing every node would take the square of their number.
     std::string text_unless(bool ok, NodeId id) const { return ok ? "" : print(program_, id); }
 
     void numbers_fit(const Site& site) {
@@ -272,46 +272,25 @@ class Verifier {
     }
     static bool fits(Operator op, Scalar operand, Scalar result) {
         const bool is_bool = operand == Scalar::Bool;
-        switch (op) {
-            case Operator::Equal:
-            case Operator::NotEqual:
+        switch (typing_of(op)) {
+            case Typing::Equality:
                 return result == Scalar::Bool;
-            case Operator::Less:
-            case Operator::LessEqual:
-            case Operator::Greater:
-            case Operator::GreaterEqual:
+            case Typing::Order:
                 return !is_bool && result == Scalar::Bool;
-            case Operator::And:
-            case Operator::Or:
-            case Operator::Not:
-            case Operator::Implies:
-            case Operator::Equivalent:
+            case Typing::Logic:
                 return is_bool && result == Scalar::Bool;
-            case Operator::FloorDivide:
-            case Operator::FloorModulo:
-            case Operator::BitAnd:
-            case Operator::BitOr:
-            case Operator::BitXor:
-            case Operator::CountOnes:
-                return operand == Scalar::Int && result == Scalar::Int;
-            case Operator::Sign:
-                return !is_bool && result == Scalar::Int;
-            case Operator::Round:
-            case Operator::Floor:
-            case Operator::Ceil:
-                return operand == Scalar::Real && result == Scalar::Int;
-            case Operator::Add:
-            case Operator::Subtract:
-            case Operator::Multiply:
-            case Operator::Negate:
-            case Operator::Abs:
-            case Operator::Minimum:
-            case Operator::Maximum:
-            case Operator::Power:
+            case Typing::Numbers:
                 return !is_bool && result == operand;
-            default:
+            case Typing::Ints:
+                return operand == Scalar::Int && result == Scalar::Int;
+            case Typing::Reals:
                 return operand == Scalar::Real && result == Scalar::Real;
+            case Typing::Rounding:
+                return operand == Scalar::Real && result == Scalar::Int;
+            case Typing::Sign:
+                return !is_bool && result == Scalar::Int;
         }
+        return false;
     }
     bool fits(const Reduce& form, Scalar result) const {
         const Scalar body = type(form.body);
@@ -340,30 +319,25 @@ class Verifier {
                facts_[bounds.begin.index].uniform && facts_[bounds.end.index].uniform;
     }
     bool fits(const Sample& form, Scalar result) const {
-        if (form.parameters.size() != static_cast<std::size_t>(arity_of(form.distribution))) {
-            return false;
+        if (form.parameters.size() != arity_of(form.distribution)) return false;
+        for (std::size_t i = 0; i < form.parameters.size(); ++i) {
+            const Scalar taken = takes_int(form.distribution, i) ? Scalar::Int : Scalar::Real;
+            if (type(form.parameters[i]) != taken) return false;
         }
-        const bool counted = form.distribution == Distribution::Binomial;
-        if (type(form.parameters.front()) != (counted ? Scalar::Int : Scalar::Real)) return false;
-        const bool plural = form.parameters.size() > 1;
-        if (plural && type(form.parameters.back()) != Scalar::Real) return false;
         return drawn(form.distribution) == result;
     }
     static std::optional<Scalar> drawn(Distribution distribution) {
-        switch (distribution) {
-            case Distribution::KronDelta:
-            case Distribution::DiracDelta:
-                return std::nullopt;
-            case Distribution::Bernoulli:
+        switch (drawn_by(distribution)) {
+            case Drawn::Bool:
                 return Scalar::Bool;
-            case Distribution::Poisson:
-            case Distribution::Binomial:
-            case Distribution::NegativeBinomial:
-            case Distribution::Geometric:
+            case Drawn::Int:
                 return Scalar::Int;
-            default:
+            case Drawn::Real:
                 return Scalar::Real;
+            case Drawn::AsGiven:
+                break;
         }
+        return std::nullopt;
     }
     bool fits(const Discrete& form, Scalar result) const {
         const auto is_real = [&](NodeId id) {
@@ -389,7 +363,7 @@ class Verifier {
 
     // --------------------------------------------------------------------- statements
 
-    // What is known where a statement stands.
+    // The names that a statement may use.
     struct Scope {
         std::set<VariableId> variables;
         std::set<LocalId> locals;
@@ -631,7 +605,7 @@ class Verifier {
     std::vector<Facts> facts_;
     StorageSet computed_;                               // what the current block computes
     std::map<BufferId, int> defined_;                   // and in which body
-    int body_ = 0;                                      // how many have been looked at
+    int body_ = 0;                                      // how many have been checked
     std::vector<std::vector<VariableId>> bound_below_;  // sorted, by NodeId::index
     std::map<LocalId, Scalar> let_types_;
     std::vector<std::string> complaints_;
@@ -646,9 +620,8 @@ std::vector<std::string> verify(const Program& program) {
 void expect_valid(const Program& program, const char* stage) {
     const std::vector<std::string> complaints = verify(program);
     if (complaints.empty()) return;
-    fmt::print(stderr, "rddlc: internal error: the program is malformed after {}:\n{}\n", stage,
-               fmt::join(complaints, "\n"));
-    std::abort();
+    own_mistake(fmt::format("the program is malformed after {}:\n{}\n", stage,
+                            fmt::join(complaints, "\n")));
 }
 
 }  // namespace rddlc::ir

@@ -1,4 +1,4 @@
-// A number that tells the dynamics of problems apart.
+// A number that distinguishes the dynamics of problems.
 #pragma once
 
 #include "model/model.hpp"
@@ -7,9 +7,9 @@
 
 namespace rddlc::model {
 
-// Of everything that a trajectory depends on: types and objects, fluents, non-fluents, the initial
-// state and its draws, CPFs, reward, conditions, horizon and discount. Comments, layout and the
-// policy block do not change it.
+// The fingerprint of everything that a trajectory depends on: types and objects, fluents,
+// non-fluents, the initial state and its draws, CPFs, reward, conditions, horizon and discount.
+// Comments, layout and the policy block do not change it.
 std::uint64_t fingerprint(const Model& model);
 
 }  // namespace rddlc::model

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "model/table.hpp"
-#include "model/vocabulary.hpp"
 #include "support/box.hpp"
 #include "support/source.hpp"
+#include "vocabulary/vocabulary.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -167,8 +167,8 @@ struct Cpf {
     Span span;
 };
 
-// A policy block: how to choose the action. What it declares are state-fluents (its memory),
-// derived-fluents and non-fluents, among which param-fluents are.
+// A policy block: how to choose the action. It declares state-fluents (its memory), derived-fluents
+// and non-fluents, among which param-fluents are.
 struct Policy {
     std::string name;
     FluentId first_fluent;  // from there on, Model::fluents are the policy's own
@@ -193,14 +193,14 @@ struct Model {
     std::vector<Variable> variables;
 
     std::vector<InitialDraw> initial_draws;  // of different groundings, in the order written
-    std::vector<Cpf> cpfs;                   // in evaluation order (semantics 4.6)
+    std::vector<Cpf> cpfs;                   // in evaluation order (Semantics 4.6)
     Expr reward;                             // real
     // Each of type bool. State-action constraints are not kept: nothing enforces them.
     std::vector<Expr> action_preconditions;
     std::vector<Expr> state_invariants;
     std::vector<Expr> terminations;
 
-    std::int64_t horizon = 0;  // 0: none (pos-inf)
+    std::int64_t horizon = 0;  // 0: no horizon (pos-inf)
     double discount = 1.0;
     std::optional<std::int64_t> max_nondef_actions;  // absent: no limit (pos-inf)
 

@@ -32,7 +32,7 @@ std::uint64_t cube(std::uint64_t n) {
     return n * n * n;
 }
 
-// Of the first n numbers, from 1 on.
+// The sum of the cubes of the first n numbers, from 1 on.
 std::uint64_t sum_of_cubes(std::uint64_t n) {
     const std::uint64_t sum = n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n;
     return sum * sum;
@@ -63,32 +63,34 @@ Table::Table(const std::vector<Value>& values)
     : size_(std::ssize(values)), common_(majority_of(values)) {
     for (std::int64_t i = 0; i < size_; ++i) {
         const Value& value = values[static_cast<std::size_t>(i)];
-        if (!identical(value, common_)) exceptions_.emplace_hint(exceptions_.end(), i, value);
+        if (!identical(value, common_)) exceptions_->emplace_hint(exceptions_->end(), i, value);
     }
 }
 
 const Value& Table::operator[](std::int64_t index) const {
-    const auto found = exceptions_.find(index);
-    return found == exceptions_.end() ? common_ : found->second;
+    const auto found = exceptions_->find(index);
+    return found == exceptions_->end() ? common_ : found->second;
 }
 
 void Table::set(std::int64_t index, Value value) {
+    if (exceptions_.use_count() > 1)
+        exceptions_ = std::make_shared<std::map<std::int64_t, Value>>(*exceptions_);
     if (identical(value, common_)) {
-        exceptions_.erase(index);
+        exceptions_->erase(index);
     } else {
-        exceptions_.insert_or_assign(index, value);
+        exceptions_->insert_or_assign(index, value);
     }
 }
 
 bool Table::is_uniform() const {
-    if (exceptions_.empty()) return !empty();
+    if (exceptions_->empty()) return !empty();
     if (has_common()) return false;
     return all_of([&](const Value& value) { return identical(value, (*this)[0]); });
 }
 
 std::vector<Value> Table::dense() const {
     std::vector<Value> values(static_cast<std::size_t>(size_), common_);
-    for (const auto& [index, value] : exceptions_) values[static_cast<std::size_t>(index)] = value;
+    for (const auto& [index, value] : *exceptions_) values[static_cast<std::size_t>(index)] = value;
     return values;
 }
 

@@ -1,4 +1,4 @@
-// Characters that nobody sees, or that look like others.
+// Characters that are invisible, or that look like others.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace rddlc {
 // How messages speak of characters that mean nothing: in quotes, or by name if any is invisible.
 std::string spoken(std::string_view characters);
 
-// What to do about the first of them that is invisible or looks like one of RDDL; else empty.
+// A hint about the first of them that is invisible or looks like one of RDDL; else empty.
 std::string hint_for_lookalike(std::string_view characters);
 
 }  // namespace rddlc

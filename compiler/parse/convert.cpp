@@ -55,7 +55,7 @@ ast::Integer to_integer(const Conversion& conversion, std::string text, Span spa
     return {value};
 }
 
-// Of a number that fits no double: whether it is too large, and not too small. strtod would know,
+// Whether a number that fits no double is too large, and not too small. strtod would know, but only
 // in the locale of the application.
 bool is_large(std::string_view text) {
     const std::size_t mark = std::min(text.find_first_of("eE"), text.size());
@@ -78,7 +78,7 @@ bool is_large(std::string_view text) {
 ast::Real to_real(const Conversion& conversion, std::string text, Span span) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // What is too small is zero.
+    // A number that is too small is zero.
     if (error == std::errc::result_out_of_range && is_large(text))
         conversion.diagnostics.report(
             {number_out_of_range, span, "this number is too large for a real"});

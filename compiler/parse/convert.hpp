@@ -1,4 +1,4 @@
-// From ANTLR's tree to ours: free functions, one for each rule of grammar/RDDL.g4. The tree is
+// Converts ANTLR's tree to ours: free functions, one for each rule of grammar/RDDL.g4. The tree is
 // free of syntax errors; the depth of recursion is bounded by parse/limits.hpp.
 #pragma once
 
@@ -14,7 +14,7 @@ struct Conversion {
 
 // convert.cpp: what everything is made of
 Span span_of(const Conversion& conversion, const antlr4::ParserRuleContext& context);
-// Without the mark of "?x" and "@a".
+// The name without the mark of "?x" and "@a".
 ast::Name to_name(const Conversion& conversion, const Token& token);
 ast::Name to_name(const Conversion& conversion, antlr4::tree::TerminalNode* node);
 // An identifier as a fluent's name: the apostrophe is not part of it.

@@ -45,7 +45,7 @@ const std::vector<Group>& groups() {
          "a section of the instance ('objects', 'init-state', 'horizon', ...)"},
         {{Parser::DOMAIN, Parser::OBJECTS, Parser::NON_FLUENTS},
          "'domain', 'objects' or 'non-fluents'"},
-        // In an instance a distribution is possible, too, but is seldom what is missing.
+        // In an instance a distribution is also possible, but is seldom what is missing.
         {{Parser::BOOLEAN, Parser::INT, Parser::REAL, Parser::MINUS, Parser::POS_INF,
           Parser::NEG_INF, Parser::ID, Parser::ENUM, Parser::DISTRIBUTION, Parser::DISCRETE},
          "a constant"},
@@ -85,8 +85,8 @@ bool ends_operand(const Token* token) {
     return token != nullptr && ends.contains(token->getType());
 }
 
-// Between an operand and what must follow it, an operator is always possible; where the parser
-// has already given up hoping for one, the user may not have.
+// An operator is always possible between an operand and the token that must follow it; the user may
+// still want one where the parser no longer expects it.
 bool operator_possible(const SyntaxError& error) {
     static const TokenTypes follows = {Parser::SEMICOLON, Parser::CLOSE_ROUND, Parser::CLOSE_SQUARE,
                                        Parser::THEN, Parser::ELSE};

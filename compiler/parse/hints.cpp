@@ -1,5 +1,10 @@
 #include "parse/hints.hpp"
 
+#include "parse/distribution_names.hpp"
+#include "support/standard.hpp"
+#include "support/suggestion.hpp"
+#include "vocabulary/vocabulary.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,37 +16,21 @@ namespace rddlc {
 
 namespace {
 
-constexpr std::array<std::string_view, 25> functions = {
-    "abs",   "sgn",  "round", "floor", "ceil", "cos", "sin", "tan",  "acos",
-    "asin",  "atan", "cosh",  "sinh",  "tanh", "exp", "ln",  "sqrt", "lngamma",
-    "gamma", "div",  "mod",   "fmod",  "min",  "max", "pow"};
-constexpr std::array<std::string_view, 8> aggregations = {"sum", "prod",   "avg",    "min",
-                                                          "max", "forall", "exists", "argmax"};
-
-constexpr std::array<std::string_view, 23> distributions = {
-    "KronDelta",   "DiracDelta", "Uniform",     "Bernoulli", "Normal",           "Poisson",
-    "Exponential", "Weibull",    "Gamma",       "Binomial",  "NegativeBinomial", "Beta",
-    "Geometric",   "Pareto",     "Student",     "Gumbel",    "Laplace",          "Cauchy",
-    "Gompertz",    "ChiSquare",  "Kumaraswamy", "Discrete",  "UnnormDiscrete"};
-
 std::string in_small_letters(std::string_view word) {
     std::string small(word);
     std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
     return small;
 }
 
-// As other languages call it.
+// The distribution that another language calls by this name.
 std::string distribution_meant_by(std::string_view name) {
     const std::string small = in_small_letters(name);
     if (small == "gaussian" || small == "gauss") return "Normal";
-    for (const std::string_view each : distributions)
-        if (in_small_letters(each) == small) return std::string(each);
+    std::vector<std::string> distributions = distribution_names();
+    distributions.insert(distributions.end(), {"Discrete", "UnnormDiscrete"});
+    for (const std::string& each : distributions)
+        if (in_small_letters(each) == small) return each;
     return "";
-}
-
-template <std::size_t n>
-bool contains(const std::array<std::string_view, n>& words, std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 bool is(const Token* token, std::size_t type) {
@@ -61,8 +50,11 @@ std::string round_brackets_of_a_function(const SyntaxError& error) {
     if (!open || *open == 0 || !is(error.tokens[*open], Parser::OPEN_ROUND)) return "";
     const Token& name = *error.tokens[*open - 1];
     if (!is(&name, Parser::ID) || error.context->getRuleIndex() == Parser::RuleExpr) return "";
-    if (contains(functions, name.getText()))
+    if (function_named(name.getText()))
         return fmt::format("functions take square brackets: {}[...]", name.getText());
+    if (is_distribution_of_ours(name.getText()))
+        return fmt::format("the distribution '{}' is an extension; {}", name.getText(),
+                           extension_hint);
     if (const std::string meant = distribution_meant_by(name.getText()); !meant.empty())
         return fmt::format("the distribution is written {}(...)", meant);
     if (inside(error, Parser::RuleSymbols) || inside(error, Parser::RulePvariable)) return "";
@@ -91,7 +83,7 @@ std::string binder_form(const SyntaxError& error) {
                    ? "variables range over types of objects, which are declared in 'types'"
                    : "every variable needs its type, as in sum_{?x : type} ...";
     const Token* name = error.before(is(error.before(1), Parser::UNDERSCORE) ? 2 : 1);
-    if (name == nullptr || !contains(aggregations, name->getText())) return "";
+    if (name == nullptr || !reduction_named(name->getText())) return "";
     const bool wrong = is(&error.found(), Parser::OPEN_CURLY) ||
                        error.expects(Parser::OPEN_CURLY) || error.expects(Parser::UNDERSCORE);
     return wrong ? fmt::format("write the variables and their types as in {}_{{?x : type}} ...",
@@ -199,8 +191,7 @@ std::vector<std::string> expected_words(const SyntaxError& error) {
 
 std::string misspelt_word(const SyntaxError& error) {
     if (!is(&error.found(), Parser::ID) && !is(&error.found(), Parser::FLUENT_KIND)) return "";
-    const auto meant = did_you_mean(error.found().getText(), expected_words(error));
-    return meant ? fmt::format("did you mean '{}'?", *meant) : "";
+    return hint_of_name(did_you_mean(error.found().getText(), expected_words(error)));
 }
 
 // rddlsim writes "$s1" for an object; in RDDL of pyRDDLGym '$' calls an external function.
@@ -228,7 +219,7 @@ struct SectionMeant {
     std::string_view word, section;
 };
 
-// What other readers or people call the sections of a domain.
+// Names of a domain's sections in other readers and common language.
 constexpr std::array sections_meant = {
     SectionMeant{"terminal", "termination"},
     SectionMeant{"terminals", "termination"},

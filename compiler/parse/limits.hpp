@@ -1,4 +1,4 @@
-// What a text may ask of the stages behind: they recurse on trees, on ordinary stacks.
+// The limits that later stages set to a text: they recurse on trees, on ordinary stacks.
 #pragma once
 
 #include "support/diagnostic.hpp"

@@ -115,7 +115,7 @@ std::optional<ast::Expr> parse_expression(const Source& source, Span span, Diagn
     TokenizedFile tokens(span.file, blank, standard, diagnostics);
     Parser parser(&tokens.stream());
     parser.removeErrorListeners();
-    // There is nothing around the expression in which the parser could go on after an error.
+    // Nothing surrounds the expression in which the parser could continue after an error.
     const auto expression = [&]() -> Parser::ExprContext* {
         try {
             return parser.expr();

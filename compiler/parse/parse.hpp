@@ -1,4 +1,4 @@
-// From text to syntax tree.
+// Parses a text into a syntax tree.
 #pragma once
 
 #include "ast/ast.hpp"

@@ -20,8 +20,8 @@ ATNState& current_state(antlr4::Parser& parser) {
     return *parser.getATN().states[parser.getState()];
 }
 
-// What could have come instead. Where the parser had to look further than one token, it is what
-// its last configurations were waiting for.
+// The tokens that could have come instead. If the parser looked further than one token, these are
+// the tokens that its last configurations were waiting for.
 TokenTypes expected_by(const antlr4::RecognitionException& error) {
     const auto* choice = dynamic_cast<const antlr4::NoViableAltException*>(&error);
     const bool looked_ahead = choice != nullptr && choice->getDeadEndConfigs() != nullptr &&
@@ -94,7 +94,7 @@ void ErrorStrategy::report(antlr4::Parser& parser, std::size_t index, TokenTypes
     if (++reported_ == limit_) throw antlr4::ParseCancellationException();
 }
 
-// Where characters were dropped before a token, the token is not to blame.
+// If characters were dropped before a token, the token is not the cause.
 bool ErrorStrategy::follows_lexical_error(std::size_t index) const {
     const std::uint32_t begin = index == 0 ? 0 : span_of(file_, *tokens_[index - 1]).begin;
     const std::uint32_t end = span_of(file_, *tokens_[index]).end;
@@ -140,7 +140,8 @@ Token* ErrorStrategy::conjure(std::size_t type, const Token& at) {
 
 // ---------------------------------------------------------------------- a token that is too much
 
-// Before each choice. What does not fit a loop is skipped here, so that the loop goes on.
+// Runs before each choice. Tokens that do not fit a loop are skipped here, so that the loop
+// continues.
 void ErrorStrategy::sync(antlr4::Parser* parser) {
     ATNState& state = current_state(*parser);
     const auto& next = parser->getATN().nextTokens(&state);
@@ -191,7 +192,7 @@ void ErrorStrategy::skip_item(antlr4::Parser& parser, std::size_t begin,
     }
 }
 
-// To where the loop over items or sections can go on. When a section or block begins before
+// Skips to where the loop over items or sections can continue. If a section or block begins before
 // that, a '}' is missing: the loop ends.
 void ErrorStrategy::skip_to_loop(antlr4::Parser& parser, const TokenTypes& next) {
     const bool items = is_section(parser.getContext()->getRuleIndex());

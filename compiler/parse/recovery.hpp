@@ -1,12 +1,12 @@
-// Reporting syntax errors and going on behind them, so that one run shows every error once.
+// Reports syntax errors and continues after them, so that one run shows every error once.
 #pragma once
 
 #include "parse/syntax_error.hpp"
 
 namespace rddlc {
 
-// An error ends the item it is in (a definition, a declaration, a value): the parser goes on
-// behind the item's ';', or at the '}' of its section. What follows from an error is not
+// An error ends the item it is in (a definition, a declaration, a value): the parser continues
+// after the item's ';', or at the '}' of its section. Errors that follow from an error are not
 // reported: nothing is, until a token has matched again.
 class ErrorStrategy final : public antlr4::ANTLRErrorStrategy {
   public:

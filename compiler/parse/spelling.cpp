@@ -17,7 +17,7 @@ namespace {
 
 struct ForeignOperator {
     std::string_view spelling;
-    std::size_t meant;  // token type; where RDDL has none, one of similar use
+    std::size_t meant;  // token type; if RDDL lacks it, one of similar use
     std::string_view hint;
 };
 
@@ -80,7 +80,7 @@ class Repair {
     Repair(FileId file, const Source& source, Standard standard, Diagnostics& diagnostics)
         : file_(file), text_(source.text()), standard_(standard), diagnostics_(diagnostics) {}
 
-    // The tokens that the parser shall see.
+    // The tokens for the parser.
     TokenList operator()(TokenList tokens) {
         TokenList kept;
         for (std::unique_ptr<Token>& token : tokens)

@@ -1,14 +1,13 @@
 // Spellings of other languages: 1e-3, &&, /* */, and characters that RDDL does not have.
 #pragma once
 
+#include "parse/distribution_names.hpp"
 #include "parse/tokens.hpp"
 
 namespace rddlc {
 
-using TokenList = std::vector<std::unique_ptr<Token>>;
-
-// Reports such tokens and returns the others, with what was meant in place of what was written
-// where that is clear: the parser shall find no second error in the same place.
+// Reports such tokens and returns the others, with the meant token in place of the written one if
+// that is clear: the parser must not find a second error in the same place.
 TokenList repair_spelling(FileId file, const Source& source, Standard standard, TokenList tokens,
                           Diagnostics& diagnostics);
 

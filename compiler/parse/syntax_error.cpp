@@ -66,7 +66,8 @@ std::optional<Diagnostic> lacking_semicolon(const SyntaxError& error) {
         .with_hint(std::move(hint));
 }
 
-// What cannot stand inside a bracket, so that the bracket must have been forgotten before it.
+// Tokens that cannot stand inside a bracket, so that the bracket must have been forgotten before
+// it.
 bool ends_bracket(const SyntaxError& error, std::size_t opener) {
     const std::size_t found = error.found().getType();
     return found == Parser::SEMICOLON || found == Token::EOF || is_closer(found) ||
@@ -94,7 +95,7 @@ std::optional<Diagnostic> surplus_bracket(const SyntaxError& error) {
     if (!is_closer(found)) return std::nullopt;
     const auto open = innermost_open(error.tokens, error.index);
     if (open && closer_of(error.tokens[*open]->getType()) == found) return std::nullopt;
-    // The '{' of a section or block is no business of a ')' or ']'.
+    // A ')' or ']' does not close the '{' of a section or block.
     if (!open || error.tokens[*open]->getType() == Parser::OPEN_CURLY)
         return Diagnostic{unbalanced_bracket, span_of_found(error),
                           fmt::format("'{}' closes nothing", error.found().getText())};

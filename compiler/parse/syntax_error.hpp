@@ -1,4 +1,4 @@
-// What the parser knows when a token does not fit, and the diagnostic made from it.
+// The state of the parser when a token does not fit, and the diagnostic made from it.
 #pragma once
 
 #include "parse/tokens.hpp"

@@ -1,5 +1,6 @@
 #include "parse/tokens.hpp"
 
+#include "parse/distribution_names.hpp"
 #include "parse/spelling.hpp"
 
 #include <algorithm>
@@ -32,13 +33,20 @@ std::vector<std::unique_ptr<Token>> lex(antlr4::ANTLRInputStream& characters) {
     return tokens;
 }
 
+TokenList words_of(FileId file, const Source& source, Standard standard,
+                   antlr4::ANTLRInputStream& characters, Diagnostics& diagnostics) {
+    TokenList tokens = repair_spelling(file, source, standard, lex(characters), diagnostics);
+    if (standard == Standard::Rddlc) mark_distributions(tokens, is_distribution_of_ours);
+    return tokens;
+}
+
 }  // namespace
 
 TokenizedFile::TokenizedFile(FileId file, const Source& source, Standard standard,
                              Diagnostics& diagnostics)
     : characters_(masked(source.text())),
       source_(std::make_unique<antlr4::ListTokenSource>(
-          repair_spelling(file, source, standard, lex(characters_), diagnostics))),
+          words_of(file, source, standard, characters_, diagnostics))),
       stream_(std::make_unique<antlr4::CommonTokenStream>(source_.get())) {
     stream_->fill();
 }

@@ -31,7 +31,7 @@ class TokenizedFile {
 };
 
 Span span_of(FileId file, const Token& token);
-// From the first byte of one token to the last of another.
+// The span from the first byte of one token to the last of another.
 Span span_of(FileId file, const Token& first, const Token& last);
 
 }  // namespace rddlc

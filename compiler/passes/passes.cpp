@@ -1,35 +1,36 @@
 #include "passes/passes.hpp"
 
 #include "ir/analysis.hpp"
+#include "ir/cost_model.hpp"
 #include "ir/verify.hpp"
-#include "passes/compare_counts.hpp"
-#include "passes/compare_magnitudes.hpp"
-#include "passes/count_bits.hpp"
-#include "passes/count_bools.hpp"
-#include "passes/evaluate_together.hpp"
-#include "passes/factor_aggregations.hpp"
-#include "passes/fast_math.hpp"
-#include "passes/find_ranges.hpp"
-#include "passes/fold_constant_expressions.hpp"
-#include "passes/fold_uniform_tables.hpp"
-#include "passes/fuse_interm_fluents.hpp"
-#include "passes/hoist_aggregations.hpp"
-#include "passes/index_directly.hpp"
-#include "passes/make_aggregations_sparse.hpp"
-#include "passes/merge_draws.hpp"
-#include "passes/prove_invariants.hpp"
-#include "passes/reduce_strength.hpp"
-#include "passes/remove_unused_buffers.hpp"
-#include "passes/search_intervals.hpp"
-#include "passes/separate_aggregations.hpp"
-#include "passes/share_across_definitions.hpp"
-#include "passes/share_subexpressions.hpp"
-#include "passes/skip_zero_terms.hpp"
-#include "passes/straighten_rows.hpp"
-#include "passes/tabulate_constant_fluents.hpp"
-#include "passes/tabulate_constants.hpp"
-#include "passes/tabulate_counts.hpp"
-#include "passes/unroll_rows.hpp"
+#include "passes/aggregations/compare_counts.hpp"
+#include "passes/aggregations/count_bits.hpp"
+#include "passes/aggregations/count_bools.hpp"
+#include "passes/aggregations/factor_aggregations.hpp"
+#include "passes/aggregations/fuse_interm_fluents.hpp"
+#include "passes/aggregations/hoist_aggregations.hpp"
+#include "passes/aggregations/index_directly.hpp"
+#include "passes/aggregations/make_aggregations_sparse.hpp"
+#include "passes/aggregations/merge_draws.hpp"
+#include "passes/aggregations/search_intervals.hpp"
+#include "passes/aggregations/skip_zero_terms.hpp"
+#include "passes/aggregations/tabulate_counts.hpp"
+#include "passes/arithmetic/compare_magnitudes.hpp"
+#include "passes/arithmetic/fast_math.hpp"
+#include "passes/arithmetic/find_ranges.hpp"
+#include "passes/arithmetic/prove_invariants.hpp"
+#include "passes/arithmetic/reduce_strength.hpp"
+#include "passes/arithmetic/straighten_rows.hpp"
+#include "passes/constants/fold_constant_expressions.hpp"
+#include "passes/constants/fold_uniform_tables.hpp"
+#include "passes/constants/tabulate_constant_fluents.hpp"
+#include "passes/constants/tabulate_constants.hpp"
+#include "passes/lanes/evaluate_together.hpp"
+#include "passes/lanes/separate_aggregations.hpp"
+#include "passes/lanes/unroll_rows.hpp"
+#include "passes/sharing/remove_unused_buffers.hpp"
+#include "passes/sharing/share_across_definitions.hpp"
+#include "passes/sharing/share_subexpressions.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -40,8 +41,7 @@ namespace {
 
 enum Trait : unsigned {
     only_fast_math = 1,
-    rounds_sums = 2,
-    leaves_out_zeros = 4,  // what is multiplied by zero, where it is finite
+    leaves_out_zeros = 2,  // what is multiplied by zero, where it is finite
 };
 
 struct Pass {
@@ -87,7 +87,7 @@ constexpr Pass in_order[] = {
     {"hoist_aggregations", "what depends on few of the loops around it becomes a table",
      passes::hoist_aggregations},
     {"make_aggregations_sparse", "aggregations run over the entries of sparse tables",
-     passes::make_aggregations_sparse, rounds_sums | leaves_out_zeros},
+     passes::make_aggregations_sparse, leaves_out_zeros},
     {"tabulate_counts", "what a count, or another small int, decides becomes a table",
      passes::tabulate_counts},
     {"straighten_rows", "only with --fast-math: rows of tables that are nearly lines become lines",
@@ -119,7 +119,8 @@ constexpr Pass in_order[] = {
 
 PassRun measured(const Pass& pass, ir::Program& program) {
     const auto begin = std::chrono::steady_clock::now();
-    PassRun run{.name = pass.name, .report = {}, .before = {}, .after = {}, .time = {}};
+    PassRun run{
+        .name = pass.name, .report = {}, .undone = false, .before = {}, .after = {}, .time = {}};
     program = pass.run(std::move(program), run.report);
     run.time = std::chrono::steady_clock::now() - begin;
     return run;
@@ -132,8 +133,7 @@ std::vector<PassDescription> all_passes() {
     for (const Pass& pass : in_order) {
         const auto known = std::ranges::find(passes, pass.name, &PassDescription::name);
         if (known == passes.end())
-            passes.push_back(
-                {pass.name, pass.summary, pass.has(only_fast_math), pass.has(rounds_sums)});
+            passes.push_back({pass.name, pass.summary, pass.has(only_fast_math)});
     }
     return passes;
 }
@@ -146,15 +146,25 @@ ProgramSize size_of(const ir::Program& program) {
 
 namespace {
 
-// What they did is added to `runs`; the sizes only if they are wanted.
+// Takes what the pass has made, unless a step of it costs more: then the program stays as it was,
+// and the run says so.
+ir::Program kept(const ir::Program& before, ir::Program made, PassRun& run) {
+    if (ir::cost_of_step(made) <= ir::cost_of_step(before)) return made;
+    run.undone = true;
+    run.report.clear();
+    return before;
+}
+
+// Adds what they did to `runs`, with the sizes only if they are wanted.
 ir::Program run_passes(ir::Program program, const PassOptions& options, bool wants_sizes,
                        std::vector<PassRun>& runs) {
     for (const Pass& pass : in_order) {
         if (options.without.contains(pass.name)) continue;
         if (pass.has(only_fast_math) && !options.fast_math) continue;
-        const ProgramSize before = wants_sizes ? size_of(program) : ProgramSize{};
+        const ir::Program before = program;  // constant tables are shared
         PassRun run = measured(pass, program);
-        run.before = before;
+        program = kept(before, std::move(program), run);
+        if (wants_sizes) run.before = size_of(before);
         if (wants_sizes) run.after = size_of(program);
         if (options.observe) options.observe(run, program);
         runs.push_back(std::move(run));

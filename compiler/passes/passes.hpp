@@ -18,7 +18,6 @@ struct PassDescription {
     std::string_view name;
     std::string_view summary;
     bool only_fast_math;  // runs only with PassOptions::fast_math
-    bool rounds_sums;     // sums and products of reals may be rounded in another order
 };
 // In the order in which they run first; each once.
 std::vector<PassDescription> all_passes();
@@ -34,6 +33,7 @@ ProgramSize size_of(const ir::Program& program);
 struct PassRun {
     std::string_view name;
     passes::Report report;
+    bool undone;  // a step would cost more (ir/cost_model.hpp), so the program stays as it was
     ProgramSize before, after;
     std::chrono::duration<double> time;
 };
@@ -41,15 +41,15 @@ struct PassRun {
 struct PassOptions {
     std::set<std::string, std::less<>> without;  // names of passes that are left out
     bool fast_math = false;                      // --fast-math
-    // Is told after each run of a pass what the pass has made: of the program for any values, and
-    // then of the one for moderate values (ir::Program::only_moderate). The sizes of the run are 0
+    // Called after each run of a pass with its result: first for the program for any values, then
+    // for the one for moderate values (ir::Program::only_moderate). The sizes of the run are 0
     // unless `optimise` is asked for all runs.
     std::function<void(const PassRun&, const ir::Program&)> observe = {};
 };
 
-// All passes, in the order that passes.cpp lists; those of the program for moderate values, too, if
-// there is one. It stays only if passes could leave out more there. What passes did to the program
-// that makes most steps is added to `runs`.
+// Runs all passes, in the order that passes.cpp lists; also on the program for moderate values, if
+// there is one. It stays only if passes could leave out more there. The runs on the program that
+// makes most steps are added to `runs`.
 ir::Program optimise(ir::Program program, const PassOptions& options = {},
                      std::vector<PassRun>* runs = nullptr);
 

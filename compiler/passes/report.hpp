@@ -1,4 +1,4 @@
-// What a pass tells about its work, for `rddlc --stats`.
+// A pass's report of its work, for `rddlc --stats`.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-"""Derives the polynomials of runtime/rddl/math/*.hpp. Needs mpmath.
+"""Derives the polynomials of runtime/rddl/values/math/*.hpp. Needs mpmath.
 
 Weighted least squares at Chebyshev points, which is minimax up to a fraction of a bit. A coefficient
 is rounded to double, the lowest first; those above it are then derived again and make up for it.

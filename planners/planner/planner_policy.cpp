@@ -46,9 +46,9 @@ void set_option(const std::string& planner, const solvers::OptionTable<Options>&
                 const std::string& key, const std::string& value, Options& options) {
     const auto found = std::ranges::find(table, key, &PlannerOption<Options>::name);
     if (found == table.end()) {
-        std::vector<std::string> known;
-        for (const PlannerOption<Options>& option : table) known.push_back(option.name);
-        throw usage(fmt::format("plan:{}: {}", planner, solvers::unknown_option(key, known)));
+        const std::vector<solvers::OptionText> known(table.begin(), table.end());
+        throw usage(fmt::format("plan:{}: {}", planner,
+                                solvers::unknown_option(key, known, solvers::Face::CommandLine)));
     }
     try {
         found->set(options, {value});

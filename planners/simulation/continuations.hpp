@@ -35,7 +35,7 @@ class Continuations {
 
     // Of start k: the discounted sum of rewards, the first of them, and the state after it.
     double value(std::size_t k) const { return futures_.value(k); }
-    // Its steps ended before its episode did; and what the last of them earned.
+    // Whether its steps ended before its episode did, and the reward of the last step.
     bool is_cut(std::size_t k) const { return futures_.is_cut(k); }
     double last_reward(std::size_t k) const { return futures_.last_reward(k); }
     double first_reward(std::size_t k) const { return first_rewards_[k]; }

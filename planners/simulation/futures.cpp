@@ -10,7 +10,8 @@ using solvers::require_done;
 
 namespace {
 
-solvers::Batch batch_of(const rddl_simulator& simulator, std::int64_t count, std::int64_t horizon) {
+solvers::BatchHandle batch_of(const rddl_simulator& simulator, std::int64_t count,
+                              std::int64_t horizon) {
     rddl_batch_options options{};
     options.environment_count = count;
     options.thread_count = 1;  // episodes are planned for side by side

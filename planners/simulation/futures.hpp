@@ -22,7 +22,8 @@ class Futures {
     // The k-th goes on from states[k], after so many steps; those of lanes that are not wanted are
     // any that the problem has.
     void place(const std::byte* states, std::span<const std::int64_t> steps);
-    // Stops the k-th after so many steps from here; what the batch does with it then is nobody's.
+    // Stops the k-th after so many steps from here; no caller reads what the batch does with it
+    // then.
     void set_limit(std::size_t k, std::int64_t steps) { limits_[k] = steps; }
     // A record for each, or a row of values.
     void step(const std::byte* actions);
@@ -48,7 +49,7 @@ class Futures {
     void take_step();
 
     const rddl_simulator& simulator_;
-    solvers::Batch batch_;
+    solvers::BatchHandle batch_;
     std::vector<std::int64_t> sources_;
     std::vector<std::int64_t> limits_;  // steps that are left
     std::vector<double> rewards_, last_rewards_, returns_;

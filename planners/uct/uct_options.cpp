@@ -10,7 +10,8 @@ using solvers::number_option;
 solvers::OptionTable<UctOptions> make_uct_table() {
     solvers::OptionTable<UctOptions> table = common_options<UctOptions>(
         "Trials of a decision", "Steps that are looked ahead (40, or to the end of the episode)",
-        "That plays on from the leaves of the tree (no-op or random, whichever earns more)");
+        "That plays on from the leaves of the tree (no-op or random, whichever has the greater "
+        "return)");
     solvers::OptionTable<UctOptions> own = {
         number_option<UctOptions, int>(
             {"lanes", "lanes", "N", "Trials side by side (32)"},
@@ -24,7 +25,8 @@ solvers::OptionTable<UctOptions> make_uct_table() {
             [](auto& o) -> auto& { return o.exploration; }, 0.0, 1e6),
         number_option<UctOptions, double>(
             {"outcomes", "outcomes", "K",
-             "Of an action that was taken n times at most K * sqrt(n) outcomes are told apart; 0: "
+             "Of an action that was taken n times at most K * sqrt(n) outcomes are distinguished; "
+             "0: "
              "all (4)"},
             [](auto& o) -> auto& { return o.outcomes; }, 0.0, 1e9),
         choice_option<UctOptions, Backup>(

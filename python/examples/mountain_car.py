@@ -1,5 +1,5 @@
-"""The tutorial of ICAPS 2024, "Implementing a scikit-decide domain for RDDL problems", with rddlc: list
-problems, make a mountain car, look at it, solve it with five learners, and compare.
+"""The tutorial of ICAPS 2024, "Implementing a scikit-decide domain for RDDL problems", with rddlc: list problems, make
+a mountain car, inspect it, solve it with five learners, and compare.
 
     pip install . -r python/examples/requirements.txt
     python python/examples/mountain_car.py [FOLDER]

@@ -1,4 +1,4 @@
-// What a simulator tells of its problem, as Python's own dictionaries and lists.
+// The description of a simulator's problem, as Python's own dictionaries and lists.
 #pragma once
 
 #include <rddl/simulator.h>

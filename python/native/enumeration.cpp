@@ -26,19 +26,19 @@ namespace {
 struct Mass {
     double probability = 0, reward = 0;  // the reward times the probability
 };
-// By the record of the state and the causes of an end.
+// Outcomes by the record of the state and the causes of an end.
 using Distribution = std::map<std::pair<std::string, std::uint8_t>, Mass>;
 
 // Steps with every combination of what is drawn, by the interpreter.
 class Enumeration {
   public:
-    Enumeration(ir::Program program, cli::ExternalLibrary library)
+    Enumeration(ir::Program program, workbench::ExternalLibrary library)
         : library_(std::move(library)),
           interpreter_(std::move(program), library_.functions),
           scratch_(interpreter_.scratch_size()),
           observation_(interpreter_.observation_size()) {}
 
-    // horizon: 0: none. Refuses more than `most` combinations, and those that fault.
+    // horizon: 0: no horizon. Refuses more than `most` combinations, and those that fault.
     Distribution next_states(const std::string& state, std::int64_t steps,
                              const std::string& action, std::int64_t horizon, std::int64_t most) {
         if (state.size() != interpreter_.state_size() ||
@@ -50,7 +50,7 @@ class Enumeration {
         do {
             if (combinations % 256 == 0 && PyErr_CheckSignals() != 0) throw nb::python_error();
             if (++combinations > most)
-                throw Refused(fmt::format(
+                throw Failure(fmt::format(
                     "a step has more than {} combinations of what it draws: allow more by "
                     "most_outcomes, or say samples=1000 for an estimate",
                     most));
@@ -73,7 +73,7 @@ class Enumeration {
             causes |= RDDL_TRUNCATED_INVARIANT;
         if (horizon > 0 && steps + 1 >= horizon) causes |= RDDL_TRUNCATED_HORIZON;
         if (context.fault)
-            throw Refused("one of the outcomes has no result: sample() tells the fault");
+            throw Failure("one of the outcomes has no result: sample() reports the fault");
         const std::string record(reinterpret_cast<const char*>(next.data()), next.size());
         Mass& mass = found[{record, static_cast<std::uint8_t>(causes)}];
         mass.probability += outcomes.probability();
@@ -84,20 +84,20 @@ class Enumeration {
         return reinterpret_cast<const std::byte*>(record.data());
     }
 
-    cli::ExternalLibrary library_;
+    workbench::ExternalLibrary library_;
     ir::Interpreter interpreter_;
     std::vector<std::byte> scratch_, observation_;
 };
 
-Enumeration enumeration_of(const cli::LoadedProblem& problem, const nb::object& headers) {
+Enumeration enumeration_of(const workbench::LoadedProblem& problem, const nb::object& headers) {
     const std::vector<std::string> externs = paths_of(headers);
-    cli::LoadOptions options;
-    options.engine = cli::Engine::Interpreter;
+    workbench::LoadOptions options;
+    options.engine = workbench::Engine::Interpreter;
     options.externs = {externs.begin(), externs.end()};
-    Compilation compilation = cli::compile_problem(problem.files, options);
-    if (compilation.diagnostics.has_errors()) throw Refused("the problem's files have changed");
-    cli::ExternalLibrary library =
-        cli::external_library(*compilation.program, problem.files, options);
+    Compilation compilation = workbench::compile_problem(problem.files, options);
+    if (compilation.diagnostics.has_errors()) throw Failure("the problem's files have changed");
+    workbench::ExternalLibrary library =
+        workbench::external_library(*compilation.program, problem.files, options);
     return Enumeration(*std::move(compilation.program), std::move(library));
 }
 

@@ -1,7 +1,7 @@
 #include "native/learners.hpp"
 
 #include "learning/learned_policy.hpp"
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 #include "native/long_calls.hpp"
 #include "native/options.hpp"
 #include "native/paths.hpp"
@@ -35,8 +35,8 @@ namespace rddlc::python {
 
 namespace {
 
-using cli::LoadedProblem;
-using cli::Simulator;
+using workbench::LoadedProblem;
+using workbench::Simulator;
 
 // A policy, which acts in one batch at a time.
 class Policy {
@@ -49,7 +49,7 @@ class Policy {
 
     // Writes the actions of all environments, which are at these steps of their episodes. Those of
     // a new batch, and those at step 0, begin.
-    void act(Batch& batch, bool begins, const solvers::Stops* stops = nullptr) {
+    void act(EnvPool& batch, bool begins, const solvers::Stops* stops = nullptr) {
         const bool is_bound = bind(batch);
         const auto count = static_cast<std::size_t>(batch.settings().environments);
         if (begins || is_bound || !actor_ || running_.size() != count) {
@@ -71,7 +71,7 @@ class Policy {
     }
 
     // The same, of a policy that takes its time: Ctrl-C ends it.
-    void plan(Batch& batch, bool begins) {
+    void plan(EnvPool& batch, bool begins) {
         plans_.finish();
         const auto stop = std::make_shared<std::atomic<bool>>(false);
         const solvers::Stops stops = [stop] {
@@ -104,9 +104,9 @@ class Policy {
     }
 
   private:
-    // Reads the policy anew for the simulator of that batch, of which it also reads non-fluents,
+    // Reads the policy again for the simulator of that batch, of which it also reads non-fluents,
     // unless it acts there already. A policy that does not fit leaves everything as it is.
-    bool bind(const Batch& batch) {
+    bool bind(const EnvPool& batch) {
         if (acting_ && acts_in_ == batch.shared_simulator()) return false;
         const Simulator simulator = batch.shared_simulator();
         solvers::Policy policy = make_(*simulator);
@@ -128,7 +128,7 @@ class Policy {
     LongCalls plans_{true};  // the last one: a decision that goes on works with the others
 };
 
-// Whether an update shall end early: what a learner's options ask.
+// Whether an update has to end early: the `stops` of a learner's options.
 using Stop = std::shared_ptr<std::atomic<bool>>;
 
 std::function<bool()> asks(const Stop& stop) {
@@ -180,10 +180,10 @@ class Learner {
     Simulator simulator_;  // outlives the trainee
     solvers::Trainee trainee_;
     Stop stop_;
-    LongCalls calls_{true};  // the last one: an update that goes on works with the others
+    LongCalls calls_{true};  // the last one: an update that still runs works with the others
 };
 
-// What command lines have by other means.
+// Adds the options that command lines have by other means.
 template <class Options>
 solvers::OptionTable<Options> with_common(solvers::OptionTable<Options> table) {
     table.push_back(solvers::seed_option<Options>());
@@ -218,14 +218,14 @@ Learner cgp(const LoadedProblem& problem, const nb::dict& given) {
 Policy policy_of_text(const LoadedProblem& problem, const std::string& text, bool random,
                       std::uint64_t seed) {
     return {problem.simulator, [text, random, seed](const rddl_simulator& simulator) {
-                return cli::policy_of_text(simulator, text, random, seed, "learned");
+                return workbench::policy_of_text(simulator, text, random, seed, "learned");
             }};
 }
 
 // With the seed of its text, or 0.
 Policy planner(const LoadedProblem& problem, const std::string& text) {
     return {problem.simulator, [text](const rddl_simulator& simulator) {
-                return cli::policy_named(simulator, text, false, 0);
+                return workbench::policy_named(simulator, text, false, 0);
             }};
 }
 
@@ -241,6 +241,15 @@ std::string planner_options(const std::string& name) {
 std::string formula_of_text(const LoadedProblem& problem, const std::string& text) {
     const auto found = solvers::read_program(*problem.simulator, text);
     return solvers::program_formula(found->scope, found->genome);
+}
+
+nb::bytes policy_of_file(const nb::object& path) {
+    const std::string text = workbench::policy_text(path_of(path));
+    return nb::bytes(text.data(), text.size());
+}
+
+std::string solver_of_text(const std::string& text) {
+    return solvers::is_program(text) ? "cgp" : "ppo";
 }
 
 void write_policy(const nb::object& path, const std::string& text) {
@@ -271,9 +280,9 @@ nb::dict summary_dict(const solvers::Summary& summary) {
 }  // namespace
 
 void add_learners(nb::module_& module) {
-    nb::class_<Policy>(module, "Policy", "What chooses actions in a batch.")
+    nb::class_<Policy>(module, "Policy", "Chooses actions in a batch.")
         .def(
-            "act", [](Policy& policy, Batch& batch, bool begins) { policy.act(batch, begins); },
+            "act", [](Policy& policy, EnvPool& batch, bool begins) { policy.act(batch, begins); },
             nb::arg("batch"), nb::arg("begins"))
         .def("plan", &Policy::plan, nb::arg("batch"), nb::arg("begins"))
         .def(
@@ -300,6 +309,10 @@ void add_learners(nb::module_& module) {
     module.def("planner", planner, nb::arg("simulator"), nb::arg("text"));
     module.def("planner_options", planner_options, nb::arg("name"));
     module.def("formula_of_text", formula_of_text, nb::arg("simulator"), nb::arg("text"));
+    module.def("policy_of_file", policy_of_file, nb::arg("path"),
+               "What a policy file holds, or that of the folder of a run.");
+    module.def("solver_of_text", solver_of_text, nb::arg("text"),
+               "\"ppo\" or \"cgp\": what has learned the policy of a file's text.");
     module.def("write_file", write_policy, nb::arg("path"), nb::arg("text"));
     module.def("policy_of_text", policy_of_text, nb::arg("simulator"), nb::arg("text"),
                nb::arg("random"), nb::arg("seed"));

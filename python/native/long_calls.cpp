@@ -1,6 +1,6 @@
 #include "native/long_calls.hpp"
 
-#include "native/problem.hpp"
+#include "support/failure.hpp"
 
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ constexpr auto between_looks = std::chrono::milliseconds(20);  // at signals
 constexpr auto is_much = std::chrono::milliseconds(100);
 constexpr auto longest_wait = std::chrono::milliseconds(500);  // for what was asked to end
 
-// A fork has none of the threads of its parent: nobody ends such a job, and nobody may wait for it.
+// A fork lacks the threads of its parent: such a job never ends, and must not be waited for.
 void forget(std::future<void> job) {
     static_cast<void>(new std::future<void>(std::move(job)));
 }
@@ -39,7 +39,7 @@ bool LongCalls::is_main_thread() {
 }
 
 void LongCalls::finish() {
-    if (is_busy_) throw Refused("another thread is in a call of this environment or learner");
+    if (is_busy_) throw Failure("another thread is in a call of this environment or learner");
     if (!left_.valid()) return;
     std::future<void> left = std::move(left_);
     if (left_in_ != ::getpid()) return forget(std::move(left));

@@ -21,8 +21,8 @@ class LongCalls {
     ~LongCalls();
 
     // Returns when the job is done, and throws what it throws. On Ctrl-C it calls `stop`, which
-    // asks the job to end early, and throws KeyboardInterrupt: soon after, even if the job goes on.
-    // Then finish() waits for it. `kept`: what the job works with.
+    // asks the job to end early, and throws KeyboardInterrupt soon after, even if the job still
+    // runs. Then finish() waits for it. `kept`: the objects that the job works with.
     template <class Job>
     void run(const Job& job, nanobind::handle kept = {}, const std::function<void()>& stop = {}) {
         enter();

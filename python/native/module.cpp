@@ -1,6 +1,8 @@
-// The native part of the Python package; python/rddlc/ is what people use.
-#include "native/batch.hpp"
+// The native part of the Python package; users import python/rddlc/.
+#include "native/dictionary_reader.hpp"
+#include "native/dictionary_writer.hpp"
 #include "native/enumeration.hpp"
+#include "native/env_pool.hpp"
 #include "native/learners.hpp"
 #include "native/painter.hpp"
 #include "native/problem.hpp"
@@ -9,8 +11,10 @@
 NB_MODULE(_native, module) {
     module.doc() = "Simulators of RDDL problems, for the package rddlc.";
     rddlc::python::add_problem(module);
-    rddlc::python::add_batch(module);
+    rddlc::python::add_env_pool(module);
     rddlc::python::add_row_writer(module);
+    rddlc::python::add_dictionary_reader(module);
+    rddlc::python::add_dictionary_writer(module);
     rddlc::python::add_enumeration(module);
     rddlc::python::add_painter(module);
     rddlc::python::add_learners(module);

@@ -1,6 +1,7 @@
 // Options of learners that Python gives by their keywords.
 #pragma once
 
+#include "native/paths.hpp"
 #include "native/problem.hpp"
 #include "solvers/options/options.hpp"
 
@@ -14,18 +15,21 @@
 
 namespace rddlc::python {
 
-// A value as a command line would have it.
-inline std::string word_of(nanobind::handle value) {
-    if (PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "on" : "off";
-    return nanobind::str(value).c_str();
+// A value as a command line would have it: True is "on" of options that have it, and no number.
+inline std::string word_of(nanobind::handle value, const solvers::OptionText& option) {
+    const bool is_switch = std::ranges::find(option.choices, "on") != option.choices.end();
+    if (is_switch && PyBool_Check(value.ptr())) return value.ptr() == Py_True ? "on" : "off";
+    return utf8_text(nanobind::str(value));
 }
 
-inline std::vector<std::string> words_of(nanobind::handle value, bool is_list) {
+inline std::vector<std::string> words_of(nanobind::handle value,
+                                         const solvers::OptionText& option) {
     const bool is_one =
         nanobind::isinstance<nanobind::str>(value) || !PySequence_Check(value.ptr());
-    if (!is_list || is_one) return {word_of(value)};
+    if (!option.is_list || is_one) return {word_of(value, option)};
     std::vector<std::string> words;
-    for (const nanobind::handle each : nanobind::iter(value)) words.push_back(word_of(each));
+    for (const nanobind::handle each : nanobind::iter(value))
+        words.push_back(word_of(each, option));
     return words;
 }
 
@@ -33,21 +37,21 @@ inline std::vector<std::string> words_of(nanobind::handle value, bool is_list) {
 template <class Options>
 void set_options(const solvers::OptionTable<Options>& table, const nanobind::dict& given,
                  Options& options) {
-    std::vector<std::string> known;
+    std::vector<solvers::OptionText> known;
     for (const solvers::LearnerOption<Options>& option : table) {
-        known.push_back(option.keyword);
+        known.push_back(option);
         if (!given.contains(option.keyword.c_str())) continue;
         const nanobind::object value = given[option.keyword.c_str()];
         try {
-            option.set(options, words_of(value, option.is_list));
+            option.set(options, words_of(value, option));
         } catch (const solvers::OptionRefused& refused) {
             throw Refused(fmt::format("{}: {}", option.keyword, refused.what()));
         }
     }
     for (const auto [name, value] : given) {
-        const auto keyword = nanobind::cast<std::string>(name);
-        if (std::ranges::find(known, keyword) == known.end())
-            throw Refused(solvers::unknown_option(keyword, known));
+        const std::string keyword = utf8_text(name);
+        if (std::ranges::find(known, keyword, &solvers::OptionText::keyword) == known.end())
+            throw Refused(solvers::unknown_option(keyword, known, solvers::Face::Python));
     }
 }
 

@@ -1,6 +1,6 @@
 #include "native/painter.hpp"
 
-#include "native/batch.hpp"
+#include "native/env_pool.hpp"
 #include "native/paths.hpp"
 #include "native/problem.hpp"
 
@@ -30,7 +30,8 @@ namespace render = rddl::render;
 // An episode of environment 0 of a batch, as far as it goes, and what draws it.
 class Painter {
   public:
-    Painter(const cli::LoadedProblem& problem, int width, int height, const std::string& visualizer)
+    Painter(const workbench::LoadedProblem& problem, int width, int height,
+            const std::string& visualizer)
         : simulator_(problem.simulator),
           world_(*simulator_),
           visualizer_(chosen(visualizer)),
@@ -38,17 +39,17 @@ class Painter {
           height_(side(height)),
           canvas_(width_, height_) {}
 
-    void begin(Batch& batch, std::int64_t horizon) {
+    void begin(EnvPool& batch, std::int64_t horizon) {
         steps_.clear();
         horizon_ = horizon;
         std::tie(std::ignore, episode_) = batch.progress(0);
         add(batch, 0);
     }
 
-    // What the batch has just done.
-    void add_step(Batch& batch, const std::string& end) {
+    // Adds the step that the batch has just made.
+    void add_step(EnvPool& batch, const std::string& end) {
         render::Step& last = steps_.back();
-        const Batch::Arrays& arrays = batch.arrays();
+        const EnvPool::Arrays& arrays = batch.arrays();
         last.action = arrays.actions;
         last.reward = arrays.rewards[0];
         add(batch, last.total + last.reward);
@@ -71,7 +72,7 @@ class Painter {
         return text;
     }
 
-    // Of all steps that are remembered.
+    // A page of all steps that are remembered.
     std::string page(double frames_per_second) {
         render::ReplayPage page(world_, width_, height_, frames_per_second);
         page.begin_run(simulator_->problem->instance);
@@ -89,7 +90,7 @@ class Painter {
     }
 
   private:
-    // From the first step that is remembered, each with its picture drawn.
+    // Visits all moments from the first step that is remembered, each with its picture drawn.
     template <class Visit>
     void for_each_moment(Visit&& visit) {
         std::deque<render::Step> shown;
@@ -123,7 +124,7 @@ class Painter {
 
     render::Moment moment() const { return {world_, steps_, episode_, horizon_}; }
 
-    void add(Batch& batch, double total) {
+    void add(EnvPool& batch, double total) {
         render::Step step;
         step.number = batch.progress(0).first;
         step.state.resize(static_cast<std::size_t>(simulator_->problem->state_size));
@@ -133,7 +134,7 @@ class Painter {
         if (steps_.size() > render::most_steps_remembered) steps_.pop_front();
     }
 
-    cli::Simulator simulator_;
+    workbench::Simulator simulator_;
     render::World world_;
     const render::Visualizer& visualizer_;
     int width_, height_;
@@ -167,7 +168,7 @@ nb::bytes png(Painter& painter) {
 
 void add_painter(nb::module_& module) {
     nb::class_<Painter>(module, "Painter", "Pictures of a running episode.")
-        .def(nb::init<const cli::LoadedProblem&, int, int, const std::string&>(),
+        .def(nb::init<const workbench::LoadedProblem&, int, int, const std::string&>(),
              nb::arg("simulator"), nb::arg("width"), nb::arg("height"), nb::arg("visualizer"))
         .def("begin", &Painter::begin)
         .def("add_step", &Painter::add_step)

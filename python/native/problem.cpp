@@ -7,6 +7,7 @@
 #include "problems/problem_lookup.hpp"
 #include "support/failure.hpp"
 #include "support/render.hpp"
+#include "support/utf8.hpp"
 
 #include <fmt/format.h>
 #include <nanobind/stl/string.h>
@@ -21,13 +22,14 @@ namespace rddlc::python {
 
 namespace {
 
-using cli::LoadedProblem;
+using workbench::LoadedProblem;
 
-cli::ProblemFiles files_of(const std::string& domain, const std::string& instance,
-                           const std::string& repository) {
-    if (repository.empty() || cli::is_path(domain)) return cli::find_files(domain, instance);
-    const cli::Repository scanned = cli::scan_repository(repository);
-    return cli::find_instance(cli::find_problem(scanned, domain), instance);
+workbench::ProblemFiles files_of(const std::string& domain, const std::string& instance,
+                                 const std::string& repository) {
+    if (repository.empty() || workbench::is_path(domain))
+        return workbench::find_files(domain, instance);
+    const workbench::Repository scanned = workbench::scan_repository(repository);
+    return workbench::find_instance(workbench::find_problem(scanned, domain), instance);
 }
 
 std::string text_of(const Compilation& compilation) {
@@ -44,20 +46,20 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
     const std::vector<std::string> headers = paths_of(externs);
     try {
         const nb::gil_scoped_release released;
-        cli::ProblemFiles files = files_of(names[0], names[1], names[2]);
+        workbench::ProblemFiles files = files_of(names[0], names[1], names[2]);
         files.instance_name = instance_name;
         if (extended) files.standard = Standard::Rddlc;
-        cli::LoadOptions options;
-        options.engine = interpreted ? cli::Engine::Interpreter : cli::Engine::Compiled;
+        workbench::LoadOptions options;
+        options.engine = interpreted ? workbench::Engine::Interpreter : workbench::Engine::Compiled;
         options.externs = {headers.begin(), headers.end()};
         options.details = details;
         options.remembers = true;
-        if (auto known = cli::load_known(files, options)) return *std::move(known);
-        Compilation compilation = cli::compile_problem(files, options);
+        if (auto known = workbench::load_known(files, options)) return *std::move(known);
+        Compilation compilation = workbench::compile_problem(files, options);
         if (compilation.diagnostics.has_errors()) throw CompileError(text_of(compilation));
-        return cli::load_compilation(std::move(compilation), files, options);
+        return workbench::load_compilation(std::move(compilation), files, options);
     } catch (...) {
-        // Ctrl-C ends the C++ compiler, too: whatever that looks like from here, it was Ctrl-C.
+        // Ctrl-C also ends the C++ compiler: whatever error that causes, Ctrl-C was the reason.
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
         throw;
     }
@@ -65,7 +67,8 @@ LoadedProblem load(const nb::object& domain, const nb::object& instance,
 
 nb::list problems_in(const nb::object& repository) {
     nb::list all;
-    for (const cli::RepositoryProblem& problem : cli::scan_repository(path_of(repository)).problems)
+    for (const workbench::RepositoryProblem& problem :
+         workbench::scan_repository(path_of(repository)).problems)
         all.append(nb::make_tuple(problem.name, nb::cast(problem.instances), problem.description));
     return all;
 }
@@ -76,27 +79,61 @@ nb::list files_as_text(const LoadedProblem& problem) {
     return all;
 }
 
-// Whose what() lacks the hint.
+struct PythonErrors {
+    nb::object error, compile_error, argument_error;
+};
+
+// Texts that are not ours, such as paths, must not reach a terminal as they are.
+void raise(const nb::object& type, const std::string& text) {
+    PyErr_SetString(type.ptr(), printable(text).c_str());
+}
+
+void raise(const PythonErrors& errors, const Failure& failure) {
+    const bool is_argument = failure.status == usage_error;
+    raise(is_argument ? errors.argument_error : errors.error,
+          failure.hint.empty() ? failure.what()
+                               : fmt::format("{}: {}", failure.what(), failure.hint));
+}
+
+// The one place where errors of ours become Python's.
+void translate(const std::exception_ptr& thrown, void* payload) {
+    const auto& errors = *static_cast<const PythonErrors*>(payload);
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const Refused& refused) {
+        raise(errors.argument_error, refused.what());
+    } catch (const CompileError& error) {
+        raise(errors.compile_error, error.what());
+    } catch (const Failure& failure) {
+        raise(errors, failure);
+    } catch (const Diagnosed&) {
+        raise(errors.error,
+              "the C++ compiler refuses the external functions; what it says stands on standard "
+              "error");
+    }
+}
+
+nb::object new_error(nb::module_& module, const char* name, const nb::object& bases) {
+    const auto full = fmt::format("{}.{}", nb::cast<std::string>(module.attr("__name__")), name);
+    nb::object type = nb::steal(PyErr_NewException(full.c_str(), bases.ptr(), nullptr));
+    if (!type) throw nb::python_error();
+    module.attr(name) = type;
+    return type;
+}
+
+// The types live as long as the process, since errors may be translated until its end.
 void add_errors(nb::module_& module) {
-    const nb::object error = nb::exception<Failure>(module, "Error");
-    nb::exception<CompileError>(module, "CompileError", error);
-    nb::exception<Refused>(module, "Refused", error);
-    nb::register_exception_translator(
-        [](const std::exception_ptr& thrown, void* type) {
-            try {
-                std::rethrow_exception(thrown);
-            } catch (const Failure& failure) {
-                const std::string text = failure.hint.empty()
-                                             ? failure.what()
-                                             : fmt::format("{}: {}", failure.what(), failure.hint);
-                PyErr_SetString(static_cast<PyObject*>(type), text.c_str());
-            } catch (const Diagnosed&) {
-                PyErr_SetString(static_cast<PyObject*>(type),
-                                "the C++ compiler refuses the external functions; what it says "
-                                "stands on standard error");
-            }
-        },
-        error.ptr());
+    auto* const errors = new PythonErrors;
+    errors->error = new_error(module, "Error", nb::borrow(PyExc_Exception));
+    errors->compile_error = new_error(module, "CompileError", errors->error);
+    errors->argument_error = new_error(
+        module, "ArgumentError",
+        nb::make_tuple(errors->error, nb::handle(PyExc_ValueError), nb::handle(PyExc_TypeError)));
+    errors->argument_error.attr("__doc__") =
+        "An argument that cannot be, or a name that does not exist; nothing has been changed by "
+        "it. "
+        "It is one of Python's own errors, too, for programs that catch these.";
+    nb::register_exception_translator(translate, errors);
 }
 
 }  // namespace
@@ -104,6 +141,7 @@ void add_errors(nb::module_& module) {
 void check(const rddl_simulator& simulator, rddl_error error) {
     if (error == RDDL_OK) return;
     if (error == RDDL_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error == RDDL_UNSUPPORTED) throw Failure(simulator.last_error(&simulator));
     throw Refused(simulator.last_error(&simulator));
 }
 
@@ -132,8 +170,9 @@ void add_problem(nb::module_& module) {
                nb::arg("extended"), nb::arg("details"));
     module.def("problems_in", problems_in, nb::arg("repository"),
                "(name, instances, description) of each problem below a folder.");
+    module.def("path_text", path_of, nb::arg("path"), "The path as a str; refuses what is none.");
     module.def(
-        "is_path", [](const nb::object& text) { return cli::is_path(path_of(text)); },
+        "is_path", [](const nb::object& text) { return workbench::is_path(path_of(text)); },
         nb::arg("text"), "Whether the text means a file or a folder.");
     module.def("cpp_compiler", cpp_compiler, "The words of the C++ compiler's command.");
 }

@@ -15,7 +15,8 @@ struct CompileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// An argument that cannot be, or a call at the wrong time; what() is a sentence.
+// An argument that cannot be; what() is a sentence. It is an ArgumentError of Python, as is a
+// Failure that a command line would end for with the status of wrong usage.
 struct Refused : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

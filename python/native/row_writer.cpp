@@ -4,6 +4,8 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -16,7 +18,7 @@ namespace rddlc::python {
 
 namespace {
 
-// Without a branch for each entry: the compiler puts several into a vector register.
+// The loop has no branch for each entry: the compiler puts several into a vector register.
 template <class T>
 bool are_within(const T* entries, std::int64_t count, std::span<const RowLimits> limits) {
     const std::size_t width = limits.size();
@@ -49,8 +51,9 @@ class Entries {
     const T* as(std::size_t count) const {
         if (!is_open_ || view_.len != static_cast<Py_ssize_t>(count * sizeof(T))) return nullptr;
         const std::string_view format = view_.format ? view_.format : "B";
-        const bool is_right =
-            std::is_same_v<T, float> ? format == "f" : format == "l" || format == "q";
+        const bool is_right = std::is_same_v<T, float>    ? format == "f"
+                              : std::is_same_v<T, double> ? format == "d"
+                                                          : format == "l" || format == "q";
         return is_right && view_.itemsize == sizeof(T) ? static_cast<const T*>(view_.buf) : nullptr;
     }
 
@@ -59,13 +62,33 @@ class Entries {
     bool is_open_ = false;
 };
 
+// The only category, where it is a whole number of Python's or numpy's.
+std::optional<std::int64_t> whole_of(nb::handle given) {
+    if (!PyIndex_Check(given.ptr())) return std::nullopt;
+    const std::int64_t whole = PyNumber_AsSsize_t(given.ptr(), PyExc_OverflowError);
+    if (whole != -1 || !PyErr_Occurred()) return whole;
+    PyErr_Clear();
+    return std::nullopt;
+}
+
 }  // namespace
 
-RowWriter::RowWriter(Batch& batch, std::int64_t first, std::vector<RowLimits> limits,
-                     bool categories)
-    : batch_(batch), first_(first), limits_(std::move(limits)), categories_(categories) {
-    if (first < 0 || first + static_cast<std::int64_t>(limits_.size()) > batch.action_columns() ||
-        batch.settings().doubles)
+RowWriter::RowWriter(EnvPool& batch, std::int64_t first, std::vector<RowLimits> limits,
+                     bool categories, RowChanges changes)
+    : batch_(batch),
+      first_(first),
+      limits_(std::move(limits)),
+      categories_(categories),
+      changes_(std::move(changes)) {
+    const std::int64_t columns = batch.action_columns();
+    const bool has_columns =
+        changes_.columns.empty()
+            ? first >= 0 && first + static_cast<std::int64_t>(limits_.size()) <= columns
+            : static_cast<std::int64_t>(changes_.defaults.size()) == columns &&
+                  std::ranges::all_of(changes_.columns, [&](std::int64_t column) {
+                      return column >= -1 && column < columns;
+                  });
+    if (!has_columns || batch.settings().doubles)
         throw Refused("there are no such columns of action values");
 }
 
@@ -82,20 +105,39 @@ void RowWriter::copy(const T* entries) {
                 limits_[k].offset;
 }
 
+void RowWriter::change(const std::int64_t* entries) {
+    const std::int64_t count = batch_.settings().environments, columns = batch_.action_columns();
+    float* values = reinterpret_cast<float*>(batch_.arrays().action_values.data());
+    for (std::int64_t row = 0; row < count; ++row, values += columns) {
+        std::ranges::copy(changes_.defaults, values);
+        for (std::size_t pick = 0; pick < limits_.size(); ++pick) {
+            const auto category = static_cast<std::size_t>(*entries++);
+            if (changes_.columns[category] >= 0)
+                values[changes_.columns[category]] = changes_.values[category];
+        }
+    }
+}
+
+template <class T>
+bool RowWriter::write_entries(const T* entries) {
+    if (!entries || !are_within(entries, batch_.settings().environments, limits_)) return false;
+    if constexpr (std::is_same_v<T, std::int64_t>)
+        if (!changes_.columns.empty()) {
+            change(entries);
+            return true;
+        }
+    copy(entries);
+    return true;
+}
+
 bool RowWriter::write(nb::handle rows) {
     batch_.finish();
-    const Entries given(rows);
     const auto size = static_cast<std::size_t>(batch_.settings().environments) * limits_.size();
-    if (categories_) {
-        const auto* const entries = given.as<std::int64_t>(size);
-        if (!entries || !are_within(entries, batch_.settings().environments, limits_)) return false;
-        copy(entries);
-    } else {
-        const auto* const entries = given.as<float>(size);
-        if (!entries || !are_within(entries, batch_.settings().environments, limits_)) return false;
-        copy(entries);
-    }
-    return true;
+    if (categories_ && size == 1)
+        if (const auto whole = whole_of(rows)) return write_entries(&*whole);
+    const Entries given(rows);
+    if (categories_) return write_entries(given.as<std::int64_t>(size));
+    return write_entries(given.as<float>(size)) || write_entries(given.as<double>(size));
 }
 
 // Numbers that are all action values are read where they are.
@@ -121,15 +163,19 @@ void add_row_writer(nb::module_& module) {
                           "does not take.")
         .def(
             "__init__",
-            [](RowWriter* self, Batch& batch, std::int64_t first,
-               const std::vector<std::tuple<float, float, float>>& limits, bool categories) {
+            [](RowWriter* self, EnvPool& batch, std::int64_t first,
+               const std::vector<std::tuple<float, float, float>>& limits, bool categories,
+               std::tuple<std::vector<std::int64_t>, std::vector<float>, std::vector<float>>
+                   changes) {
                 std::vector<RowLimits> all;
                 for (const auto& [lower, upper, offset] : limits)
                     all.push_back({lower, upper, offset});
-                new (self) RowWriter(batch, first, std::move(all), categories);
+                auto& [columns, values, defaults] = changes;
+                new (self) RowWriter(batch, first, std::move(all), categories,
+                                     {std::move(columns), std::move(values), std::move(defaults)});
             },
             nb::arg("batch"), nb::arg("first"), nb::arg("limits"), nb::arg("categories"),
-            nb::keep_alive<1, 2>())
+            nb::arg("changes"), nb::keep_alive<1, 2>())
         .def("write", &RowWriter::write, nb::arg("rows").none())
         .def("step", &RowWriter::step, nb::arg("rows").none(), nb::arg("into").none());
 }

@@ -9,14 +9,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _native, causes, plan
+from . import _native, callbacks, causes, plan
 from .arguments import keywords_of, refuse_unknown
 from .environment import RDDLEnv
 from .errors import ActionError, ArgumentError, CompileError, EpisodeOver, Error
-from .learners import CGP, PPO, Estimate, Evaluation, Learner
+from .evaluation import Estimate, Evaluation
+from .learners import CGP, PPO, Learner
 from .model import Condition, Fluent, Model, ObjectType
 from .problems import Problem, problems
-from .registration import register_environments
+from .registration import register, register_environments, spec_of
 from .states import State
 from .vector import RDDLVectorEnv
 
@@ -41,11 +42,13 @@ __all__ = [
     "RDDLEnv",
     "RDDLVectorEnv",
     "State",
+    "callbacks",
     "causes",
     "make",
     "make_vec",
     "plan",
     "problems",
+    "register",
 ]
 
 _OF_PROBLEM = ("instance_name", "engine", "externs", "extended", "details")
@@ -57,7 +60,7 @@ def make(
     **options: Any,
 ) -> RDDLEnv:
     """A `gymnasium.Env` of a problem: two files, one file that holds both, a folder and an instance,
-    a problem and an instance of rddlrepository, or a `Problem`.
+    their texts, a problem and an instance of rddlrepository, or a `Problem`.
 
     engine: "compiled" (default) or "interpreter"; instance_name, externs, extended, details: see
         `Problem`.
@@ -68,16 +71,19 @@ def make(
     normalize: flat observations with two bounds, and all numbers of simplified actions, are from -1
         to 1.
     enforce_action_constraints: a step that violates a precondition raises ActionError.
-    enforce_action_count_non_bool: max-nondef-actions counts ints, objects and reals, too.
-    action_mask: info["action_mask"] tells which actions satisfy the preconditions, in the form that
-        action_space.sample(mask) takes.
-    horizon: steps, not negative; None: the instance's; 0: none.
-    render_mode: None, "rgb_array", "ansi" or "human" (a window, with pygame).
+    enforce_action_count_non_bool: max-nondef-actions also counts ints, objects and reals.
+    action_mask: info["action_mask"] marks the actions that satisfy the preconditions, in the form
+    that action_space.sample(mask) takes.
+    horizon: steps, not negative; None: the instance's; 0: no horizon.
+    render_mode: None, "rgb_array", "rgb_array_list", "ansi" or "human" (a window, with pygame).
     render_size: width and height in pixels (600, 400). visualizer: see `rddl render`.
 
-    Raises CompileError with the compiler's diagnostics, and Error where files are missing.
+    Raises CompileError with the compiler's diagnostics, and Error if files are missing.
     """
-    return RDDLEnv(_problem_of(domain, instance, options, RDDLEnv), **options)
+    problem = _problem_of(domain, instance, options, RDDLEnv)
+    env = RDDLEnv(problem, **options)
+    env.spec = spec_of(problem, env.horizon, options)
+    return env
 
 
 def make_vec(
@@ -88,16 +94,23 @@ def make_vec(
 ) -> RDDLVectorEnv:
     """A `gymnasium.vector.VectorEnv` of `num_envs` environments in one batch; problems as in `make`.
 
-    instance_name, engine, externs, extended, details, horizon, normalize: as in `make`.
+    instance_name, engine, externs, extended, details, horizon, normalize, render_size, visualizer: as
+        in `make`.
     observations: "flat" (default): float32 (num_envs, features); "dict": arrays (num_envs, *shape).
     actions: "simplified" (default), "box", or "dict" of arrays.
     autoreset_mode: "NextStep" (default), "SameStep" or "Disabled", or a Gymnasium AutoresetMode.
+    enforce_action_constraints, action_mask: as in `make`; a mask is (num_envs, sum of categories).
+    render_mode: None, "rgb_array" or "ansi": render() has a picture of each environment.
     threads: 0: one for each core.
     copy: whether arrays are copies; else they may be the engine's own memory, which the next step
         changes.
     """
+    if (steps := options.pop("max_episode_steps", None)) is not None:  # Gymnasium's name of a horizon
+        options["horizon"] = steps
     problem = _problem_of(domain, instance, options, RDDLVectorEnv)
-    return RDDLVectorEnv(problem, num_envs, **options)
+    envs = RDDLVectorEnv(problem, num_envs, **options)
+    envs.spec = spec_of(problem, envs.horizon, options)
+    return envs
 
 
 def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type[Any]) -> Problem:
@@ -113,4 +126,8 @@ def _problem_of(domain: Any, instance: Any, options: dict[str, Any], taker: type
     return domain
 
 
+for maker, kind in ((make, RDDLEnv), (make_vec, RDDLVectorEnv)):
+    setattr(maker, "metadata", kind.metadata)  # gymnasium.make reads the render modes there
+for error in (ActionError, ArgumentError, CompileError, EpisodeOver, Error):
+    error.__module__ = "rddlc"  # the name by which people catch it
 register_environments()

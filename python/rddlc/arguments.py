@@ -71,21 +71,41 @@ def finite(name: str, given: Any) -> float:
     return number
 
 
-def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
-    if not any(given is each or (isinstance(given, str) and given == each) for each in known):
-        raise ArgumentError(f"{name} is {shown(given)}, which is none of {_listed(map(repr, known))}")
+def text(name: str, given: Any) -> str:
+    if not isinstance(given, str):
+        raise ArgumentError(f"{name} is {shown(given)}, which is not a str")
     return given
 
 
+def flag(name: str, given: Any) -> bool:
+    if not isinstance(given, (bool, np.bool_)):
+        raise ArgumentError(f"{name} is {shown(given)}, which is neither True nor False")
+    return bool(given)
+
+
+def one_of(name: str, given: Any, known: Sequence[Any]) -> Any:
+    if not any(given is each or (isinstance(given, str) and given == each) for each in known):
+        raise ArgumentError(f"{name} is {shown(given)}, which is not one of {_listed(map(repr, known))}")
+    return given
+
+
+def size_of(given: Any) -> tuple[int, int]:
+    """Width and height in pixels; the painter knows how many there may be."""
+    if not isinstance(given, (Sequence, np.ndarray)) or isinstance(given, str) or len(given) != 2:
+        raise ArgumentError(f"render_size is {given!r}, which is not a width and a height")
+    most = (1 << 31) - 1
+    return whole("render_size", given[0], -most, most), whole("render_size", given[1], -most, most)
+
+
 def refuse_unknown(what: str, given: Iterable[Any], known: Sequence[str]) -> None:
-    """what: "option". Else a misspelt name would be a setting that does nothing."""
+    """Raises for unknown names, since a misspelt option would have no effect. what: "option"."""
     for name in given:
         if name not in known:
             raise ArgumentError(f"there is no {what} {shown(name)}; there are {_listed(known)}")
 
 
 def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:
-    """The `options` of a reset; empty for None."""
+    """Returns the `options` of a reset; empty for None."""
     if options is None:
         return {}
     if not isinstance(options, Mapping):
@@ -95,7 +115,7 @@ def options_of_reset(options: Any, known: Sequence[str]) -> Mapping[str, Any]:
 
 
 def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:
-    """What it takes by name alone."""
+    """Returns the parameters that are keyword-only."""
     parameters = inspect.signature(function).parameters.values()
     return tuple(each.name for each in parameters if each.kind is each.KEYWORD_ONLY)
 
@@ -105,7 +125,7 @@ def _listed(names: Iterable[str]) -> str:
 
 
 def shown(given: Any) -> str:
-    """For a message: not too long."""
+    """Returns a value for a message: not too long."""
     try:
         text = repr(given)
     except ValueError:  # Python writes no int of thousands of digits

@@ -15,4 +15,4 @@ def text_of(causes: int) -> str:
 
 
 TEXTS = [None, *(text_of(causes) for causes in range(1, 16))]
-"""Of all causes; None of none."""
+"""Returns the names of all causes; None for no cause."""

@@ -1,28 +1,37 @@
-"""One environment of a problem."""
+"""One environment of a problem.
+
+Over 400 lines: one class with the whole interface of gymnasium.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import deepcopy
+from dataclasses import replace
 from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
 from . import _native, causes
-from .arguments import one_of, options_of_reset, seed_of, seed_or_none, whole, whole_or_none
-from .dictionaries import DictionaryActions, GroundedReader, LiftedReader
-from .errors import ActionError, ArgumentError, EpisodeOver, Error
-from .learning import ChoiceActions, FlatReader
-from .legal import go_on_from, legal_space
-from .masks import ActionMasks
+from .arguments import one_of, options_of_reset, seed_of, seed_or_none, size_of, whole_or_none
+from .errors import ArgumentError, EpisodeOver, Error
 from .model import Model
+from .preconditions import check_preconditions
 from .problems import Problem, batch_horizon
 from .records import lifted_views
 from .rendering import Renderer
 from .states import State
+from .translation.choice_actions import ChoiceActions
+from .translation.dictionary_actions import SingleActions
+from .translation.legal import go_on_from, legal_space
+from .translation.masks import ActionMasks
+from .translation.named_values import state_from
+from .translation.protocols import ActionWriter, ObservationReader
+from .translation.readers import dictionary_reader, observation_reader
 
 OBSERVATIONS = ("dict", "flat")
 ACTIONS = ("dict", "simplified", "box")
@@ -34,7 +43,10 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     The same seed gives the same episodes as `rddl run --seed`, bit for bit.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array", "ansi"], "render_fps": 10}
+    metadata: dict[str, Any] = {
+        "render_modes": ["human", "rgb_array", "rgb_array_list", "ansi"],
+        "render_fps": 10,
+    }
 
     def __init__(
         self,
@@ -52,7 +64,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         render_size: tuple[int, int] = (600, 400),
         visualizer: str = "",
     ) -> None:
-        """See `rddlc.make`, which loads the problem, too."""
+        """See `rddlc.make`, which also loads the problem."""
         self._forms = {
             "vectorized": vectorized,
             "observations": one_of("observations", observations, OBSERVATIONS),
@@ -63,25 +75,27 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             "action_mask": action_mask,
             "horizon": whole_or_none("horizon", horizon, 0),
             "render_mode": render_mode,
-            "render_size": _size_of(render_size),
+            "render_size": size_of(render_size),
             "visualizer": visualizer,
         }
         self.problem = problem
         self.render_mode = one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self._batch = _native.Batch(
+        self._batch = _native.EnvPool(
             problem.simulator,
             horizon=batch_horizon(horizon),
             records=observations == "dict",
             values=observations != "dict",
         )
         self._seed: int | None = None
-        # An episode may go on with other random numbers than its own.
+        self._spec: EnvSpec | None = None
+        self._frames: list[NDArray[np.uint8]] = []  # since the last render()
+        # An episode may continue with random numbers other than its own.
         self._luck: int | None = None  # the seed of these
-        self._own: _native.Batch | None = None  # a batch that has the episode's own
+        self._own: _native.EnvPool | None = None  # a batch that has the episode's own
         self._connect()
 
     def _connect(self) -> None:
-        """All that looks at the batch's arrays."""
+        """Binds everything that reads the batch's arrays."""
         batch, forms = self._batch, self._forms
         self._reader = self._new_reader()
         self._writer = self._new_writer()
@@ -98,20 +112,19 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self.render_mode is not None:
             self._renderer = self._new_renderer()
 
-    def _new_reader(self) -> Any:
-        if self._forms["observations"] == "flat":
-            return FlatReader(
-                self.problem,
-                self._batch.observation_values,
-                self._batch.final_values,
-                normalize=self._forms["normalize"],
-            )
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.observed, self._batch.observations)
+    def _new_reader(self) -> ObservationReader:
+        return observation_reader(
+            self.model.observed,
+            self._batch,
+            flat=self._forms["observations"] == "flat",
+            lifted=self._forms["vectorized"],
+            normalize=self._forms["normalize"],
+            by_values=self._forms["actions"] != "dict",
+        )
 
-    def _new_writer(self) -> Any:
+    def _new_writer(self) -> ActionWriter:
         if self._forms["actions"] == "dict":
-            return DictionaryActions(
+            return SingleActions(
                 self.problem,
                 self._batch,
                 lifted=self._forms["vectorized"],
@@ -131,6 +144,17 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- what the problem says of itself
 
     @property
+    def spec(self) -> EnvSpec | None:
+        """What Gymnasium made it of; the horizon is known to the problem."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, given: EnvSpec | None) -> None:
+        if given is not None and given.max_episode_steps is None:
+            given = replace(given, max_episode_steps=self.horizon or None)
+        self._spec = given
+
+    @property
     def model(self) -> Model:
         return self.problem.model
 
@@ -147,16 +171,14 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     @property
     def max_allowed_actions(self) -> int:
         """How many action values may differ from their default."""
-        limit = self.model.limited_actions
-        return sum(fluent.count for fluent in self.model.actions) if limit is None else limit
+        return self.model.max_allowed_actions
 
     @property
     def state(self) -> dict[str, Any]:
         """The true state in the form of dictionary observations, also where it is not observed."""
         record = np.zeros((1, self.model.state_size), np.uint8)
         self._batch.read_state(0, record[0])
-        kind = LiftedReader if self._forms["vectorized"] else GroundedReader
-        return kind(self.model.states, record).read()
+        return dictionary_reader(self.model.states, record, lifted=self._forms["vectorized"]).read()
 
     @property
     def timestep(self) -> int:
@@ -192,17 +214,15 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One step. At an end, info["cause"] says why: "terminated", "horizon", "invariant" (a state
-        invariant is violated) or "fault" (info["fault"] tells which); several are joined by ", ".
+        invariant is violated) or "fault" (info["fault"] describes it); several are joined by ", ".
 
         Raises ActionError or EpisodeOver, and has changed nothing then.
         """
         if self._ended or self._seed is None:
             raise self._no_step()
-        self._batch.finish()
-        self._writer.write(action)
         if self._enforces:
-            self._check_preconditions()
-        self._writer.step()
+            check_preconditions(self.problem, self._batch, self._writer, action)
+        self._writer.step(action)
         ended = self._causes.item()
         info: dict[str, Any] = {}
         if ended or self._tells_mask:
@@ -210,7 +230,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self._tell(ended, info)
         if self._renderer is not None:
             self._renderer.add_step(self._batch, causes.text_of(ended))
-            self._show()
+            self._show(self._renderer)
         terminated, truncated = (ended & 1) != 0, ended > 1
         return self._reader.read(), self._rewards.item(), terminated, truncated, info
 
@@ -227,22 +247,6 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         if self._tells_mask:
             info["action_mask"] = self._masks.for_space()
 
-    def _check_preconditions(self) -> None:
-        self._writer.write_record()
-        if self._batch.violated_preconditions(self._batch.actions)[0] >= 0:
-            raise ActionError(self._why_violated())
-
-    def _why_violated(self) -> str:
-        if self.problem.has_details:
-            return self._batch.explain_violation(0)
-        batch = _native.Batch(self.problem.detailed, values=False)
-        batch.reset()
-        record = np.zeros(self.model.state_size, np.uint8)
-        self._batch.read_state(0, record)
-        batch.write_state(0, record, self.timestep)
-        batch.actions[:] = self._batch.actions
-        return batch.explain_violation(0)
-
     def action_masks(self) -> NDArray[np.bool_]:
         """(sum of categories,): which values of a Discrete or MultiDiscrete action satisfy the
         preconditions, each while the others have their default (sb3-contrib's MaskablePPO)."""
@@ -256,14 +260,19 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._batch.read_state(0, record)
         return State(record.tobytes(), self.timestep, self._ended, self.problem.state_form.problem)
 
+    def state_from(self, values: Mapping[str, Any], *, steps: int = 0) -> State:
+        """The state of these values, by the names of `env.state`, grounded or not; the others have
+        their initial value. steps: made so far."""
+        return state_from(self.problem, values, steps)
+
     def set_state(self, state: State, *, seed: int | None = None, replay: bool = False) -> None:
-        """The episode goes on from there, with new random numbers each time: a planner that tries an
-        action several times sees several successors, and never the one that is to come. They are
+        """The episode continues from there, with new random numbers each time: a planner that tries
+        an action several times sees several successors, and never the one that is to come. They are
         drawn from `np_random`, so that the same seed of reset() and the same calls give the same.
 
         seed: of the random numbers that follow: the same seed gives the same successors.
         replay: the numbers are this episode's own, which depend on its seed, its number and the
-            number of the step alone: the same actions lead to what they have led to before.
+            number of the step alone: the same actions have the same results as before.
         """
         self.problem.state_form.record_of(state)
         if seed is not None and replay:
@@ -308,28 +317,35 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         self._batch.read_interm(0, record[0])
         return {name: view[0].copy() for name, view in lifted_views(record, fluents).items()}
 
-    # ---- pictures
+        """Returns (height, width, 3) uint8, a list of these since the last render() or reset(), a text,
+        or None, as `render_mode` says."""
 
     def render(self) -> Any:
-        """(height, width, 3) uint8, a text, or None: as `render_mode` says."""
+        """Returns (height, width, 3) uint8, a text, or None, as `render_mode` says."""
         if self._renderer is None or self._seed is None:
             return None
         if self.render_mode == "human":
             return self._renderer.show()
+        if self.render_mode == "rgb_array_list":
+            frames, self._frames = self._frames, []
+            return frames
         return self._renderer.text() if self.render_mode == "ansi" else self._renderer.pixels()
 
     def _begin_pictures(self) -> None:
-        """What is drawn begins where the environment stands."""
+        """Starts drawing at the environment's present state."""
         if self._renderer is not None:
             self._renderer.begin(self._batch, self.horizon)
-            self._show()
+            self._frames = []
+            self._show(self._renderer)
 
-    def _show(self) -> None:
-        if self.render_mode == "human" and self._renderer is not None:
-            self._renderer.show()
+    def _show(self, renderer: Renderer) -> None:
+        if self.render_mode == "human":
+            renderer.show()
+        elif self.render_mode == "rgb_array_list":
+            self._frames.append(renderer.pixels())
 
     def _repr_html_(self) -> str:
-        """In a notebook an environment is a picture of its state."""
+        """Notebooks show an environment as a picture of its state."""
         if self._seed is None:
             return f"<code>{self}</code>: call reset() to see its state"
         renderer = self._renderer
@@ -339,13 +355,13 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
         return renderer.image_tag()
 
     def replay_page(self) -> str:
-        """The episode so far as a page that replays it (docs/pictures.md), an HTML file of its own;
-        of environments with a render_mode."""
+        """Returns the episode so far as a page that replays it (docs/pictures.md), an HTML file of
+        its own; for environments with a render_mode."""
         return self._remembered().page()
 
     def save_gif(self, path: str | os.PathLike[str]) -> None:
-        """Writes the episode so far (since the last set_state, if there was one), but no more than its
-        last 1,000 steps, as a movie; of environments with a render_mode."""
+        """Writes the episode so far (since the last set_state, if there was one), but no more than
+        its last 1,000 steps, as a movie; for environments with a render_mode."""
         self._remembered().write_gif(path)
 
     def _remembered(self) -> Renderer:
@@ -363,8 +379,9 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
     # ---- copies
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RDDLEnv:
-        """What follows is the same in both as long as the actions are: the copy draws what this one
-        will draw. `set_state(env.get_state(), seed=...)` gives it random numbers of its own."""
+        """Returns a copy. The future is the same in both as long as the actions are: the copy draws
+        what this one will draw. `set_state(env.get_state(), seed=...)` gives it random numbers
+        of its own."""
         copy = type(self)(self.problem, **self._forms)
         copy._take(self, self._batch.copy())
         return copy
@@ -382,7 +399,7 @@ class RDDLEnv(gymnasium.Env[Any, Any]):
             self.spec,
         )
 
-    def _take(self, other: RDDLEnv, batch: _native.Batch) -> None:
+    def _take(self, other: RDDLEnv, batch: _native.EnvPool) -> None:
         self._batch = batch
         self._connect()
         self._seed, self._ended, self._luck = other._seed, other._ended, other._luck
@@ -417,11 +434,3 @@ def _unpickled(
     go_on_from(env.action_space, action_space)
     env.spec = spec
     return env
-
-
-def _size_of(given: Any) -> tuple[int, int]:
-    """Width and height in pixels; the painter knows how many there may be."""
-    if not isinstance(given, (Sequence, np.ndarray)) or isinstance(given, str) or len(given) != 2:
-        raise ArgumentError(f"render_size is {given!r}, which is not a width and a height")
-    most = (1 << 31) - 1
-    return whole("render_size", given[0], -most, most), whole("render_size", given[1], -most, most)

@@ -1,13 +1,11 @@
-"""What rddlc raises. All are `Error`s."""
+"""Errors that rddlc raises. All are `Error`s."""
 
-from ._native import CompileError, Error
+from ._native import ArgumentError, CompileError, Error
+
+for each in ArgumentError, CompileError, Error:
+    each.__module__ = "rddlc"
 
 __all__ = ["ActionError", "ArgumentError", "CompileError", "Error", "EpisodeOver"]
-
-
-class ArgumentError(Error, ValueError, TypeError):
-    """An argument that cannot be, or a name that does not exist; nothing has been changed by it. It is
-    one of Python's own errors, too, for programs that catch these."""
 
 
 class ActionError(Error):

@@ -7,109 +7,40 @@ they save is what `rddl evaluate` and `rddl export` read (docs/solvers.md).
 from __future__ import annotations
 
 import html
-import math
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 from . import _native
-from .arguments import SEEDS, seed_of, thread_count, whole, whole_or_none
-from .dictionaries import GroundedReader, LiftedReader
+from .acting import actions_in, batch_at, environment_in, problem_in, shows
+from .arguments import SEEDS, seed_of, shown, whole
+from .callbacks import Callback
 from .environment import RDDLEnv
 from .errors import ArgumentError, Error
-from .lifted import LiftedRows
+from .evaluation import MOST_EPISODES, Evaluation, evaluation_of
 from .problems import Problem
-from .vector import RDDLVectorEnv
 
-Solvable = Problem | RDDLEnv | RDDLVectorEnv
-Callback = Callable[["Learner"], bool | None]
-"""Called after each update; learning ends where it gives False."""
-MOST_EPISODES = 10_000_000
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .learner_options import CGPOptions, PPOOptions
+
+
+class Wrapped(Protocol):
+    """An environment of rddlc, also within wrappers of Gymnasium or Stable-Baselines3."""
+
+    @property
+    def unwrapped(self) -> Any: ...
+
+
+Solvable = Problem | Wrapped
+"""Whatever wrappers do to an environment, learners know its problem alone."""
 EVALUATION_SEED = 0x65766131  # with the learner's seed, as `rddl train` has it
 EVALUATION_HORIZON = 1000  # of a problem without one
 L = TypeVar("L", bound="Learner")
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A mean of episodes, with the half width of its 95 % confidence interval."""
-
-    mean: float
-    deviation: float
-    minimum: float
-    maximum: float
-    half_width: float
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """What a policy earns."""
-
-    episodes: int
-    returns: Estimate
-    """Sums of rewards, undiscounted."""
-    discounted_returns: Estimate
-    lengths: Estimate
-    """Steps."""
-    terminated: int
-    """Episodes that a termination condition has ended."""
-    faulted: int
-
-    def is_better_than(self, other: Evaluation | None) -> bool:
-        """As `rddl train` chooses the best policy: by the mean return, and of equal ones by which
-        reaches its end sooner. One that is not finite is never better."""
-        mean = self.returns.mean
-        if not math.isfinite(mean) or other is None:
-            return math.isfinite(mean)
-        is_sooner = self.terminated > 0 and self.lengths.mean < other.lengths.mean
-        return mean > other.returns.mean or (mean == other.returns.mean and is_sooner)
-
-    def __str__(self) -> str:
-        returns = self.returns
-        return f"return {returns.mean:.6g} +- {returns.half_width:.3g} ({self.episodes} episodes)"
-
-
-@contextmanager
-def _refusals() -> Iterator[None]:
-    """An option that is refused is an argument that cannot be."""
-    try:
-        yield
-    except _native.Refused as refused:
-        raise ArgumentError(str(refused)) from None
-
-
-def chosen_action(env: RDDLEnv | RDDLVectorEnv, function: str) -> Any:
-    """What a policy has written into the environment's records, as env.step takes it."""
-    fluents, batch = env.problem.model.actions, env._batch
-    if isinstance(env, RDDLVectorEnv):
-        return LiftedRows(fluents, batch.actions, batch.actions).rows(copy=True)
-    if env._forms["actions"] != "dict":
-        raise Error(f"{function}() gives dictionaries: make the environment with actions='dict'")
-    reader = LiftedReader if env._forms["vectorized"] else GroundedReader
-    return reader(fluents, batch.actions).read()
-
-
-def evaluation_of(
-    policy: _native.Policy, episodes: int, seed: int, threads: int, horizon: int | None
-) -> Evaluation:
-    """The returns of a policy in the episodes of this seed."""
-    found = policy.evaluate(
-        whole("episodes", episodes, 1, MOST_EPISODES),
-        seed_of(seed),
-        thread_count(threads),
-        whole_or_none("horizon", horizon, 0),
-    )
-    return Evaluation(
-        episodes=found["episodes"],
-        returns=Estimate(**found["return"]),
-        discounted_returns=Estimate(**found["discounted_return"]),
-        lengths=Estimate(**found["length"]),
-        terminated=found["terminated"],
-        faulted=found["faulted"],
-    )
 
 
 @dataclass(frozen=True)
@@ -119,15 +50,16 @@ class _Best:
 
 
 class Learner:
-    """What PPO and CGP have in common."""
+    """The common part of PPO and CGP."""
 
+    solver: ClassVar[str]
     extension: ClassVar[str]
-    total: ClassVar[str]  # the option that tells how long to learn
+    total: ClassVar[str]  # the option for the amount of training
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        self.problem: Problem = (
-            env_or_problem if isinstance(env_or_problem, Problem) else env_or_problem.problem
-        )
+    def __init__(self, env_or_problem: Solvable, *, verbose: int = 0, **options: Any) -> None:
+        self.problem = problem_in(env_or_problem)
+        self._env = environment_in(env_or_problem)
+        self._verbose = whole("verbose", verbose, 0)
         self._options = options
         self._native: _native.Learner | None = None
         self._loaded: str | None = None  # a policy file
@@ -138,6 +70,7 @@ class Learner:
     def _forget_actor(self) -> None:
         """Called before whatever changes the policy: no other value is kept of it."""
         self._actor: _native.Policy | None = None
+        self._is_deterministic = True
         self._acts_in: Any = None
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
@@ -145,20 +78,27 @@ class Learner:
 
     def learn(
         self: L,
-        amount: int,
-        callback: Callback | None = None,
+        amount: int | None = None,
+        callback: Callback | Sequence[Callback] | None = None,
         *,
+        total_timesteps: int | None = None,
         evaluations: int = 20,
         evaluation_episodes: int = 20,
+        progress_bar: bool = False,
     ) -> L:
-        """Learns for so many steps (PPO) or generations (CGP); again, it goes on from where it was.
-        Ctrl-C ends it, within an update, too, and leaves what has been learned.
+        """Learns for so many steps (PPO) or generations (CGP); another call continues.
+        Ctrl-C ends it, also within an update, and keeps what has been learned.
 
-        callback: called with the learner after each update; learning ends where it gives False.
+        callback: called with the learner after each update; learning ends when it returns False.
+            rddlc.callbacks has some. A list of callbacks is called in its order.
+        total_timesteps: of PPO another name of `amount`.
         evaluations: so often, evenly, the policy is evaluated in `evaluation_episodes` episodes of
-            the same seeds, and `best` keeps the best one; 0: never.
+            the same seeds, and `best` keeps the best one; 0: never. With verbose=1 each of them is
+            printed.
+        progress_bar: whether a line on standard error shows how much has been learned.
         """
-        amount = whole(self.total, amount, 1)
+        amount = self._amount_of(amount, total_timesteps)
+        callbacks = callback if isinstance(callback, Sequence) else [callback] if callback else []
         evaluations = whole("evaluations", evaluations, 0)
         evaluation_episodes = whole("evaluation_episodes", evaluation_episodes, 1, MOST_EPISODES)
         if self._loaded is not None:
@@ -180,11 +120,22 @@ class Learner:
             if due > made:
                 self._evaluate_for_best(evaluation_episodes)
                 made, evaluated_at = due, self.steps
-            if callback is not None and callback(self) is False:
+            if progress_bar:
+                _show_progress(self.steps - before, amount)
+            if False in [each(self) for each in callbacks]:
                 break
+        if progress_bar:
+            print(file=sys.stderr)
         if evaluations and evaluated_at != self.steps:
             self._evaluate_for_best(evaluation_episodes)
         return self
+
+    def _amount_of(self, amount: int | None, total_timesteps: int | None) -> int:
+        if total_timesteps is not None and self.total != "steps":
+            raise ArgumentError(f"this learner counts {self.total}, not steps: say learn({self.total})")
+        if (amount is None) == (total_timesteps is None):
+            raise ArgumentError(f"learn() takes one number of {self.total}")
+        return whole(self.total, total_timesteps if amount is None else amount, 1)
 
     def _evaluate_for_best(self, episodes: int) -> None:
         problem = self.problem.model
@@ -195,6 +146,8 @@ class Learner:
         )
         if self._latest.is_better_than(None if self._best is None else self._best.evaluation):
             self._best = _Best(self.policy_text, self._latest)
+        if self._verbose:
+            print(f"{self.steps} {self.total}: {self._latest}")
 
     @property
     def steps(self) -> int:
@@ -203,8 +156,8 @@ class Learner:
 
     @property
     def progress(self) -> dict[str, float]:
-        """What is known after the last update, by Stable-Baselines3's names; "eval/mean_reward" and
-        "eval/mean_ep_length" after the first evaluation."""
+        """Returns the results of the last update, by Stable-Baselines3's names; "eval/mean_reward"
+        and "eval/mean_ep_length" after the first evaluation."""
         known = {} if self._native is None else self._native.row()
         if self._latest is not None:
             known["eval/mean_reward"] = self._latest.returns.mean
@@ -213,7 +166,7 @@ class Learner:
 
     @property
     def policy_text(self) -> str:
-        """What a policy file holds: the policy as it is now."""
+        """Returns the text of a policy file: the policy as it is now."""
         if self._native is not None:
             return self._native.policy_text()
         if self._loaded is not None:
@@ -222,9 +175,9 @@ class Learner:
 
     @property
     def best(self: L) -> L:
-        """The policy that was best in the evaluations of learn(), as `rddl train` keeps it: to
-        predict, to evaluate and to save. It stays what it is while learning goes on. Of a policy
-        that was loaded, and where nothing was evaluated, it is the policy as it is now."""
+        """Returns the best policy of the evaluations of learn(), as `rddl train` keeps it: to
+        predict, to evaluate and to save. It stays the same while learning continues. For a
+        policy that was loaded, and without evaluations, it is the policy as it is now."""
         text = self.policy_text if self._best is None else self._best.text
         return self._of_text(text, self.problem)
 
@@ -240,15 +193,35 @@ class Learner:
             self.problem.simulator, self.policy_text, not deterministic, seed
         )
 
-    def predict(self, env: RDDLEnv | RDDLVectorEnv) -> tuple[Any, None]:
-        """The action, as env.step takes it, for where `env` stands; None, as Stable-Baselines3 has a
-        second result. `env` is of any instance that the policy may act in, and has actions="dict".
-        Call it once before each step."""
-        if self._actor is None:
-            self._actor, self._acts_in = self.policy(), None
-        self._actor.act(env._batch, self._acts_in is not env)
-        self._acts_in = env
-        return chosen_action(env, "predict"), None
+    def predict(
+        self,
+        observation: Any,
+        state: Any = None,
+        episode_start: Any = None,
+        deterministic: bool = True,
+    ) -> tuple[Any, None]:
+        """Returns the action, as env.step takes it, for an observation or for an environment: of any
+        instance that the policy may act in, also within wrappers. The second result and `state`
+        and `episode_start` are Stable-Baselines3's, and mean nothing.
+
+        An observation that the learner's own environment shows now stands for that environment: the
+        policy knows the time, and remembers the episode, if it is called once before each step. Any
+        other observation of a problem that is fully observed is taken for the start of an episode.
+        Rows of observations give rows of actions.
+        """
+        env = environment_in(observation)
+        if env is not None:
+            batch = env._batch
+        else:
+            env = self._env = self._env or RDDLEnv(self.problem)
+            batch = env._batch if shows(env, observation) else batch_at(env, observation)
+        if self._actor is None or self._is_deterministic != deterministic:
+            self._actor, self._acts_in = self.policy(deterministic=deterministic), None
+            self._is_deterministic = deterministic
+        self._actor.act(batch, self._acts_in is not batch)
+        self._acts_in = batch
+        is_single = isinstance(env, RDDLEnv) and len(batch.rewards) == 1
+        return actions_in(env, batch.actions, is_single=is_single), None
 
     def evaluate(
         self,
@@ -258,29 +231,36 @@ class Learner:
         threads: int = 0,
         horizon: int | None = None,
     ) -> Evaluation:
-        """Its returns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
-        None: the instance's; 0: none. threads: 0: one for each core."""
+        """The returns of the policy in the episodes of this seed; as `rddl evaluate --seed`.
+        horizon: steps; None: the instance's; 0: no horizon. threads: 0: one for each core."""
         return evaluation_of(self.policy(), episodes, seed, threads, horizon)
 
     def save(self, path: str | os.PathLike[str], *, best: bool = False) -> Path:
-        """Writes the policy file: of the policy as it is now, or of the `best` one. Its name gets its
-        extension if it has none."""
-        file = Path(os.fsdecode(path))
+        """Writes the policy file: of the policy as it is now, or of the `best` one. Adds the
+        extension if the name has no extension."""
+        file = Path(_native.path_text(path))
         file = file if file.suffix else file.with_suffix(self.extension)
         _native.write_file(file, (self.best if best else self).policy_text)
         return file
 
     @classmethod
     def load(cls: type[L], path: str | os.PathLike[str], env_or_problem: Solvable) -> L:
-        """From a policy file, to predict and evaluate."""
-        return cls._of_text(Path(os.fsdecode(path)).read_bytes(), env_or_problem)
+        """From a policy file, or that of the folder of a run, to predict and evaluate."""
+        learner = cls._of_text(_native.policy_of_file(path), env_or_problem)
+        solver = _native.solver_of_text(learner.policy_text)
+        if solver != cls.solver:
+            raise ArgumentError(
+                f"{shown(path)} is a policy that {solver.upper()} has learned: "
+                f"rddlc.{solver.upper()}.load() reads it"
+            )
+        return learner
 
     @classmethod
     def _of_text(cls: type[L], text: str | bytes, env_or_problem: Solvable) -> L:
         learner = cls.__new__(cls)
         Learner.__init__(learner, env_or_problem)  # without what it takes to learn
         learner._loaded = text if isinstance(text, str) else text.decode(errors="replace")
-        learner.policy()  # refuses what is none
+        learner.policy()  # refuses impossible values
         return learner
 
     def __getstate__(self) -> dict[str, Any]:
@@ -297,6 +277,12 @@ class Learner:
         self._native.load(work)
 
 
+def _show_progress(made: int, amount: int) -> None:
+    share = min(made / amount, 1)
+    done = round(share * 40)
+    print(f"\r[{'=' * done}{' ' * (40 - done)}] {share:4.0%} {made:,} of {amount:,}", end="", file=sys.stderr)
+
+
 class PPO(Learner):
     """Proximal policy optimisation: a neural network.
 
@@ -307,19 +293,20 @@ class PPO(Learner):
 
     __doc__ = (__doc__ or "") + _native.ppo_options()
 
-    extension, total = ".json", "steps"
+    solver, extension, total = "ppo", ".json", "steps"
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        super().__init__(env_or_problem, **options)
+    def __init__(
+        self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[PPOOptions]
+    ) -> None:
+        super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"steps": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        with _refusals():
-            return _native.ppo(self.problem.simulator, options)
+        return _native.ppo(self.problem.simulator, options)
 
 
 class CGP(Learner):
-    """Cartesian genetic programming: a formula, which str() tells.
+    """Cartesian genetic programming: finds a formula, which str() prints.
 
     Options are keywords, with the values that `rddl help train cgp` lists; lists are Python's, and
     True and False are on and off:
@@ -328,15 +315,16 @@ class CGP(Learner):
 
     __doc__ = (__doc__ or "") + _native.cgp_options()
 
-    extension, total = ".cgp", "generations"
+    solver, extension, total = "cgp", ".cgp", "generations"
 
-    def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        super().__init__(env_or_problem, **options)
+    def __init__(
+        self, env_or_problem: Solvable, *, verbose: int = 0, **options: Unpack[CGPOptions]
+    ) -> None:
+        super().__init__(env_or_problem, verbose=verbose, **options)
         self._new_native({"generations": 1, **options})  # refuses options that cannot be
 
     def _new_native(self, options: dict[str, Any]) -> _native.Learner:
-        with _refusals():
-            return _native.cgp(self.problem.simulator, options)
+        return _native.cgp(self.problem.simulator, options)
 
     @property
     def formula(self) -> str:
@@ -347,5 +335,5 @@ class CGP(Learner):
         return self.formula
 
     def _repr_html_(self) -> str:
-        """In a notebook it is its formula."""
+        """Notebooks show its formula."""
         return f"<pre>{html.escape(self.formula)}</pre>"

@@ -1,4 +1,4 @@
-"""What a problem is made of: types, fluents, conditions."""
+"""The parts of a problem: types, fluents, conditions."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ class Fluent:
     """"state-fluent", "action-fluent", "observ-fluent", "interm-fluent", "derived-fluent" or
     "non-fluent"."""
     scalar: str
-    """How values are stored: "bool", "int" (objects, too) or "real"."""
+    """The storage of values: "bool", "int" (also objects) or "real"."""
     range: str
     """"bool", "int", "real" or the name of a type of objects."""
     objects: tuple[str, ...] | None
     """Names of the values, if they are objects."""
     parameters: tuple[ObjectType, ...]
     lower: NDArray[np.float64] | None
-    """Bounds that the constraints tell, of `shape`: -inf where there are none. None: not a number."""
+    """Bounds from the constraints, of `shape`: -inf for a missing bound. None: not a number."""
     upper: NDArray[np.float64] | None
     source: Source
     offset: int
-    """Bytes into its record; -1: it is in none."""
+    """The offset in its record, in bytes; -1: it is in no record."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -82,9 +82,9 @@ class Model:
     instance: str
     types: dict[str, ObjectType]
     fluents: dict[str, Fluent]
-    """In declaration order."""
+    """The fluents in declaration order."""
     horizon: int
-    """Steps; 0: none."""
+    """Steps; 0: no horizon."""
     discount: float
     max_nondef_actions: int
     """How many action values may differ from their default; -1: all."""
@@ -113,18 +113,25 @@ class Model:
 
     @property
     def observed(self) -> list[Fluent]:
-        """What an environment shows: observ-fluents if there are any, else state-fluents."""
+        """The fluents that an environment shows: observ-fluents if there are any, else
+        state-fluents."""
         return self.with_role("observ-fluent") if self.partially_observed else self.states
 
     @property
     def limited_actions(self) -> int | None:
         """How many action values may differ from their default, if not all of them may."""
+        limit = self.max_allowed_actions
+        return limit if limit < sum(fluent.count for fluent in self.actions) else None
+
+    @property
+    def max_allowed_actions(self) -> int:
+        """How many action values may differ from their default."""
         count = sum(fluent.count for fluent in self.actions)
-        return self.max_nondef_actions if 0 <= self.max_nondef_actions < count else None
+        return min(self.max_nondef_actions, count) if self.max_nondef_actions >= 0 else count
 
 
 def model_of(described: dict[str, Any]) -> Model:
-    """The model that a simulator's `describe()` tells."""
+    """Makes the model from a simulator's `describe()`."""
     types = {each["name"]: ObjectType(**each) for each in described.pop("types")}
     conditions: dict[str, Any] = {
         kind: tuple(Condition(*each) for each in described.pop(kind))

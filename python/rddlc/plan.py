@@ -12,11 +12,12 @@ import os
 from typing import Any, ClassVar
 
 from . import _native
+from .acting import actions_in, environment_in, problem_in
 from .environment import RDDLEnv
 from .errors import ArgumentError
-from .learners import Evaluation, Solvable, chosen_action, evaluation_of
+from .evaluation import Evaluation, evaluation_of
+from .learners import Solvable, Wrapped
 from .problems import Problem
-from .vector import RDDLVectorEnv
 
 __all__ = ["CEM", "Planner", "Rollout", "UCT"]
 
@@ -27,24 +28,24 @@ class Planner:
     name: ClassVar[str]
 
     def __init__(self, env_or_problem: Solvable, **options: Any) -> None:
-        is_problem = isinstance(env_or_problem, Problem)
-        self._env = None if is_problem else env_or_problem
-        self.problem: Problem = env_or_problem if is_problem else env_or_problem.problem
+        self._env = environment_in(env_or_problem)
+        self.problem: Problem = problem_in(env_or_problem)
         self.text = ",".join([f"plan:{self.name}", *map(_option, options.items())])
         """As `rddl evaluate --policy` takes it."""
         self._native = _native.planner(self.problem.simulator, self.text)
         self._acted_in: Any = None
 
-    def act(self, observation: Any = None, env: RDDLEnv | RDDLVectorEnv | None = None) -> Any:
-        """The action, as env.step takes it, for where the planner's environment stands, or another
-        one: a planner looks at the state, not at the observation. Call it once before each step.
-        The environment has actions="dict"."""
-        acting = self._env if env is None else env
+    def act(self, observation: Any = None, env: Wrapped | None = None) -> Any:
+        """Returns the action, as env.step takes it, for the present state of the planner's environment,
+        or of another one, also within wrappers. A planner uses the state, not the observation. Call it
+        once before each step."""
+        acting = self._env if env is None else environment_in(env)
         if acting is None:
             raise ArgumentError("act: the planner was made of a problem: say in which env it acts")
-        self._native.plan(acting._batch, self._acted_in is not acting)
-        self._acted_in = acting
-        return chosen_action(acting, "act")
+        batch = acting._batch
+        self._native.plan(batch, self._acted_in is not batch)
+        self._acted_in = batch
+        return actions_in(acting, batch.actions, is_single=isinstance(acting, RDDLEnv))
 
     def evaluate(
         self,
@@ -54,8 +55,8 @@ class Planner:
         threads: int = 0,
         horizon: int | None = None,
     ) -> Evaluation:
-        """Its returns in the episodes of this seed; as `rddl evaluate --seed`. horizon: steps;
-        None: the instance's; 0: none. threads: 0: one for each core."""
+        """The returns of the planner in the episodes of this seed; as `rddl evaluate --seed`.
+        horizon: steps; None: the instance's; 0: no horizon. threads: 0: one for each core."""
         return evaluation_of(self._native, episodes, seed, threads, horizon)
 
     def __repr__(self) -> str:

@@ -1,18 +1,21 @@
-"""From files, or a name of rddlrepository, to a simulator."""
+"""Loads simulators from files, or from a name of rddlrepository."""
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
+import tempfile
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from . import _native
-from .arguments import one_of, whole_or_none
+from .arguments import flag, one_of, text, whole_or_none
 from .errors import ArgumentError
 from .model import Model, model_of
 from .states import StateForm
@@ -22,7 +25,7 @@ NO_HORIZON = -1  # of a batch; its 0 is the instance's
 
 
 def batch_horizon(horizon: int | None) -> int:
-    """What a batch takes where people say None for the instance's horizon, and 0 for none."""
+    """Converts a user's horizon to a batch's: None is the instance's, and 0 is no horizon."""
     given = whole_or_none("horizon", horizon, 0)
     return 0 if given is None else given or NO_HORIZON
 
@@ -66,12 +69,13 @@ class Problem:
         if isinstance(externs, (str, bytes, os.PathLike)):
             raise ArgumentError(f"externs is a list of headers, not {externs!r}")
         self._options: dict[str, Any] = {
-            "instance_name": instance_name,
+            "instance_name": text("instance_name", instance_name),
             "engine": engine,
-            "externs": tuple(os.fsdecode(each) for each in externs),
-            "extended": extended,
-            "details": details,
+            "externs": tuple(_native.path_text(each) for each in externs),
+            "extended": flag("extended", extended),
+            "details": flag("details", details),
         }
+        domain, instance = _written(domain, instance)
         self.engine = _engine_at_hand(engine)
         self.simulator = self._load(
             domain,
@@ -98,7 +102,7 @@ class Problem:
 
     @property
     def has_details(self) -> bool:
-        """Whether the simulator tells interm-fluents, and objects that violate a precondition."""
+        """Whether the simulator reports interm-fluents, and objects that violate a precondition."""
         return self.engine == "interpreter" or self._options["details"]
 
     @cached_property
@@ -130,11 +134,40 @@ class Problem:
         start; the defaults of an action-fluent."""
         return self.simulator.constants(self.model.fluents[fluent].index)
 
+    @property
+    def options(self) -> dict[str, Any]:
+        """Those that it was loaded with."""
+        return dict(self._options)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _load_again, (self.files, self._options)
 
     def __repr__(self) -> str:
         return f"Problem({self.name!r}, engine={self.engine!r})"
+
+
+def _written(domain: Any, instance: Any) -> tuple[Any, Any]:
+    """Texts of RDDL become files."""
+    given = {"domain.rddl": domain, "instance.rddl": instance}
+    texts = {name: text for name, text in given.items() if isinstance(text, str) and "{" in text}
+    files = dict(zip(texts, files_of_texts(texts))) if texts else {}
+    return files.get("domain.rddl", domain), files.get("instance.rddl", instance)
+
+
+def files_of_texts(texts: Mapping[str, str]) -> list[str]:
+    """The texts as files, which are written once for each user and content: domain, instance."""
+    content = hashlib.sha256(repr(sorted(texts.items())).encode()).hexdigest()[:16]
+    folder = Path(tempfile.gettempdir()) / f"rddlc-{os.getuid()}" / content
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, text in texts.items():
+        file = folder / name
+        if not file.exists():
+            fresh = folder / f"{name}.{os.getpid()}"
+            fresh.write_text(text)
+            fresh.replace(file)  # other processes write it, too
+        files.append(str(file))
+    return files
 
 
 def _name_of(instance: Any) -> str | bytes | os.PathLike[str]:
@@ -149,7 +182,8 @@ def _load_again(files: list[str], options: dict[str, Any]) -> Problem:
 
 
 def repository_folder() -> str:
-    """The folder of rddlrepository: $RDDL_REPOSITORY, else the installed package; "" if none."""
+    """Returns the folder of rddlrepository: $RDDL_REPOSITORY, else the installed package; "" if it
+    is missing."""
     if given := os.environ.get("RDDL_REPOSITORY"):
         return given
     spec = find_spec("rddlrepository")
@@ -159,7 +193,7 @@ def repository_folder() -> str:
 
 
 def problems() -> list[ListedProblem]:
-    """All problems of rddlrepository, by name; none where it is not installed."""
+    """Returns all problems of rddlrepository, by name; an empty dictionary if it is not installed."""
     folder = repository_folder()
     return list(_problems_in(folder)) if folder else []
 
@@ -178,7 +212,7 @@ def _engine_at_hand(engine: str) -> str:
 
 @lru_cache(maxsize=1)
 def _has_cpp_compiler() -> bool:
-    """Warns, once, where there is none."""
+    """Warns, once, if the compiler is missing."""
     command = _native.cpp_compiler()[0]
     if shutil.which(command):
         return True

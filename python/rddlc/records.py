@@ -28,8 +28,14 @@ class Column:
     grounding: int
 
     @property
+    def offset(self) -> int:
+        """Bytes into its record."""
+        return self.fluent.offset + self.grounding * STORED[self.fluent.scalar].itemsize
+
+    @property
     def bounds(self) -> tuple[float, float]:
-        """From the constraints, or else of what there is: 0 and 1, or the objects' indices."""
+        """The bounds from the constraints, or else those of the type: 0 and 1, or the objects'
+        indices."""
         fluent = self.fluent
         if fluent.objects is not None:
             return 0.0, float(len(fluent.objects) - 1)
@@ -53,7 +59,7 @@ class Column:
 
 
 def columns_of(fluents: Sequence[Fluent]) -> list[Column]:
-    """In declaration order, and row-major within a fluent: as in matrices of values."""
+    """The columns in declaration order, and row-major within a fluent: as in matrices of values."""
     return [
         Column(name, fluent, grounding)
         for fluent in fluents
@@ -64,15 +70,11 @@ def columns_of(fluents: Sequence[Fluent]) -> list[Column]:
 def grounded_view(records: NDArray[np.uint8], fluents: Sequence[Fluent]) -> NDArray[np.void]:
     """(n,) structured: a field for each value, without copying. records: (n, bytes)."""
     columns = columns_of(fluents)
-    sizes = [STORED[column.fluent.scalar] for column in columns]
     layout = np.dtype(
         {
             "names": [f"f{index}" for index in range(len(columns))],
-            "formats": sizes,
-            "offsets": [
-                column.fluent.offset + column.grounding * size.itemsize
-                for column, size in zip(columns, sizes)
-            ],
+            "formats": [STORED[column.fluent.scalar] for column in columns],
+            "offsets": [column.offset for column in columns],
             "itemsize": records.shape[1],
         }
     )
@@ -94,3 +96,21 @@ def lifted_views(
             (len(records), *shape), stored, records, fluent.offset, (records.shape[1], *strides)
         )
     return views
+
+
+def records_of(fluents: Sequence[Fluent], size: int, values: NDArray[Any]) -> NDArray[np.uint8]:
+    """(n, size) of rows of values, of which whole numbers may be floats."""
+    is_real = [column.fluent.scalar == "real" for column in columns_of(fluents)]
+    records = np.zeros((len(values), size), np.uint8)
+    view = grounded_view(records, fluents)
+    for place, row in enumerate(values.tolist()):
+        if row:
+            view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
+    return records
+
+
+def values_of(fluents: Sequence[Fluent], records: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """(n, columns)"""
+    view = grounded_view(records, fluents)
+    names = view.dtype.names or ()
+    return np.stack([view[name].astype(np.float64) for name in names], axis=1)

@@ -1,12 +1,20 @@
-"""Ids for Gymnasium: "rddlc/MountainCar_ippc2023-1-v0" is instance 1 of a problem of rddlrepository."""
+"""Ids and specifications for Gymnasium: "rddlc/MountainCar_ippc2023-1-v0" is instance 1 of a problem of
+rddlrepository, and people register their own files."""
 
 from __future__ import annotations
 
+import os
 import re
+from typing import Any
 
 import gymnasium
+from gymnasium.envs.registration import EnvSpec
 
-from .problems import problems
+from . import _native
+from .arguments import keywords_of, refuse_unknown
+from .environment import RDDLEnv
+from .problems import Problem, problems
+from .vector import RDDLVectorEnv
 
 ID = re.compile(r"[\w:.-]+")
 
@@ -18,9 +26,54 @@ def register_environments() -> None:
             name = f"rddlc/{problem.name}-{instance}-v0"
             if name in gymnasium.registry or not ID.fullmatch(f"{problem.name}-{instance}"):
                 continue
-            gymnasium.register(
-                id=name,
-                entry_point="rddlc:make",
-                vector_entry_point="rddlc:make_vec",
-                kwargs={"domain": problem.name, "instance": instance},
-            )
+            _register(name, {"domain": problem.name, "instance": instance})
+
+
+def register(
+    id: str,
+    domain: str | os.PathLike[str],
+    instance: str | int | os.PathLike[str] | None = None,
+    **options: Any,
+) -> None:
+    """Lets `gymnasium.make(id)` and `gymnasium.make_vec(id, num_envs=N)` make environments of these
+    files, texts or problems of rddlrepository. id: "Heater-v0" or "mine/Heater-v0". options: as
+    `rddlc.make` and `make_vec` take them."""
+    known = [*keywords_of(Problem.__init__), *keywords_of(RDDLEnv.__init__)]
+    refuse_unknown("option", options, [*known, *keywords_of(RDDLVectorEnv.__init__)])
+    places: list[Any] = [domain, instance]
+    given = [os.path.abspath(each) if _is_file(each) else each for each in places]
+    _register(id, {"domain": given[0], "instance": given[1], **options})
+
+
+def _is_file(given: Any) -> bool:
+    """Whether it is a path that exists: a process may change its folder before it makes anything."""
+    is_path = isinstance(given, os.PathLike) or (isinstance(given, str) and "{" not in given)
+    return is_path and os.path.exists(given) and (_native.is_path(given) or os.path.isfile(given))
+
+
+def _register(id: str, arguments: dict[str, Any]) -> None:
+    """gymnasium.make gives the environment itself, which shows itself in notebooks: what Gymnasium's
+    wrappers would check, it refuses by itself."""
+    gymnasium.register(
+        id=id,
+        entry_point="rddlc:make",
+        vector_entry_point="rddlc:make_vec",
+        order_enforce=False,
+        disable_env_checker=True,
+        kwargs=arguments,
+    )
+
+
+def spec_of(problem: Problem, horizon: int, options: dict[str, Any]) -> EnvSpec:
+    """What `gymnasium.make` makes the same environment of."""
+    domain, *instance = problem.files
+    arguments = {"domain": domain, "instance": instance[0] if instance else None}
+    return EnvSpec(
+        id="rddlc/{}-v0".format(re.sub(r"[^\w:.-]", "_", problem.model.instance)),
+        entry_point="rddlc:make",
+        vector_entry_point="rddlc:make_vec",
+        order_enforce=False,
+        disable_env_checker=True,
+        max_episode_steps=horizon or None,
+        kwargs={**arguments, **problem.options, **options},
+    )

@@ -27,10 +27,10 @@ class Renderer:
         self._window: Any = None
         self._clock: Any = None
 
-    def begin(self, batch: _native.Batch, horizon: int) -> None:
+    def begin(self, batch: _native.EnvPool, horizon: int) -> None:
         self._painter.begin(batch, horizon)
 
-    def add_step(self, batch: _native.Batch, end: str) -> None:
+    def add_step(self, batch: _native.EnvPool, end: str) -> None:
         self._painter.add_step(batch, end)
 
     def pixels(self) -> NDArray[np.uint8]:
@@ -63,7 +63,8 @@ class Renderer:
                 "render_mode='human' shows a window with pygame: pip install pygame-ce"
             ) from missing
         if self._window is None:
-            # Else SDL catches SIGTERM, which then no longer ends the process, nor its forks.
+            # SDL would otherwise catch SIGTERM, which then no longer ends the process, nor its
+            # forks.
             os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
             try:
                 pygame.display.init()

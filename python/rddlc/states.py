@@ -17,7 +17,7 @@ from .model import Model
 
 @dataclass(frozen=True)
 class State:
-    """Where an episode stands: the bytes of the true state's record, the steps made, why it is over
+    """The state of an episode: the bytes of the true state's record, the steps made, why it is over
     (`rddlc.causes`; 0: it runs), and the problem that it is of. It holds no random numbers."""
 
     record: bytes
@@ -34,7 +34,7 @@ class State:
 
 
 class StateForm:
-    """What the states of a problem look like."""
+    """The form of a problem's states."""
 
     def __init__(self, model: Model) -> None:
         parts = [

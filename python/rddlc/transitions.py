@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from . import _native
 from .arguments import seed_of, shown, whole, whole_or_none
-from .choices import ActionPlan, plan_of
 from .errors import ActionError, Error
 from .problems import Problem, batch_horizon
-from .records import columns_of, grounded_view
+from .records import columns_of, records_of
 from .states import State
+from .translation.action_plan import ActionPlan, plan_of
 
 MOST_ACTIONS = 10_000
 MOST_REMEMBERED = 100_000
@@ -27,7 +27,7 @@ MOST_REMEMBERED = 100_000
 
 @dataclass(frozen=True)
 class Outcome:
-    """Where an action may lead. `reward` is the mean of all ways there."""
+    """A possible successor of an action. `reward` is the mean of all ways there."""
 
     state: State
     probability: float
@@ -55,8 +55,8 @@ class Transitions:
         """levels: values of each number of an action, evenly between its bounds.
         samples: draws from which next states of a stochastic problem are estimated; 0: they are exact,
             by all combinations of what a step draws, as long as these are finitely many.
-        most_outcomes: of these combinations no more are made.
-        horizon: steps; None: the instance's; 0: none.
+        most_outcomes: the largest number of these combinations.
+        horizon: steps; None: the instance's; 0: no horizon.
 
         Raises Error for a partially observed problem, and where actions are too many or have no
         bounds.
@@ -74,15 +74,17 @@ class Transitions:
         given = self._options["horizon"]
         self.horizon: int = problem.model.horizon if given is None else given
         self._values = _action_values(problem, self._options["levels"])
-        self._records = _action_records(problem, self._values)
+        self._records = records_of(
+            problem.model.actions, problem.model.action_size, self._values
+        )
         self._single = self._new_batch(1)
-        # Seeds in a row would be those of the next `seed`, too.
+        # Seeds in a row would also be those of the next `seed`.
         self._seeds = np.random.default_rng(self._options["seed"])
         self._outcomes = lru_cache(MOST_REMEMBERED)(self._new_outcomes)
         self._applicable = lru_cache(MOST_REMEMBERED)(self._new_applicable)
 
-    def _new_batch(self, environments: int) -> _native.Batch:
-        return _native.Batch(
+    def _new_batch(self, environments: int) -> _native.EnvPool:
+        return _native.EnvPool(
             self.problem.simulator,
             environments=environments,
             horizon=batch_horizon(self.horizon),
@@ -121,7 +123,7 @@ class Transitions:
         }
 
     def start(self) -> State:
-        """Of the first episode of `seed`."""
+        """Returns the initial state of the first episode of `seed`."""
         self._single.set_seed(self._options["seed"])
         self._single.reset()
         return self._state_of(self._single, 0, self._single.causes_of(0))
@@ -179,7 +181,7 @@ class Transitions:
         return _native.enumeration(self.problem.simulator, list(self.problem.externs))
 
     def applicable(self, state: State) -> tuple[int, ...]:
-        """The actions that satisfy the preconditions; none after the end."""
+        """Returns the actions that satisfy the preconditions; empty after the end."""
         self.problem.state_form.record_of(state)
         return self._applicable(state)
 
@@ -194,34 +196,34 @@ class Transitions:
         return tuple(action for action, which in enumerate(violated) if which < 0)
 
     @property
-    def _many(self) -> _native.Batch:
+    def _many(self) -> _native.EnvPool:
         return self._kept("samples", self._options["samples"])
 
     @property
-    def _all_actions(self) -> _native.Batch:
+    def _all_actions(self) -> _native.EnvPool:
         return self._kept("actions", self.action_count)
 
-    def _kept(self, name: str, environments: int) -> _native.Batch:
-        batches: dict[str, _native.Batch] = self.__dict__.setdefault("_batches", {})
+    def _kept(self, name: str, environments: int) -> _native.EnvPool:
+        batches: dict[str, _native.EnvPool] = self.__dict__.setdefault("_batches", {})
         if name not in batches:
             batches[name] = self._new_batch(environments)
             batches[name].set_seed(self._options["seed"])
             batches[name].reset()
         return batches[name]
 
-    def _step(self, batch: _native.Batch, state: State, action: NDArray[np.uint8]) -> None:
+    def _step(self, batch: _native.EnvPool, state: State, action: NDArray[np.uint8]) -> None:
         self._enter(batch, state)
         batch.actions[:] = action
         batch.step()
 
-    def _enter(self, batch: _native.Batch, state: State) -> None:
+    def _enter(self, batch: _native.EnvPool, state: State) -> None:
         record = self.problem.state_form.record_of(state)
         count = len(batch.rewards)
         batch.write_states(
             np.arange(count), np.tile(record, (count, 1)), np.full(count, state.steps)
         )
 
-    def _state_of(self, batch: _native.Batch, place: int, cause: int) -> State:
+    def _state_of(self, batch: _native.EnvPool, place: int, cause: int) -> State:
         record = np.zeros(self.problem.model.state_size, np.uint8)
         batch.read_state(place, record)
         steps = batch.progress(place)[0]
@@ -258,14 +260,3 @@ def _levels_of(plan: ActionPlan, levels: int) -> list[Sequence[float]]:
         if not np.isfinite(column.bounds).all():
             raise Error(f"action '{column.name}' has no two bounds, so there are no levels between them")
     return [np.linspace(*column.bounds, levels).tolist() for column in plan.numbers]
-
-
-def _action_records(problem: Problem, values: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(actions, bytes)"""
-    fluents = problem.model.actions
-    records = np.zeros((len(values), problem.model.action_size), np.uint8)
-    view = grounded_view(records, fluents)
-    is_real = [column.fluent.scalar == "real" for column in columns_of(fluents)]
-    for place, row in enumerate(values.tolist()):
-        view[place] = tuple(each if real else round(each) for each, real in zip(row, is_real))
-    return records

@@ -1,6 +1,10 @@
 """Steps a second of rddlc from Python, beside pyRDDLGym and the C++ engine, in one run:
 
     python python/tests/benchmark.py [PROBLEM INSTANCE]
+    python python/tests/benchmark.py --dictionaries [PROBLEM...]
+
+The second form steps the first instance of each problem of rddlrepository by dictionaries with all keys, as
+action_space.sample() gives them, beside pyRDDLGym, and ends with status 1 where it is below 100 times.
 
 Environments step by one action of their space. Seconds are those of the processor, which a busy
 machine does not change much. Batches have one thread, and take turns. The C++ batch is the engine
@@ -11,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 import time
 import warnings
@@ -22,11 +27,12 @@ import rddlc
 
 SECONDS, PARTS = 2.0, 10
 ENVIRONMENTS = 1024
+LEAST_RATIO = 100
 
 
 def rates_of(steppers: dict[str, Callable[[], int]]) -> dict[str, float]:
-    """Steps a second of each, by the best of the parts of its time, for which they take turns; a
-    stepper tells how many steps it made."""
+    """Returns steps a second of each, by the best of the parts of its time, for which they take
+    turns; a stepper returns how many steps it made."""
     best = dict.fromkeys(steppers, 0.0)
     for _ in range(PARTS):
         for name, step in steppers.items():
@@ -56,13 +62,13 @@ def of_single(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
     return stepper(env, env.action_space.sample())
 
 
-def of_pyrddlgym(problem: rddlc.Problem) -> Callable[[], int]:
+def of_pyrddlgym(problem: rddlc.Problem, action: Any) -> Callable[[], int]:
     import pyRDDLGym
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         env = pyRDDLGym.make(*problem.files)
-    return stepper(env, {})
+    return stepper(env, action)
 
 
 def of_batch(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
@@ -80,7 +86,7 @@ def of_batch(problem: rddlc.Problem, **options: Any) -> Callable[[], int]:
 
 def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
     """The batch engine without Python's spaces: records that stay as they are."""
-    batch = rddlc._native.Batch(
+    batch = rddlc._native.EnvPool(
         problem.simulator, environments=ENVIRONMENTS, threads=1, autoreset=1, values=False
     )
 
@@ -92,7 +98,7 @@ def of_engine(problem: rddlc.Problem) -> Callable[[], int]:
 
 
 def seconds_of_make(words: list[str]) -> float:
-    """From the cache, in this process, the best of five."""
+    """The time of loading from the cache, in this process, the best of five."""
     times = []
     for _ in range(5):
         begin = time.process_time()
@@ -101,16 +107,40 @@ def seconds_of_make(words: list[str]) -> float:
     return min(times)
 
 
+def compare_dictionaries(names: list[str]) -> int:
+    ratios: dict[str, float] = {}
+    for listed in rddlc.problems():
+        if names and listed.name not in names:
+            continue
+        problem = rddlc.Problem(listed.name, listed.instances[0])
+        env = rddlc.make(problem)
+        env.reset(seed=1)
+        env.action_space.seed(1)
+        action = env.action_space.sample()
+        rates = rates_of({"pyRDDLGym": of_pyrddlgym(problem, action), "rddlc": stepper(env, action)})
+        ratios[listed.name] = rates["rddlc"] / rates["pyRDDLGym"]
+        numbers = f"{rates['rddlc']:12,.0f} {rates['pyRDDLGym']:10,.0f} {ratios[listed.name]:8.0f}"
+        print(f"{listed.name:40} {numbers}", flush=True)
+    mean = math.exp(sum(map(math.log, ratios.values())) / len(ratios))
+    slow = [name for name, ratio in ratios.items() if ratio < LEAST_RATIO]
+    print(f"{mean:.0f} times pyRDDLGym in the geometric mean; below {LEAST_RATIO}: {', '.join(slow) or '-'}")
+    return 1 if slow else 0
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("problem", nargs="*", default=["MountainCar_ippc2023", "1"])
+    parser.add_argument("problem", nargs="*")
+    parser.add_argument("--dictionaries", action="store_true")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
+    if options.dictionaries:
+        return compare_dictionaries(options.problem)
+    options.problem = options.problem or ["MountainCar_ippc2023", "1"]
     problem = rddlc.Problem(*options.problem)
     learning = {"observations": "flat", "actions": "simplified"}
     rates = rates_of(
         {
-            "pyRDDLGym": of_pyrddlgym(problem),
+            "pyRDDLGym": of_pyrddlgym(problem, {}),
             "rddlc.make": of_single(problem),
             "rddlc.make, vectorized": of_single(problem, vectorized=True),
             "rddlc.make, flat": of_single(problem, **learning),

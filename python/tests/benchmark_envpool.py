@@ -4,7 +4,7 @@ in one thread, with 1,024 environments each:
     PYTHONPATH=build/python python python/tests/benchmark_envpool.py
 
 Needs envpool and rddlrepository. Actions are drawn once; both begin episodes anew where they end (EnvPool
-in the next step, so ours do, too). By the clock, the best of parts that take turns, so compare within a
+in the next step, so ours also do). By the clock, the best of parts that take turns, so compare within a
 line.
 """
 

@@ -27,7 +27,7 @@ NAME, INSTANCE, ENVIRONMENTS = "MountainCar_ippc2023", "1", 8
 
 
 class FlatPyRDDLGym(gymnasium.Env[Any, Any]):
-    """What a learner takes, of a pyRDDLGym environment with numbers alone."""
+    """Wraps a pyRDDLGym environment with numbers alone for a learner."""
 
     def __init__(self) -> None:
         problem = rddlc.Problem(NAME, INSTANCE)

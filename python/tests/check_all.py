@@ -2,14 +2,15 @@
 
     python python/tests/check_all.py [--engine interpreter] [--forms dict,vectorized,...] [PROBLEM ...]
 
-Prints a line for each that fails, and how many pass. Warnings count as failures, but for advice
+Prints a line for each that fails, and how many pass. Warnings count as failures, except advice
 about bounds (unbounded fluents are unbounded). `--sb3` asks Stable-Baselines3's checker instead, about
-`rddlc.sb3.make`, and tells how many problems have which actions there.
+`rddlc.sb3.make`, and reports how many problems have which actions there.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import traceback
 import warnings
@@ -19,6 +20,8 @@ from collections.abc import Iterator
 from gymnasium.utils.env_checker import check_env
 
 import rddlc
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")  # The checker makes an environment with a window, too.
 
 FORMS = {
     "dict": {},
@@ -41,7 +44,7 @@ ADVICE = (
 
 
 def check(problem: rddlc.Problem, form: str) -> Iterator[str]:
-    """What is wrong with it."""
+    """Returns the complaints about it."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         if form == SB3:

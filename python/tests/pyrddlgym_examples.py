@@ -3,7 +3,7 @@ pyRDDLGym.make. Prints a table, and ends with 1 unless all pass.
 
     PYTHONPATH=build/python SDL_VIDEODRIVER=dummy python python/tests/pyrddlgym_examples.py [FILE ...]
 
-FILEs of a clone of its repository are run, too: notebooks (they need IPython, and what they import),
+FILEs of a clone of its repository are also run: notebooks (they need IPython, and what they import),
 and unit tests (with pytest).
 """
 

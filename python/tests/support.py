@@ -3,11 +3,15 @@ for the compiled engine, since to compile one takes seconds."""
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 from typing import Any
 
 import rddlc
+
+# Gymnasium's checker makes an environment of each render mode, also that with a window.
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples"
 WRITTEN = tempfile.TemporaryDirectory()  # the files of problems, which are read again

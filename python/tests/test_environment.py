@@ -1,4 +1,7 @@
-"""rddlc.make: dictionaries, spaces, seeds, ends, errors, copies, pictures."""
+"""rddlc.make: dictionaries, spaces, seeds, ends, errors, copies, pictures.
+
+Over 400 lines: a test for each thing that can be seen.
+"""
 
 from __future__ import annotations
 
@@ -155,7 +158,8 @@ class States(unittest.TestCase):
         np.testing.assert_equal(env.step(action), first)
 
     def test_states_have_no_luck(self) -> None:
-        """Who goes back to a state again and again sees what may come, and not what will."""
+        """A planner that returns to a state repeatedly sees possible futures, and not the one that
+        is to come."""
         env = example("network")
         steps_of(env, 5, 3)
         state = env.get_state()
@@ -382,7 +386,7 @@ class Pictures(unittest.TestCase):
         self.assertIn("step 0", text.render())
 
     def test_pictures_show_where_it_stands(self) -> None:
-        """Also after another state was set, in copies and in pickles."""
+        """This also holds after another state was set, in copies and in pickles."""
         env = example("mountain_car", render_mode="rgb_array", render_size=(64, 64))
         env.reset(seed=1)
         start, first = env.get_state(), env.render()

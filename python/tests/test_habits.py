@@ -1,5 +1,5 @@
-"""What Python users do with environments: Gymnasium's wrappers, threads, processes, Ctrl-C, arrays of
-other libraries."""
+"""Common uses of environments in Python: Gymnasium's wrappers, threads, processes, Ctrl-C, arrays
+of other libraries."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Wrappers(unittest.TestCase):
         env = wrappers.TimeLimit(example("mountain_car"), max_episode_steps=7)
         _, steps, info = episode(env, 1)
         self.assertEqual(steps, 7)
-        self.assertNotIn("cause", info)  # the problem itself goes on
+        self.assertNotIn("cause", info)  # the problem itself continues
 
     def test_flat_forms_can_be_wrapped(self) -> None:
         env = example("mountain_car", observations="flat", actions="box")

@@ -48,7 +48,7 @@ non-fluents many { domain = coins; objects { coin : {PLACES}; }; }
 instance coins_1 { domain = coins; non-fluents = many; max-nondef-actions = 1; horizon = 3; discount = 1.0; }
 """.replace("PLACES", ", ".join(f"c{i}" for i in range(25)))
 
-# Before the signal and after it; {WORK} is the call that it meets.
+# The program before the signal and after it; {WORK} is the call that it meets.
 PROGRAM = """
 import numpy as np
 import rddlc

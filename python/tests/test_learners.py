@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import copy
+import io
 import pickle
+import re
 import tempfile
 import threading
 import time
 import unittest
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
+import gymnasium
+import numpy as np
+from gymnasium.wrappers import TimeLimit
 from support import example
 
 import rddlc
+from rddlc.learner_options import CGPOptions, PPOOptions
 
 
 def played(model: rddlc.Learner, env: rddlc.RDDLEnv, seed: int) -> float:
@@ -88,7 +95,7 @@ class Learners(unittest.TestCase):
         self.assertEqual(seen, [64, 128, 192])
 
     def test_looks_meanwhile_see_what_is_learned(self) -> None:
-        """A look at the policy, in a callback, between calls of learn() or after a Ctrl-C, freezes
+        """Using the policy in a callback, between calls of learn() or after a Ctrl-C freezes
         nothing."""
         problem = example("mountain_car").problem
         options = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
@@ -129,7 +136,7 @@ class Learners(unittest.TestCase):
         self.assertEqual(model.policy_text, kept.policy_text)
 
     def test_the_best_policy_is_kept_beside_the_last(self) -> None:
-        """With a step size that spoils what was learned."""
+        """The step size is so large that it spoils what was learned."""
         problem = example("cart_pole").problem
         model = rddlc.PPO(
             problem, environments=4, rollout=32, minibatch=128, learning_rate=0.05,
@@ -204,16 +211,16 @@ class Learners(unittest.TestCase):
     def test_options_beyond_their_ranges_are_refused_by_their_keywords(self) -> None:
         problem = example("network").problem
         ppo: dict[str, list[Any]] = {
-            "minibatch": [0, -3, "many", None, 1.5], "epochs": [-1, 0], "clip": [float("nan"), -1],
+            "minibatch": [0, -3, "many", None, 1.5, True], "steps": [1.5], "epochs": [-1, 0], "clip": [float("nan"), -1, 0, 10.5],
             "gamma": [2, float("inf")], "rollout": [0], "environments": [0, 2**40], "stack": [0, 2000],
             "threads": [0], "hidden": [[0], [64, -1], []], "recurrent": [-1], "segment": [1],
-            "learning_rate": [-1], "squash": ["maybe", 1], "seed": [-1, 2**64], "memory_limit": [0],
+            "learning_rate": [-1, 0, 0.0], "squash": ["maybe", 1], "seed": [-1, 2**64], "memory_limit": [0],
             "log_std": [99], "preset": ["x"], "noise": [3], "value_clip": [-1],
         }  # fmt: skip
         cgp: dict[str, list[Any]] = {
             "nodes": [-1, 0], "children": [0, -2], "islands": [0, 99_999], "levels_back": [-1],
             "episodes": [0], "constants": [-1, 1e9], "measure": ["best"], "lifted": [None],
-            "restart_after": [-1], "time": ["perhaps"], "compat": [True], "functions": [[]],
+            "restart_after": [-1], "time": ["perhaps"], "compat": [True], "functions": [[], ["no such"], "add\0"],
         }  # fmt: skip
         for learner, wrong in ((rddlc.PPO, ppo), (rddlc.CGP, cgp)):
             for keyword, values in wrong.items():
@@ -221,6 +228,51 @@ class Learners(unittest.TestCase):
                     with self.subTest(keyword=keyword, value=value):
                         with self.assertRaisesRegex(rddlc.ArgumentError, f"^{keyword}: "):
                             learner(problem, **{keyword: value})
+
+    def test_what_is_wrong_with_an_option_is_said(self) -> None:
+        problem = example("network").problem
+        wrong: list[tuple[dict[str, Any], str]] = [
+            ({"minibatch": True}, "minibatch: 'True' is not an int from 1 to"),
+            ({"schedule": True}, "schedule: 'True' is not one of linear"),
+            ({"seed": 2**64}, r"seed: '18446744073709551616' is not an int from 0 to 2\^64 - 1"),
+            ({"clip": 0}, "clip: '0' is not a number above 0, up to 10"),
+            ({"preset": "fast\0"}, "preset: 'fast"),
+            ({"preset": "\udc80"}, r"preset: ''\\udc80''"),
+            ({"preset": "\x1b[31m"}, "preset: '\ufffd\\[31m'"),
+        ]
+        for options, message in wrong:
+            with self.subTest(message=message), self.assertRaisesRegex(rddlc.ArgumentError, message):
+                rddlc.PPO(problem, **options)
+
+    def test_names_of_other_programs_and_of_the_command_line_mean_a_keyword(self) -> None:
+        problem = example("network").problem
+        ppo = {
+            "lr": "learning_rate", "envs": "environments", "n_envs": "environments",
+            "num_envs": "environments", "n_steps": "rollout", "ent_coef": "entropy",
+            "batch_size": "minibatch", "n_epochs": "epochs", "clip_range": "clip", "vf_coef": "value_weight",
+            "max_grad_norm": "gradient_norm", "net_arch": "hidden", "gama": "gamma",
+            "total_timesteps": "steps", "entropy_coeff": "entropy", "lambda_": "gae_lambda",
+            "sgd_minibatch_size": "minibatch", "num_sgd_iter": "epochs", "learning_rat": "learning_rate",
+        }  # fmt: skip
+        cgp = {"gens": "generations", "cols": "nodes", "population_size": "children", "fitness": "measure"}
+        for learner, names in ((rddlc.PPO, ppo), (rddlc.CGP, cgp)):
+            for name, keyword in names.items():
+                with self.subTest(name=name):
+                    with self.assertRaisesRegex(rddlc.ArgumentError, f"did you mean '{keyword}'"):
+                        learner(problem, **{name: 1})
+        with self.assertRaisesRegex(rddlc.ArgumentError, "no option 'zebra'$"):
+            rddlc.PPO(problem, zebra=1)
+
+    def test_a_policy_of_the_other_learner_is_refused(self) -> None:
+        problem = example("network").problem
+        with tempfile.TemporaryDirectory() as name:
+            formula = rddlc.CGP(problem, children=4).learn(1).save(Path(name) / "x.cgp")
+            network = rddlc.PPO(problem, environments=4, rollout=16, minibatch=32).learn(64).save(Path(name) / "x.json")
+            self.assertIsInstance(rddlc.CGP.load(formula, problem), rddlc.CGP)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.cgp'.* CGP .*rddlc\.CGP\.load"):
+                rddlc.PPO.load(formula, problem)
+            with self.assertRaisesRegex(rddlc.ArgumentError, r"x\.json'.* PPO .*rddlc\.PPO\.load"):
+                rddlc.CGP.load(network, problem)
 
     def test_keywords_that_are_not_known_are_refused_with_what_was_meant(self) -> None:
         problem = example("network").problem
@@ -306,6 +358,114 @@ class Learners(unittest.TestCase):
             time.sleep(0.001)
             ticks += 1
         self.assertGreater(ticks, 3)
+
+
+class Verbs(unittest.TestCase):
+    """The verbs of Stable-Baselines3."""
+
+    OPTIONS: dict[str, Any] = {"environments": 4, "rollout": 16, "minibatch": 64, "seed": 1}
+    FORMS = (
+        {},
+        {"vectorized": True},
+        {"observations": "flat"},
+        {"observations": "flat", "actions": "simplified", "normalize": True},
+        {"observations": "flat", "actions": "box"},
+    )
+
+    def test_observations_of_its_environment_are_where_it_stands(self) -> None:
+        for name in ("mountain_car", "network"):
+            problem = example(name).problem
+            learned = rddlc.PPO(problem, **self.OPTIONS).learn(total_timesteps=128)
+            expected = learned.evaluate(1, seed=3).returns.mean
+            for form in self.FORMS:
+                env = rddlc.make(problem, **form)
+                model = copy.copy(learned)
+                model._env = env
+                observation, _ = env.reset(seed=3)
+                total, over = 0.0, False
+                while not over:
+                    action, _ = model.predict(observation)
+                    self.assertIn(action, env.action_space)
+                    observation, reward, terminated, truncated, _ = env.step(action)
+                    total, over = total + reward, terminated or truncated
+                with self.subTest(name=name, form=form):
+                    self.assertAlmostEqual(total, expected, places=3)  # actions are float32
+
+    def test_observations_of_other_places(self) -> None:
+        problem = example("network").problem
+        for form in self.FORMS:
+            env, other = rddlc.make(problem, **form), rddlc.make(problem, **form)
+            model = rddlc.CGP(env, children=4, nodes=20, seed=1, time=False).learn(3)
+            env.reset(seed=1)
+            other.reset(seed=9)
+            for _ in range(5):
+                observation = other.step(model.predict(other)[0])[0]
+            np.testing.assert_equal(model.predict(observation), model.predict(other))
+
+    def test_rows_of_observations(self) -> None:
+        for form in ({}, {"actions": "dict"}, {"observations": "dict"}):
+            envs = rddlc.make_vec(example("network").problem, num_envs=3, **form)
+            model = rddlc.PPO(envs, **self.OPTIONS).learn(128)
+            observations, _ = envs.reset(seed=1)
+            actions, _ = model.predict(observations)
+            self.assertIn(actions, envs.action_space)
+            np.testing.assert_equal(actions, model.predict(envs)[0])
+        with self.assertRaisesRegex(rddlc.ArgumentError, "an observation is one of"):
+            model.predict({"no": 1})
+        maze = example("t_maze")
+        model = rddlc.PPO(maze, **self.OPTIONS).learn(128)
+        with self.assertRaisesRegex(rddlc.Error, "partially observed"):
+            model.predict({})
+
+    def test_wrapped_environments(self) -> None:
+        env = TimeLimit(example("mountain_car"), 5)
+        model = rddlc.PPO(env, **self.OPTIONS).learn(128)
+        observation, _ = env.reset(seed=1)
+        self.assertEqual(model.predict(env), model.predict(observation))
+        for given in (gymnasium.make("CartPole-v1"), 3, "network"):
+            with self.assertRaisesRegex(rddlc.ArgumentError, "learners and planners take an environment of rddlc"):
+                rddlc.PPO(given)
+
+    def test_amounts(self) -> None:
+        problem = example("mountain_car").problem
+        model = rddlc.PPO(problem, **self.OPTIONS)
+        self.assertEqual(model.learn(total_timesteps=64, evaluations=0).steps, 64)
+        for wrong in ({}, {"amount": 1, "total_timesteps": 1}):
+            with self.assertRaisesRegex(rddlc.ArgumentError, "one number of steps"):
+                model.learn(**wrong)
+        with self.assertRaisesRegex(rddlc.ArgumentError, "learn.generations"):
+            rddlc.CGP(problem).learn(total_timesteps=64)
+
+    def test_progress_is_printed(self) -> None:
+        model = rddlc.PPO(example("mountain_car").problem, verbose=1, **self.OPTIONS)
+        told, shown = io.StringIO(), io.StringIO()
+        with redirect_stdout(told), redirect_stderr(shown):
+            model.learn(128, evaluations=2, progress_bar=True)
+        self.assertEqual(len(told.getvalue().splitlines()), 2)
+        self.assertIn("128 steps: return", told.getvalue())
+        self.assertIn("100% 128 of 128", shown.getvalue())
+
+    def test_callbacks(self) -> None:
+        model = rddlc.PPO(example("mountain_car").problem, **self.OPTIONS)
+        with tempfile.TemporaryDirectory() as folder:
+            checkpoints = rddlc.callbacks.CheckpointCallback(128, folder)
+            best = rddlc.callbacks.EvalCallback(
+                64, n_eval_episodes=2, best_model_save_path=folder, reward_threshold=-1e9
+            )
+            model.learn(256, [checkpoints], evaluations=0)
+            names = sorted(each.name for each in Path(folder).iterdir())
+            self.assertEqual(names, ["model_128_steps.json", "model_256_steps.json"])
+            model.learn(256, [checkpoints, best], evaluations=0)
+            self.assertEqual(model.steps, 256 + 64)  # the threshold ends it
+            again = rddlc.PPO.load(Path(folder) / "best_model.json", model.problem)
+            self.assertEqual(again.evaluate(2).returns.mean, best.best_mean_reward)
+
+    def test_options_are_typed_as_they_are(self) -> None:
+        for kind, options in ((rddlc.PPO, PPOOptions), (rddlc.CGP, CGPOptions)):
+            named = re.findall(r"^ +(\w+): ", kind.__doc__ or "", re.MULTILINE)
+            self.assertEqual(sorted(named), sorted(get_type_hints(options)))
+        with self.assertRaisesRegex(rddlc.ArgumentError, "did you mean 'learning_rate'"):
+            rddlc.PPO(example("network"), learnin_rate=1)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What learners take: flat observations, simplified actions, one box for everything."""
+"""The forms that learners take: flat observations, simplified actions, one box for everything."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from gymnasium import spaces
 from support import example, written
 
 import rddlc
-from rddlc.choices import Squash, plan_of
-from rddlc.learning import FlatReader
+from rddlc.translation.action_plan import Squash, plan_of
+from rddlc.translation.readers import FlatReader
 
 
 class FlatObservations(unittest.TestCase):
@@ -25,7 +25,7 @@ class FlatObservations(unittest.TestCase):
     def test_names_tell_the_features(self) -> None:
         problem = written("counters").problem
         values = np.zeros((1, 4), np.float32)
-        reader = FlatReader(problem, values, values, normalize=False)
+        reader = FlatReader(problem.model.observed, values, values, normalize=False)
         colors = ["shade=red", "shade=green", "shade=blue"]
         self.assertEqual(reader.names, ["count___a", "count___b", *colors, "filled"])
 

@@ -164,7 +164,7 @@ class LegalActions(unittest.TestCase):
     def test_drawing_changes_no_episode(self) -> None:
         for form in FORMS:
             env = rddlc.make(problem_of("refuses_some"), observations="flat", **form)
-            env.action_space.sample()  # before the first episode, too
+            env.action_space.sample()  # also before the first episode
             env.reset(seed=1)
             action = env.action_space.sample()
             twin = copy.deepcopy(env)

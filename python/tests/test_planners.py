@@ -14,21 +14,21 @@ MAZE = (FOLDER / "t_maze/domain.rddl", FOLDER / "t_maze/instance.rddl")
 
 def episode(env: rddlc.RDDLEnv, planner: rddlc.plan.Planner, seed: int) -> float:
     observation, _ = env.reset(seed=seed)
-    earned, over = 0.0, False
+    total, over = 0.0, False
     while not over:
         observation, reward, terminated, truncated, _ = env.step(planner.act(observation))
-        earned += reward
+        total += reward
         over = terminated or truncated
-    return earned
+    return total
 
 
 class Planners(unittest.TestCase):
     def test_acts_as_the_command_does(self) -> None:
         env = rddlc.make(*CAR)
         planner = rddlc.plan.CEM(env, iterations=8)
-        earned = episode(env, planner, seed=0)
-        self.assertGreater(earned, 80)
-        self.assertEqual(planner.evaluate(1, seed=0).returns.mean, earned)
+        total = episode(env, planner, seed=0)
+        self.assertGreater(total, 80)
+        self.assertEqual(planner.evaluate(1, seed=0).returns.mean, total)
 
     def test_same_steps_give_the_same_actions(self) -> None:
         for planner in (

@@ -40,11 +40,12 @@ class Refusals(unittest.TestCase):
                 (lambda: vector(num_envs=-1), rddlc.Error, "num_envs is -1"),
                 (lambda: vector(num_envs=1 << 40), rddlc.Error, "GiB|memory"),
                 (lambda: vector(num_envs="4"), TypeError, ""),
-                (lambda: vector(observations="none"), ValueError, "'flat' nor 'dict'"),
+                (lambda: vector(observations="none"), ValueError, "not one of 'flat', 'dict'"),
                 (lambda: vector(autoreset_mode="none"), ValueError, ""),
-                (lambda: example("mountain_car", observations="none"), ValueError, "none of"),
+                (lambda: example("mountain_car", observations="none"), ValueError, "not one of"),
                 (lambda: example("mountain_car", no_option=1), TypeError, "no_option.*horizon"),
-                (lambda: vector(render_mode="ansi"), rddlc.Error, "render_mode.*autoreset_mode"),
+                (lambda: vector(render_mode="human"), ValueError, "not one of None, .rgb_array., .ansi."),
+                (lambda: vector(no_option=1), TypeError, "no_option.*autoreset_mode"),
                 (lambda: rddlc.make(LOADED, engine="interpreter"), rddlc.Error, "loaded already"),
                 (lambda: rddlc.make(LOADED, 2), rddlc.Error, "loaded already: give instance"),
                 (lambda: rddlc.Problem(CAR, 1, externs="f.hpp"), rddlc.Error, "list of headers"),
@@ -53,7 +54,16 @@ class Refusals(unittest.TestCase):
                 (lambda: example("mountain_car", render_mode="ansi", visualizer="x"), rddlc.Error, "no visualizer"),
                 (lambda: rddlc.make("/etc/passwd", engine="interpreter"), rddlc.CompileError, "E0"),
                 (lambda: rddlc.make("/no/such/file", engine="interpreter"), rddlc.Error, "no/such"),
-                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "none of"),
+                (lambda: rddlc.make("a\0b", engine="interpreter"), rddlc.ArgumentError, "NUL"),
+                (lambda: rddlc.make(3.5, engine="interpreter"), rddlc.ArgumentError, "neither a str"),
+                (lambda: rddlc.make("a\udc80", engine="interpreter"), rddlc.ArgumentError, "not UTF-8"),
+                (lambda: rddlc.make("/no/\x1b[2J\u009bsuch", engine="interpreter"), rddlc.Error, "/no/\ufffd.2J\ufffdsuch"),
+                (lambda: rddlc.make(CAR, "\x1b[2J", engine="interpreter"), rddlc.Error, "\ufffd.2J"),
+                (lambda: rddlc.Problem(CAR, 1, externs=["a\0"]), rddlc.ArgumentError, "NUL"),
+                (lambda: rddlc.Problem(CAR, 1, instance_name=3), rddlc.ArgumentError, "instance_name is 3"),
+                (lambda: rddlc.Problem(CAR, 1, extended="no"), rddlc.ArgumentError, "extended is 'no'"),
+                (lambda: rddlc.Problem(CAR, 1, details=1), rddlc.ArgumentError, "details is 1"),
+                (lambda: rddlc.make(CAR, 1, engine="none"), ValueError, "not one of"),
                 (lambda: Transitions(example("mountain_car").problem, levels=-1), rddlc.Error, "2 or more"),
             ]
         )
@@ -139,6 +149,9 @@ class Refusals(unittest.TestCase):
                 (lambda: rddlc.PPO(problem, seed=-1), rddlc.Error, "seed"),
                 (lambda: rddlc.CGP.load("/etc/passwd", problem), rddlc.Error, ""),
                 (lambda: model.save("/no/such/folder/x"), rddlc.Error, "no/such"),
+                (lambda: model.save("a\0b"), rddlc.ArgumentError, "NUL"),
+                (lambda: rddlc.PPO.load("a\0b", problem), rddlc.ArgumentError, "NUL"),
+                (lambda: rddlc.PPO.load("/no/such", problem), rddlc.ArgumentError, "no policy file"),
             ]
         )
 

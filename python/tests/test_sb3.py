@@ -74,6 +74,30 @@ class StableBaselines(unittest.TestCase):
             mean, _ = evaluate_policy(model, envs, n_eval_episodes=2, warn=False)
             self.assertTrue(np.isfinite(mean))
 
+    def test_learners_log_returns_and_lengths(self) -> None:
+        envs = sb3.make_vec(example("network").problem, num_envs=2, horizon=4)
+        self.assertEqual(envs.get_attr("horizon"), [4, 4])
+        model = PPO("MlpPolicy", envs, n_steps=8, batch_size=8, device="cpu").learn(16)
+        self.assertEqual([each["l"] for each in model.ep_info_buffer], [4] * 4)
+
+    def test_dictionaries_of_observations(self) -> None:
+        for name in ("mountain_car", "network", "delivery", "reservoir"):
+            problem = example(name).problem
+            env = sb3.make(problem, observations="dict", horizon=4)
+            check_env(env, warn=False)
+            for given in (env, sb3.make_vec(problem, num_envs=2, observations="dict", horizon=4)):
+                PPO("MultiInputPolicy", given, n_steps=8, batch_size=8, device="cpu").learn(16)
+        env = sb3.make(problem_of("counters"), observations="dict")
+        check_env(env, warn=False)
+        self.assertEqual(env.observation_space["filled"].shape, (1,))
+
+    def test_pictures_of_all_are_one(self) -> None:
+        envs = sb3.make_vec(
+            example("mountain_car").problem, num_envs=4, render_mode="rgb_array", render_size=(60, 40)
+        )
+        envs.reset()
+        self.assertEqual(envs.render().shape, (80, 120, 3))
+
     def test_masks_are_each_environments_own(self) -> None:
         envs = VecEnv(
             rddlc.make_vec(problem_of("refuses_some"), num_envs=2, autoreset_mode="SameStep")

@@ -33,7 +33,8 @@ from rddlc.skdecide import (
     RDDLSimulation,
 )
 
-# To leave at the end of the road earns 10, once. Best: 3 steps ahead (-1 each), then out (10 - 2).
+# Leaving at the end of the road has reward 10, once. Best: 3 steps ahead (-1 each), then out (10 -
+# 2).
 ROAD = """
 domain road {
     pvariables {
@@ -73,7 +74,7 @@ instance bets_1 { domain = bets; non-fluents = none; max-nondef-actions = 1; hor
 
 
 def earned(domain: RDDLSimulation | RDDLPlanning, solver: Any) -> float:
-    """What the solver's actions earn in one episode."""
+    """The return of the solver's actions in one episode."""
     state, total = domain.transitions.start(), 0.0
     while not state.causes:
         action = solver.sample_action(state)
@@ -228,7 +229,7 @@ def number_of(domain: RDDLPlanning, name: str) -> int:
 
 
 def best_on_slippery_road() -> float:
-    """By dynamic programming over places and steps left."""
+    """Solves it by dynamic programming over places and steps left."""
     value = np.zeros(4)
     for _ in range(8):
         ahead = [-1 + (value[place] + value[place + 1]) / 2 for place in range(3)]

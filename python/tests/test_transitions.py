@@ -1,4 +1,4 @@
-"""What planners ask about: steps from any state, applicable actions, next states."""
+"""The questions of planners: steps from any state, applicable actions, next states."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ class TransitionsTest(unittest.TestCase):
             self.assertAlmostEqual(found[key], probability, places=12)
 
     def test_rounded_probabilities_are_zero_and_one(self) -> None:
-        """p is 1 + 9e-16: what rounding makes possible is no outcome."""
+        """p is 1 + 9e-16: an outcome that only rounding makes possible is left out."""
         rounded = URN.replace("hits' = Binomial(3, 0.25);", "hits' = Binomial(3, p) + Bernoulli(p) + Bernoulli(1.0 - p);")
         rounded = rounded.replace("cpfs {", "cpfs { p = never + 0.1 / (0.3 + 0.4 + 0.1 - 0.3 - 0.4);")
         rounded = rounded.replace("pvariables {", "pvariables { p : { interm-fluent, real };")

@@ -16,6 +16,7 @@ import rddlc
 FORMS: list[dict[str, Any]] = [
     {},
     {"actions": "box", "normalize": True},
+    {"actions": "dict"},
     {"observations": "dict", "actions": "dict"},
 ]
 COUNT = 20
@@ -95,6 +96,19 @@ class Ends(unittest.TestCase):
         self.assertTrue(infos["_final_obs"].all())
         self.assertEqual(infos["final_info"]["cause"][0], "horizon")
         np.testing.assert_array_equal(observations, disabled.reset()[0])
+
+    def test_same_step_by_dictionaries(self) -> None:
+        by_dictionary, by_category = (
+            vector(autoreset_mode="SameStep", horizon=3, actions=actions)
+            for actions in ("dict", "simplified")
+        )
+        count = len(by_category.model.types["computer"].objects)
+        nothing = np.full(COUNT, count)
+        for envs, action in ((by_dictionary, {}), (by_category, nothing)):
+            envs.reset(seed=7)
+            for _ in range(3):
+                envs.last = envs.step(action)
+        np.testing.assert_equal(by_dictionary.last, by_category.last)
 
     def test_disabled(self) -> None:
         envs, (final, *_) = self.ended("Disabled")

@@ -1,13 +1,13 @@
 // External functions of RDDL, $f[...](...), in C++: how emitted code calls them, and how a shared
-// object exports them to the interpreter. docs/external-functions.md tells how to write one.
+// object exports them to the interpreter. See docs/external-functions.md.
 //
 //     namespace rddl_extern {
 //     inline double inflow(double level, std::span<const double, 3> rain) { ... }
 //     }
 //
 // A value is passed by value: bool, std::int64_t or double. A table of one axis is a span of its
-// elements, one of more axes is a span of its rows, which are std::arrays. What captures no
-// variables returns its value; what does is void and fills a span, its last parameter.
+// elements, one of more axes is a span of its rows, which are std::arrays. A function that captures
+// no variables returns its value; one that does is void and fills a span, its last parameter.
 #pragma once
 
 #include <rddl/export.h>
@@ -22,7 +22,7 @@
 #include <type_traits>
 #include <utility>
 
-// Where users define their functions.
+// The namespace in which users define their functions.
 namespace rddl_extern {}
 
 // The function of that name as an object: all its overloads, or a template.
@@ -185,7 +185,7 @@ constexpr bool fits(Function) {
     return detail::Call<Signature>::template is_possible<Function>();
 }
 
-// By the first signature that the arrays have; 0 if there is none.
+// Calls by the first signature that the arrays have; returns 0 if no signature fits.
 template <class... Signatures, class Function>
 std::int32_t call(Function function, std::span<const rddl_array> arguments,
                   const rddl_array& result) {

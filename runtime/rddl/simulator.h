@@ -1,41 +1,43 @@
 /* The C interface of every simulator, compiled or interpreted, linked or loaded with dlopen:
- * version 3. docs/c-interface.md shows complete clients, and tells what a version promises.
+ * version 3. docs/c-interface.md shows complete clients, and the promises of a version.
  *
  * Solvers, renderers, the command line and Python use nothing else. A simulator describes itself
  * (rddl_problem) and steps batches of environments (rddl_batch). All functions work on arrays
- * that the caller owns. None throws or aborts; those that can fail return RDDL_OK or an error, and
- * last_error tells the reason. A call that fails has changed nothing.
+ * that the caller owns. They do not throw or abort; those that can fail return RDDL_OK or an error,
+ * and last_error returns the reason. A call that fails has changed nothing.
  *
  * Records. A state, an action and an observation are each one fixed-size record per environment:
  * a plain C struct of the fluents in declaration order, every fluent a row-major array over its
  * parameters' objects. Elements are uint8_t (bool), int64_t (int, and objects as their index) or
- * double (real). rddl_fluent tells the offset. An array of n records is n * record_size bytes.
+ * double (real). rddl_fluent has the offset. An array of n records is n * record_size bytes.
  * A byte other than 0 is read as true; 1 is written for it. States and actions with an object that
- * does not exist are refused with RDDL_BAD_ARGUMENT. Reals of actions are to be finite, and so are those
- * of state-fluents that no step from an initial state makes inf or nan: what a step gives else is not
- * defined, and not checked. Between fluents there may be padding, which need not be written: a buffer
- * keeps its old bytes there. Who compares or hashes whole records clears the buffer once before it is
- * first filled.
+ * does not exist are refused with RDDL_BAD_ARGUMENT. Reals of actions must be finite, and so must
+ * those of state-fluents that no step from an initial state makes inf or nan; otherwise results are
+ * undefined, and this is not checked. There may be padding between fluents, which need not be
+ * written: a buffer keeps its old bytes there. To compare or hash whole records, clear the buffer
+ * once before it is first filled.
  *
- * Sizes. Structs grow at their ends only, and each tells its size. The caller sets
- * struct_size of every struct that it passes, also of those that a call fills, to the sizeof; 0
- * means as long as in version 3.0, so that a struct of zeros is right, and less than that long is an
- * error of the caller's. Where rddl_batch_options or rddl_transition is longer than the simulator
- * knows, what it does not know must be zero, or the call fails with RDDL_UNSUPPORTED; a longer
- * struct that a call fills keeps its end as it is. Structs in arrays grow, too:
- * element k of an array lies k * ..._size bytes behind its beginning (rddl_fluent_at and its like).
- * Who compiles with the simulator's own header may write array[k].
+ * Sizes. Structs grow at their ends only, and each holds its size. The caller sets struct_size of
+ * every struct that it passes, also of those that a call fills, to the sizeof; 0 means as long as
+ * in version 3.0, so that a struct of zeros is right, and a smaller size is an error of the
+ * caller's. If rddl_batch_options or rddl_transition is longer than the simulator knows, the
+ * unknown part must be zero, or the call fails with RDDL_UNSUPPORTED; a longer struct that a call
+ * fills keeps its end as it is. Structs in arrays also grow: element k of an array lies k *
+ * ..._size bytes behind its beginning (rddl_fluent_at and its like). A program that is compiled
+ * with the simulator's own header may write array[k].
  *
  * Alignment. Arrays of numbers are aligned for their elements; records may lie anywhere, and those
  * that are aligned to 8 bytes are read quickest.
  *
  * Threads. A batch is used by one thread at a time, and steps its environments with threads of its
- * own (thread_count). Different batches, and all that takes a simulator, may be used at once.
+ * own (thread_count). Different batches, and all functions that take a simulator, may be used at
+ * once.
  *
- * Lifetimes. What a simulator points to, its texts too, stays as it is for as long as its library
- * is loaded. A batch needs its simulator. The text of last_error stays until the next call that
- * fails in the same thread.
- */
+ * Lifetimes. Everything that a simulator points to, also its texts, stays as it is for as long as
+ * its library is loaded. A batch needs its simulator. The text of last_error stays until the next
+ * call that fails in the same thread.
+ *
+ * Over 400 lines: the whole interface is one file, which clients read from top to bottom. */
 #ifndef RDDL_SIMULATOR_H
 #define RDDL_SIMULATOR_H
 
@@ -116,7 +118,7 @@ typedef struct {
     int32_t partially_observed;
     int32_t stochastic;         /* 1: something is drawn at random, in a step or at reset */
     const void* default_action; /* one action record */
-    int64_t horizon;            /* steps; 0: none (pos-inf) */
+    int64_t horizon;            /* steps; 0: no horizon (pos-inf) */
     double discount;
     int64_t max_nondef_actions; /* how many action values may differ from the default; -1: all */
     const rddl_condition* preconditions;
@@ -125,9 +127,10 @@ typedef struct {
     int32_t invariant_count;
     const rddl_condition* terminations;
     int32_t termination_count;
-    /* Of everything that a trajectory depends on: CPFs, reward, conditions, non-fluents, objects,
-     * initial state, horizon, discount. The same for each simulator of a problem, whatever it was
-     * compiled with. The first simulators of version 3 have none: struct_size tells. */
+    /* The fingerprint of everything that a trajectory depends on: CPFs, reward, conditions,
+     * non-fluents, objects, initial state, horizon, discount. The same for each simulator of a
+     * problem, whatever it was compiled with. The first simulators of version 3 lack it:
+     * struct_size shows that. */
     uint64_t fingerprint;
 } rddl_problem;
 
@@ -168,7 +171,7 @@ typedef enum {
 typedef enum {
     RDDL_AUTORESET_DISABLED = 0,  /* it stays as it is; stepping it again changes nothing */
     RDDL_AUTORESET_NEXT_STEP = 1, /* the next step ignores its action and resets it (reward 0) */
-    RDDL_AUTORESET_SAME_STEP = 2  /* the same step resets it; final_observations tells its end */
+    RDDL_AUTORESET_SAME_STEP = 2  /* the same step resets it; final_observations has its end */
 } rddl_autoreset;
 
 #define RDDL_NO_HORIZON (-1)
@@ -182,14 +185,14 @@ typedef struct {
                                   and the identity, never on batch size, place, threads or ranks */
     uint64_t seed;
     rddl_autoreset autoreset;
-    int32_t lane_count;  /* environments stepped together in vector registers: 0: what suits the
+    int32_t lane_count;  /* environments stepped together in vector registers: 0: chosen for the
                             batch; else 1 or the simulator's lane_count. Trajectories do not depend
                             on it. */
-    int64_t horizon;     /* steps; 0: the instance's; RDDL_NO_HORIZON: none */
+    int64_t horizon;     /* steps; 0: the instance's; RDDL_NO_HORIZON: no horizon */
     int32_t keeps_steps; /* 1: the batch remembers the last step of each environment (get_interm) */
 } rddl_batch_options;
 
-/* Why an episode ended; several may hold. */
+/* The causes of an episode's end; several may hold. */
 enum {
     RDDL_RUNNING = 0,
     RDDL_TERMINATED = 1,          /* a termination condition holds in the new state */
@@ -206,33 +209,33 @@ typedef struct {
     uint8_t* terminated; /* 0 or 1 */
     uint8_t* truncated;  /* 0 or 1 */
     uint8_t* causes;     /* bits above */
-    /* Where the step has reset an environment (RDDL_AUTORESET_SAME_STEP), and only there: how its
-     * episode ended. */
+    /* The end of the episode, only for environments that the step has reset
+     * (RDDL_AUTORESET_SAME_STEP). */
     void* final_observations; /* records */
     void* final_states;       /* records */
-    /* As a matrix, and only by step_values. */
+    /* The same as a matrix, only filled by step_values. */
     void* final_observation_values;
 } rddl_transition;
 
 /* The first fault of an environment's current (or just ended) episode. */
 typedef struct {
     uint32_t struct_size;
-    int32_t faulty; /* 0: none; the rest is unset then */
+    int32_t faulty; /* 0: no fault; the rest is unset then */
     int64_t step;   /* steps made in the episode before it */
     rddl_source source;
     char message[512]; /* names the cause, the ground objects and the value */
 } rddl_fault;
 
-/* Which precondition an action violates. */
+/* The precondition that an action violates. */
 typedef struct {
     uint32_t struct_size;
-    int32_t precondition; /* the first one; -1: none, and the rest is unset then */
+    int32_t precondition; /* the first one; -1: no violation, and the rest is unset then */
     rddl_source source;
     char message[512]; /* names the condition and, with details, the first objects that violate
                           it: those of the foralls that it begins with, unless they are too many */
 } rddl_violation;
 
-/* What a choice changes (action_choice). */
+/* The change of a choice (action_choice). */
 typedef struct {
     uint32_t struct_size;
     int32_t fluent; /* index into fluents; -1: choice 0, which changes nothing */
@@ -243,10 +246,10 @@ typedef struct {
 /* A column of a matrix of numbers. */
 typedef struct {
     uint32_t struct_size;
-    int32_t fluent; /* index into fluents; grounding_name tells its name */
+    int32_t fluent; /* index into fluents; grounding_name has its name */
     int64_t grounding;
-    rddl_scalar scalar;   /* what its numbers stand for; objects are RDDL_INT, and */
-    int32_t object_count; /* how many there are of its type; else 0 */
+    rddl_scalar scalar;   /* type of its numbers; objects are RDDL_INT, and */
+    int32_t object_count; /* number of objects of its type; else 0 */
     double lower;         /* bools 0 and 1; objects 0 and object_count - 1; numbers their bounds */
     double upper;         /* from the constraints, or -inf and +inf */
 } rddl_column;
@@ -272,7 +275,7 @@ struct rddl_simulator {
      * bad options. */
     rddl_batch* (*create)(const rddl_simulator*, const rddl_batch_options*);
     void (*destroy)(rddl_batch*);
-    /* Why the last call that failed in this thread did, in a sentence; "" before. */
+    /* The reason of the last failed call in this thread, in a sentence; "" before. */
     const char* (*last_error)(const rddl_simulator*);
 
     /* Starts a new episode where mask is non-zero (NULL: everywhere); observations (records, may
@@ -281,7 +284,7 @@ struct rddl_simulator {
      * state terminates has its episode over at once. */
     rddl_error (*reset)(rddl_batch*, const uint8_t* mask, void* observations);
     /* One action record for each environment; `actions` may be NULL only where these are empty.
-     * `out` may not be NULL: who wants nothing of a step passes a struct of zeros. */
+     * `out` may not be NULL: a struct of zeros asks for no output. */
     rddl_error (*step)(rddl_batch*, const void* actions, const rddl_transition* out);
 
     /* ---- states, also for planning */
@@ -289,28 +292,28 @@ struct rddl_simulator {
     /* Records of environments [begin, begin + count). */
     rddl_error (*get_state)(const rddl_batch*, int64_t begin, int64_t count, void* states);
     rddl_error (*get_observation)(const rddl_batch*, int64_t begin, int64_t count, void* records);
-    /* The episodes go on from these states, after so many steps (NULL: as many as before), which
+    /* The episodes continue from these states, after so many steps (NULL: as many as before), which
      * are not negative. An ended episode runs again, unless the new state terminates or these steps
-     * reach the horizon; without steps it makes one more even there. What was observed, what the
-     * policy remembers and the last step (get_interm) stay as they are. */
+     * reach the horizon; without steps it makes one more even there. The observation, the policy's
+     * memory and the last step (get_interm) stay as they are. */
     rddl_error (*set_state)(rddl_batch*, int64_t begin, int64_t count, const void* states,
                             const int64_t* steps);
 
     /* Steps made in the current episode, and episodes ended before it (since the batch was created,
-     * or since seeds were set, when one that was under way is not counted); either may be NULL. */
+     * or since seeds were set, when a running one is not counted); either may be NULL. */
     rddl_error (*get_progress)(const rddl_batch*, int64_t begin, int64_t count, int64_t* steps,
                                int64_t* episodes);
     /* The causes of the current episode's end (RDDL_RUNNING while it runs). */
     rddl_error (*get_causes)(const rddl_batch*, int64_t begin, int64_t count, uint8_t* causes);
     rddl_error (*get_fault)(const rddl_batch*, int64_t environment, rddl_fault* fault);
 
-    /* An independent copy, episodes and random numbers included: what follows is the same in both
+    /* An independent copy, episodes and random numbers included: the future is the same in both
      * as long as the actions are. NULL when out of memory. */
     rddl_batch* (*copy)(const rddl_batch*);
     /* Makes environments [begin, begin + count) such copies of environments sources[0 .. count) of
      * `from` (NULL: of the first ones), one after the other. `from` is a batch of the same
      * simulator, and may be the same batch. Horizon and autoreset stay those of `to`; the next step
-     * looks at them. The last step is copied, too, where both batches keep steps. */
+     * checks them. The last step is also copied if both batches keep steps. */
     rddl_error (*copy_environments)(rddl_batch* to, int64_t begin, int64_t count,
                                     const rddl_batch* from, const int64_t* sources);
 
@@ -324,46 +327,46 @@ struct rddl_simulator {
 
     /* ---- actions */
 
-    /* For each environment the first violated precondition of its action in its current state, or
+    /* The first violated precondition of each environment's action in its current state, or
      * -1. Steps never check preconditions by themselves. */
     rddl_error (*violated_preconditions)(rddl_batch*, const void* actions, int32_t* first_violated);
 
-    /* The same of one environment and action, in words. */
+    /* The same for one environment and action, in words. */
     rddl_error (*explain_violation)(rddl_batch*, int64_t environment, const void* action,
                                     rddl_violation* out);
 
     /* Choices, for solvers that change one action value at a time. Choice 0 is the default action
      * (no-op). Then come, action-fluent by action-fluent in declaration order and grounding by
      * grounding in row-major order, the default action with one value changed: a bool to its other
-     * value; an object, or an int with two bounds, to each of its values but the default, in
+     * value; an object, or an int with two bounds, to each of its values except the default, in
      * ascending order. Reals, ints without two bounds and ints of more than RDDL_MOST_INT_CHOICES
-     * values are no part of it and stay at their default. */
+     * values are not part of it and stay at their default. */
     int64_t (*action_choice_count)(const rddl_simulator*); /* at least 1 */
-    /* Writes the action record of a choice (NULL: does not), and what it changes (may be NULL). */
+    /* Writes the action record of a choice and its change; either may be NULL. */
     rddl_error (*action_choice)(const rddl_simulator*, int64_t choice, void* action,
                                 rddl_choice* out);
-    /* For each environment action_choice_count bytes. Without actions (NULL): 1 where the choice
-     * satisfies all preconditions in the current state, else 0; also 0 for all but choice 0 where
-     * max_nondef_actions is 0. With actions, one record for each environment, for solvers that
-     * change several values one after the other: 1 where the action satisfies all preconditions and
-     * max_nondef_actions as it stands (choice 0), or with the choice's value set in it; 0, too,
-     * where it has that value already. Choices never lead back to the default. */
+    /* Writes action_choice_count bytes for each environment. Without actions (NULL): 1 if the
+     * choice satisfies all preconditions in the current state, else 0; also 0 for all but choice 0
+     * if max_nondef_actions is 0. With actions, one record for each environment, for solvers that
+     * change several values one after the other: 1 if the action satisfies all preconditions and
+     * max_nondef_actions as it stands (choice 0), or with the choice's value set in it; also 0 if
+     * it has that value already. Choices never lead back to the default. */
     rddl_error (*action_mask)(rddl_batch*, const void* actions, uint8_t* masks);
 
-    /* The policy block; NULL, as policy_act is, if the problem has none. */
+    /* The policy block; NULL, as policy_act is, if the problem has no such block. */
     const rddl_policy* policy;
-    /* For each environment writes the action record that the policy chooses upon its state or, if
-     * partially observed, upon its last observation; the default action where the episode is over.
-     * What the policy remembers belongs to the batch: an episode starts with the defaults, and each
-     * call moves it on, so call this once before each step. A fault of the policy ends the episode
+    /* Writes for each environment the action record that the policy chooses upon its state or, if
+     * partially observed, upon its last observation; the default action if the episode is over.
+     * The policy's memory belongs to the batch: an episode starts with the defaults, and each call
+     * updates it, so call this once before each step. A fault of the policy ends the episode
      * at once, and so does an action that violates max_nondef_actions. The policy's random numbers
      * are its own: those of the steps do not depend on it. */
     rddl_error (*policy_act)(rddl_batch*, void* actions);
 
     /* ---- matrices of numbers, for solvers */
 
-    /* How many environments a batch steps together in vector registers, and which registers these
-     * are ("AVX-512", "AVX2", "SSE2", "portable"). 1: the simulator was made without. */
+    /* The number of environments that a batch steps together in vector registers, and the names of
+     * these ("AVX-512", "AVX2", "SSE2", "portable"). 1: the simulator was made without packs. */
     int32_t lane_count;
     const char* instruction_set;
 
@@ -372,35 +375,37 @@ struct rddl_simulator {
      * a row: */
     int64_t (*action_value_count)(const rddl_simulator*);
     int64_t (*observation_value_count)(const rddl_simulator*);
-    /* What a number of the row stands for. */
+    /* The meaning of a number of the row. */
     rddl_error (*action_column)(const rddl_simulator*, int64_t column, rddl_column* out);
     rddl_error (*observation_column)(const rddl_simulator*, int64_t column, rddl_column* out);
-    /* `observations` may be NULL. out->observations and the final records are written as ever, and
+    /* `observations` may be NULL. out->observations and the final records are written as usual, and
      * so is the matrix out->final_observation_values. An action that is nan, an index without an
      * object, or a number beyond the ints for an int, is refused. */
     rddl_error (*step_values)(rddl_batch*, rddl_number, const void* actions, void* observations,
                               const rddl_transition* out);
     rddl_error (*get_observation_values)(const rddl_batch*, rddl_number, void* observations);
 
-    /* ---- what a step computes on its way */
+    /* ---- intermediate values of a step */
 
     /* Records of the interm- and derived-fluents of the last step of environments [begin, begin +
      * count), whether or not a new episode has begun since. They are computed again, in double:
      * only for batches that keep steps, and by simulators with details; else RDDL_UNSUPPORTED. An
-     * environment that has made no step is refused. A step that faulted is one; what it computed
-     * from the draw or operator at fault means nothing. Neither reset nor set_state is a step. */
+     * environment that has made no step is refused. A step that faulted counts; its values
+     * that depend on the draw or operator at fault mean nothing. Neither reset nor set_state is a
+     * step. */
     rddl_error (*get_interm)(const rddl_batch*, int64_t begin, int64_t count, void* records);
 
-    /* ---- what the instance fixes */
+    /* ---- constants of the instance */
 
     /* The values [begin, begin + count) of a fluent, row-major, as uint8_t, int64_t or double: of a
      * non-fluent; of a state-fluent in the initial state; of an action-fluent its defaults. */
     rddl_error (*get_constants)(const rddl_simulator*, int32_t fluent, int64_t begin, int64_t count,
                                 void* values);
-    /* The state in which episodes start; where the start is random, as it is before the draws. */
+    /* The state in which episodes start; if the start is random, as it is before the draws. */
     rddl_error (*initial_state)(const rddl_simulator*, void* state);
     /* Writes the name of a grounding as traces have it, "rlevel___t1", and its end, as far as they
-     * fit into `size` bytes. Its length without the end, however long; -1 if there is no such. */
+     * fit into `size` bytes. Returns its length without the end, however long; -1 if it does not
+     * exist. */
     int64_t (*grounding_name)(const rddl_simulator*, int32_t fluent, int64_t grounding, char* text,
                               size_t size);
 };

@@ -1,29 +1,29 @@
 // All that an emitted simulator includes.
 #pragma once
 
-#include <rddl/bits.hpp>
-#include <rddl/compiled.hpp>
-#include <rddl/context.hpp>
-#include <rddl/details.hpp>
-#include <rddl/distributions.hpp>
-#include <rddl/lane.hpp>
-#include <rddl/linear_algebra.hpp>
-#include <rddl/moderate.hpp>
-#include <rddl/objects.hpp>
-#include <rddl/ops.hpp>
-#include <rddl/reductions.hpp>
-#include <rddl/rows.hpp>
-#include <rddl/search.hpp>
+#include <rddl/interface/details.hpp>
+#include <rddl/interface/simulator_table.hpp>
+#include <rddl/interface/sites.hpp>
+#include <rddl/lanes/lane.hpp>
+#include <rddl/object_lanes/objects.hpp>
+#include <rddl/object_lanes/rows.hpp>
+#include <rddl/random/distributions.hpp>
 #include <rddl/simulator.h>
-#include <rddl/simulator_table.hpp>
-#include <rddl/sites.hpp>
-#include <rddl/tables.hpp>
+#include <rddl/step/compiled.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/context.hpp>
+#include <rddl/values/linear_algebra.hpp>
+#include <rddl/values/moderate.hpp>
+#include <rddl/values/ops.hpp>
+#include <rddl/values/reductions.hpp>
+#include <rddl/values/search.hpp>
+#include <rddl/values/tables.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-// Who links batches.cpp, compiled once for many simulators, defines RDDL_LINKS_BATCHES.
+// A program that links batches.cpp, compiled once for many simulators, defines RDDL_LINKS_BATCHES.
 #ifndef RDDL_LINKS_BATCHES
-#include <rddl/abi.hpp>
+#include <rddl/interface/abi.hpp>
 #endif

@@ -11,10 +11,11 @@
 
 namespace rddlc::solvers {
 
-using Batch = std::unique_ptr<rddl_batch, void (*)(rddl_batch*)>;
+using BatchHandle = std::unique_ptr<rddl_batch, void (*)(rddl_batch*)>;
 
-inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_options& options) {
-    Batch batch(simulator.create(&simulator, &options), simulator.destroy);
+inline BatchHandle create_batch(const rddl_simulator& simulator,
+                                const rddl_batch_options& options) {
+    BatchHandle batch(simulator.create(&simulator, &options), simulator.destroy);
     if (!batch) throw Failure("not enough memory for so many environments", "try a smaller batch");
     return batch;
 }
@@ -22,12 +23,12 @@ inline Batch create_batch(const rddl_simulator& simulator, const rddl_batch_opti
 // Fails with the simulator's own sentence where it has refused a call: nothing has been done then.
 void require_done(const rddl_simulator& simulator, rddl_error error);
 
-// Where users say 0 for no horizon, and problems do.
+// Converts the user's 0, which means no horizon, to the constant of problems.
 inline std::int64_t horizon_option(std::int64_t horizon) {
     return horizon == 0 ? RDDL_NO_HORIZON : horizon;
 }
 
-// What an environment takes in a batch, with the records that go in and out: at least 1.
+// The bytes of one environment in a batch, with the records that go in and out: at least 1.
 std::int64_t bytes_per_environment(const rddl_simulator& simulator);
 
 // Fails with a sentence if so many environments take more bytes than they may.

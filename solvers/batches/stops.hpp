@@ -6,12 +6,12 @@
 
 namespace rddlc::solvers {
 
-// Whether to end early; asked by all threads, often. It stays true once it was. Work that ends
-// early leaves valid values, but not those of whole work: the caller asks, too, and throws them
-// away.
+// Returns whether to end early. All threads call it often. It stays true once it was. Work that
+// ends early leaves valid values, but not those of complete work: the caller also asks and discards
+// them.
 using Stops = std::function<bool()>;
 
-// Of a null pointer or an empty function: never.
+// A null pointer or an empty function never stops.
 inline bool is_stopped(const Stops* stops) {
     return stops && *stops && (*stops)();
 }

@@ -1,5 +1,4 @@
-// What the functions of programs compute, for loops that know which function it is before they
-// begin.
+// The functions of programs, for loops that know which function it is before they begin.
 #pragma once
 
 #include "solvers/cgp/functions.hpp"

@@ -98,7 +98,7 @@ Size place(std::vector<Box>& boxes) {
 
 }  // namespace
 
-// As the program reads it.
+// The input's label, with the scaling that the program applies.
 std::string input_label(const ProgramInput& input) {
     std::string text = input.name;
     if (input.shift != 0)

@@ -7,7 +7,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// Where a problem has no horizon.
+// The limit for problems without a horizon.
 constexpr std::int64_t longest_episode = 1000;
 
 rddl_batch_options batch_options(const rddl_simulator& simulator, std::int64_t count) {
@@ -72,7 +72,7 @@ void ProgramActor::act(rddl_batch* batch, std::span<const Program* const> progra
         chosen, actions);
 }
 
-// For so many environments from `first` on.
+// Runs so many environments from `first` on.
 void ProgramActor::run(const Program& program, std::size_t number, std::int64_t first,
                        std::int64_t count, const float* observations, std::int64_t steps) {
     const int columns = scope_.observations.column_count();
@@ -104,7 +104,7 @@ double* ProgramActor::room_for(const Program& program, std::size_t number, int l
     }
     memories_.resize(static_cast<std::size_t>(programs_));
     std::vector<double>& memory = memories_[number];
-    // Who begins to watch in the middle of an episode has nothing to remember, either.
+    // A program that begins to watch in the middle of an episode also has an empty memory.
     if (steps == 0 || memory.size() != size) memory.assign(size, 0.0);
     return memory.data();
 }
@@ -135,7 +135,7 @@ void Evaluator::evaluate(std::span<const Program* const> programs,
                          double* reach) {
     const auto count = static_cast<std::int64_t>(programs.size());
     const std::int64_t environments = count * episodes_;
-    // Those that are not needed do what the first one does, and nobody looks.
+    // Unused places repeat the first program; their results are ignored.
     programs_.assign(programs.begin(), programs.end());
     programs_.resize(static_cast<std::size_t>(room_), programs.front());
     for (std::size_t i = 0; i < seeds_.size(); ++i)

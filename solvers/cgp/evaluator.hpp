@@ -55,10 +55,10 @@ class Evaluator {
     Evaluator(const rddl_simulator& simulator, const ProgramScope& scope, std::int64_t programs,
               std::int64_t episodes, const Stops* stops = nullptr);
 
-    // At most as many programs as there is room for. Episode e of each begins with seeds[e].
-    // Returns and lengths are program by program, as is the reach, unless it is NULL: the sum over
-    // observed values of ln(1 + how far the episode's greatest is from its least), in half widths
-    // of the value's bounds, or, where it has none, in 1 + its size in the first state.
+    // Takes at most as many programs as there is room for. Episode e of each begins with seeds[e].
+    // Returns and lengths are program by program, as is the reach, unless it is NULL. The reach is
+    // the sum over observed values of ln(1 + the episode's maximum minus its minimum), in half
+    // widths of the value's bounds, or, without bounds, in 1 + its size in the first state.
     void evaluate(std::span<const Program* const> programs, std::span<const std::uint64_t> seeds,
                   double* returns, double* lengths, double* reach = nullptr);
     std::int64_t episodes() const { return episodes_; }
@@ -73,7 +73,7 @@ class Evaluator {
     const ObservationSpace& space_;
     std::int64_t room_, episodes_;
     const Stops* stops_;
-    Batch batch_;
+    BatchHandle batch_;
     ProgramActor actor_;
     std::vector<float> observations_, actions_;
     std::vector<float> first_, least_, most_;  // of observations, where the reach is asked for

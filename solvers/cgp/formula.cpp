@@ -1,3 +1,4 @@
+// Over 400 lines: one formula in five languages, side by side.
 #include "solvers/cgp/formula.hpp"
 
 #include <fmt/format.h>
@@ -34,8 +35,8 @@ enum Tightness : int {
     name
 };
 
-// Of what a function and its arguments become, and what that needs of the arguments: (a + b) + c is
-// "a + b + c", and a + (b + c) keeps its brackets, as rounding is another.
+// How tightly a function binds and what it needs of its arguments: (a + b) + c is "a + b + c", and
+// a + (b + c) keeps its brackets, since it rounds differently.
 struct Binding {
     Tightness own = name;
     std::array<Tightness, 3> needed{choice, choice, choice};
@@ -65,9 +66,31 @@ Binding binding_for_people(Function function) {
             return {either, {either, either}};
         case Function::If:
             return {choice, {sum, either, choice}};
-        default:
-            return {};
+        case Function::Absolute:
+        case Function::Minimum:
+        case Function::Maximum:
+        case Function::Root:
+        case Function::Sine:
+        case Function::Cosine:
+        case Function::Tanh:
+        case Function::Exponential:
+        case Function::Sign:
+        case Function::One:
+        case Function::Zero:
+        case Function::Floor:
+        case Function::Ceiling:
+        case Function::Round:
+        case Function::HalfSum:
+        case Function::HalfDistance:
+        case Function::ScaledExponential:
+        case Function::ScaledLength:
+        case Function::AbsolutePower:
+        case Function::ArcSine:
+        case Function::ArcCosine:
+        case Function::ArcTangent:
+            break;  // name(...)
     }
+    return {};
 }
 
 struct Text {
@@ -77,10 +100,10 @@ struct Text {
 
 // How a language writes things.
 struct Language {
-    // Of the input as the program reads it, from its number.
+    // The text of input number i, as the program reads it.
     std::function<Text(int)> input;
     std::function<std::string(double)> constant;
-    // Of a function and its arguments, which are bracketed where they need it.
+    // The text of a call; arguments are bracketed where they need it.
     std::function<std::string(Function, const std::string&, const std::string&, const std::string&)>
         call;
     std::function<Binding(Function)> binding = [](Function) {
@@ -162,34 +185,18 @@ Language for_people(const ProgramScope& scope) {
     language.binding = binding_for_people;
     language.call = [](Function function, const std::string& a, const std::string& b,
                        const std::string& c) -> std::string {
-        switch (function) {
-            case Function::Add:
-                return added(a, '+', b);
-            case Function::Subtract:
-                return added(a, '-', b);
-            case Function::Multiply:
-                return a + " * " + b;
-            case Function::Divide:
-                return a + " / " + b;
-            case Function::Negate:
-                return "-" + a;
-            case Function::Square:
-                return a + "^2";
-            case Function::Half:
-                return a + " / 2";
-            case Function::Greater:
-                return a + " > " + b;
-            case Function::And:
-                return a + " and " + b;
-            case Function::Or:
-                return a + " or " + b;
-            case Function::Not:
-                return "not " + a;
-            case Function::If:
-                return "if " + a + " > 0 then " + b + " else " + c;
-            default:
-                break;
-        }
+        if (function == Function::Add) return added(a, '+', b);
+        if (function == Function::Subtract) return added(a, '-', b);
+        if (function == Function::Multiply) return a + " * " + b;
+        if (function == Function::Divide) return a + " / " + b;
+        if (function == Function::Negate) return "-" + a;
+        if (function == Function::Square) return a + "^2";
+        if (function == Function::Half) return a + " / 2";
+        if (function == Function::Greater) return a + " > " + b;
+        if (function == Function::And) return a + " and " + b;
+        if (function == Function::Or) return a + " or " + b;
+        if (function == Function::Not) return "not " + a;
+        if (function == Function::If) return "if " + a + " > 0 then " + b + " else " + c;
         const FunctionInfo& info = info_of(function);
         return info.arity == 1 ? fmt::format("{}({})", info.name, a)
                                : fmt::format("{}({}, {})", info.name, a, b);
@@ -197,7 +204,7 @@ Language for_people(const ProgramScope& scope) {
     return language;
 }
 
-// Where the bool is one of a group.
+// The group to which the bool belongs, or NULL.
 const CategoryHead* group_of(const ActionSpace& space, int column) {
     for (const CategoryHead& head : space.categories)
         if (std::ranges::binary_search(head.group, column)) return &head;
@@ -213,7 +220,7 @@ int other_values(const ActionSpace& space, int column) {
                       [column](const Choice& choice) { return choice.column == column; }));
 }
 
-// What becomes of an output, where it is not clear.
+// How an output becomes an action, where that is not clear.
 std::string meaning_of(const ProgramScope& scope, std::size_t output) {
     const ActionSpace& space = scope.actions;
     int column = static_cast<int>(output);
@@ -453,50 +460,30 @@ std::string formula_latex(const Formula& formula, const ProgramScope& scope) {
     };
     // Fractions, roots and the like hold together what is in them.
     language.binding = [](Function function) -> Binding {
-        switch (function) {
-            case Function::Divide:
-                return {power};
-            case Function::Greater:
-                return {name, {sum, sum}};
-            case Function::If:
-                return {choice, {sum}};
-            default:
-                return binding_for_people(function);
-        }
+        if (function == Function::Divide) return {power};
+        if (function == Function::Greater) return {name, {sum, sum}};
+        if (function == Function::If) return {choice, {sum}};
+        return binding_for_people(function);
     };
     const auto people = language.call;
     language.call = [people](Function function, const std::string& a, const std::string& b,
                              const std::string& c) -> std::string {
-        switch (function) {
-            case Function::Multiply:
-                return a + " \\cdot " + b;
-            case Function::Divide:
-                return "\\frac{" + a + "}{" + b + "}";
-            case Function::Absolute:
-                return "\\left|" + a + "\\right|";
-            case Function::Root:
-                return "\\sqrt{\\left|" + a + "\\right|}";
-            case Function::And:
-                return a + " \\wedge " + b;
-            case Function::Or:
-                return a + " \\vee " + b;
-            case Function::Not:
-                return "\\neg " + a;
-            case Function::Greater:
-                return "[" + a + " > " + b + "]";
-            case Function::If:
-                return "\\begin{cases} " + b + " & " + a + " > 0 \\\\ " + c +
-                       " & \\text{else} \\end{cases}";
-            case Function::Sine:
-            case Function::Cosine:
-            case Function::Tanh:
-            case Function::Exponential:
-            case Function::Minimum:
-            case Function::Maximum:
-                return "\\" + people(function, a, b, c);
-            default:
-                return people(function, a, b, c);
-        }
+        if (function == Function::Multiply) return a + " \\cdot " + b;
+        if (function == Function::Divide) return "\\frac{" + a + "}{" + b + "}";
+        if (function == Function::Absolute) return "\\left|" + a + "\\right|";
+        if (function == Function::Root) return "\\sqrt{\\left|" + a + "\\right|}";
+        if (function == Function::And) return a + " \\wedge " + b;
+        if (function == Function::Or) return a + " \\vee " + b;
+        if (function == Function::Not) return "\\neg " + a;
+        if (function == Function::Greater) return "[" + a + " > " + b + "]";
+        if (function == Function::If)
+            return "\\begin{cases} " + b + " & " + a + " > 0 \\\\ " + c +
+                   " & \\text{else} \\end{cases}";
+        if (function == Function::Sine || function == Function::Cosine ||
+            function == Function::Tanh || function == Function::Exponential ||
+            function == Function::Minimum || function == Function::Maximum)
+            return "\\" + people(function, a, b, c);
+        return people(function, a, b, c);
     };
     const Written written = write(formula, language);
     std::string text = "\\begin{align*}\n";

@@ -1,4 +1,4 @@
-// Programs as formulas: simplified, and written for people and for other programs.
+// Programs as formulas: simplified, and written for readers and for other programs.
 #pragma once
 
 #include "solvers/cgp/genome.hpp"
@@ -31,17 +31,17 @@ struct Formula {
     std::vector<double> evaluate(const std::vector<double>& inputs) const;
 };
 
-// With the same values as the genome's program, where inputs are within +-1e6.
+// The formula has the same values as the genome's program where inputs are within +-1e6.
 Formula simplified(const Genome& genome);
 
 // "action = vel > pos", a line for each output; parts that occur several times have lines of their
 // own.
 std::string formula_text(const Formula& formula, const ProgramScope& scope);
-// In one line, cut where it would be longer than `width`.
+// The formula in one line, cut if it would be longer than `width`.
 std::string short_formula(const Formula& formula, const ProgramScope& scope, std::size_t width);
 // A C++ header with a function that writes outputs from inputs; needs nothing but <cmath>.
 std::string formula_cpp(const Formula& formula, const ProgramScope& scope);
-// For Graphviz.
+// A graph for Graphviz.
 std::string formula_dot(const Formula& formula, const ProgramScope& scope);
 // "(pos - 0.85) * 0.4878": an input as the program reads it.
 std::string input_label(const ProgramInput& input);

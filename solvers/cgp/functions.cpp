@@ -1,7 +1,7 @@
 #include "solvers/cgp/functions.hpp"
 
 #include "solvers/cgp/compute.hpp"
-#include "support/failure.hpp"
+#include "solvers/options/options.hpp"
 
 #include <fmt/format.h>
 
@@ -71,8 +71,10 @@ std::vector<Function> functions_named(const std::vector<std::string>& words) {
         for (const FunctionInfo& info : all_functions)
             if (word == info.name || word == info.group) add(info.function);
         if (functions.size() == before && !function_named(word))
-            throw Failure(fmt::format("'{}' is no function of CGP, nor a group of them", word),
-                          "groups are arith, trig, logic, round and unit", usage_error);
+            throw OptionRefused(
+                fmt::format("'{}' is not a CGP function or a group of functions: groups are arith, "
+                            "trig, logic, round and unit",
+                            word));
     }
     return functions;
 }

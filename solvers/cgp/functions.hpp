@@ -1,4 +1,4 @@
-// What nodes of a program compute. All functions are total: no result is nan, or beyond +-1e6.
+// The functions of a program's nodes. All are total: no result is nan, or beyond +-1e6.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ enum class Function : std::uint8_t {
     Floor,
     Ceiling,
     Round,
-    // From [-1, 1] to [-1, 1], as scikit-decide has them.
+    // The functions of scikit-decide, from [-1, 1] to [-1, 1].
     HalfSum,
     HalfDistance,
     ScaledExponential,  // (e^a - 1) / (e - 1)
@@ -58,12 +58,13 @@ struct FunctionInfo {
 const FunctionInfo& info_of(Function function);
 std::optional<Function> function_named(std::string_view name);
 
-// Names of functions and groups: "arith,logic,sin". Throws a Failure at a word that is neither.
+// Names of functions and groups: "arith,logic,sin". Throws an OptionRefused at a word that is
+// neither.
 std::vector<Function> functions_named(const std::vector<std::string>& words);
 // arith, trig and logic.
 std::vector<Function> default_functions();
 
-// Arguments beyond the arity are not looked at.
+// Ignores arguments beyond the arity.
 double apply(Function function, double a, double b, double c);
 // The same of rows of `count` numbers.
 void apply(Function function, int count, const double* a, const double* b, const double* c,

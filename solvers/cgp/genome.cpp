@@ -1,6 +1,6 @@
 #include "solvers/cgp/genome.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ double Random::normal() {
 
 namespace {
 
-// What node `number` may read.
+// A random address that node `number` may read.
 int random_address(const GenomeShape& shape, int number, Random& random) {
     const int leaves = shape.inputs + shape.constants;
     const int nodes = shape.levels_back > 0 ? std::min(number, shape.levels_back) : number;
@@ -171,7 +171,7 @@ Activity activity_of(const Genome& genome) {
         for (int a = 0; a < read; ++a) {
             const auto argument =
                 static_cast<std::size_t>(node.arguments[static_cast<std::size_t>(a)]);
-            // A node behind this one that nobody behind it reads has no part in a delayed program.
+            // In a delayed program a node behind this one has no part unless a later node reads it.
             if (argument < static_cast<std::size_t>(genome.first_node()) + n)
                 activity.used[argument] = 1;
         }

@@ -14,11 +14,11 @@ namespace rddlc::solvers {
 
 struct Node {
     Function function = Function::Zero;
-    std::array<int, 3> arguments{};  // addresses; those beyond the arity mean nothing
+    std::array<int, 3> arguments{};  // addresses; entries beyond the arity mean nothing
     bool operator==(const Node&) const = default;
 };
 
-// Of a node of a delayed program, whatever its function's arity is: both count as read.
+// A node of a delayed program reads two arguments, whatever its function's arity is.
 inline constexpr int arguments_of_delayed = 2;
 
 struct Genome {
@@ -66,7 +66,7 @@ Genome random_genome(const GenomeShape& shape, Random& random);
 // Whether a genome that was read is one of the shape, with addresses that are there.
 bool has_shape(const Genome& genome, const GenomeShape& shape);
 
-// Which nodes have a part in the outputs; `used` tells which inputs and constants do, too.
+// The nodes that have a part in the outputs; `used` marks the inputs and constants that also do.
 struct Activity {
     std::vector<std::uint8_t> used;  // by address
     int nodes = 0;

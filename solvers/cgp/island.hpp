@@ -18,8 +18,8 @@
 
 namespace rddlc::solvers {
 
-// A program that the record shall be beaten by plays so many more episodes, which are the same for
-// all of them.
+// A program that may beat the record plays this many more episodes, which are the same for all such
+// programs.
 inline constexpr std::int64_t confirmations = 64;
 
 // How many programs play how many episodes of the first round, of the others and to confirm a
@@ -31,7 +31,7 @@ inline std::vector<EvaluatorSize> evaluator_sizes(const CgpOptions& options) {
     const std::int64_t few = std::max(1, options.episodes / 4);
     std::vector<EvaluatorSize> sizes = {{std::int64_t{options.children} + 1, few}};
     if (options.episodes == 1) return sizes;
-    // A father and a quarter of the children play all episodes.
+    // The parent and a quarter of the children play all episodes.
     sizes.push_back({1 + std::max(1, options.children / 4), options.episodes - few});
     sizes.push_back({1, confirmations});
     return sizes;
@@ -41,12 +41,12 @@ inline bool beats(const Fitness& a, const Fitness& b) {
     if (a.value != b.value) return a.value > b.value;
     return a.steps < b.steps;
 }
-// While nothing earns more than at first.
+// The order while no program has a higher return than the first one.
 inline bool sees_more(const Fitness& a, const Fitness& b) {
     if (beats(a, b) || beats(b, a)) return beats(a, b);
     return a.reach > b.reach;
 }
-// For a record: of equals the smaller.
+// The order of records: the smaller of equally good programs is better.
 inline bool is_better(const Fitness& a, const Fitness& b) {
     if (beats(a, b) || beats(b, a)) return beats(a, b);
     return a.nodes < b.nodes;
@@ -90,7 +90,7 @@ struct Found {
     Fitness fitness;
 };
 
-// One population: a father, and what is known of programs.
+// One population: a parent, and the known fitness of programs.
 class Island {
   public:
     Island(const rddl_simulator& simulator, const ProgramScope& scope, const CgpOptions& options,
@@ -120,7 +120,7 @@ class Island {
     bool is_noisy() const { return options_.episodes > 1; }
 
     void generation() {
-        const std::size_t first = is_noisy() ? 1 : 0;  // with noise the father plays again
+        const std::size_t first = is_noisy() ? 1 : 0;  // with noise the parent plays again
         candidates_.resize(first + static_cast<std::size_t>(options_.children));
         const Activity activity = activity_of(father_);
         for (std::size_t c = 0; c < candidates_.size(); ++c) {
@@ -214,8 +214,8 @@ class Island {
         return all;
     }
 
-    // With noise: the father is the first. All play some episodes, the best of them and the father
-    // the others; all begin with the same numbers.
+    // Compares programs where episodes are random; the parent is the first. All play some episodes.
+    // The best of them and the parent play the others. All begin with the same random numbers.
     std::vector<Fitness> race(const std::vector<Genome>& genomes) {
         std::vector<Program> programs;
         std::vector<Fitness> all;
@@ -287,8 +287,7 @@ class Island {
             }
         }
         mean_of_children_ = count > 0 ? sum / count : 0;
-        // As long as nothing is better than what it began with, programs grow and shrink as they
-        // like.
+        // Programs grow and shrink freely as long as no program beats the first one.
         replaced_ = explores             ? !sees_more(fitness_, all[best])
                     : options_.parsimony ? !is_better(fitness_, all[best])
                                          : !beats(fitness_, all[best]);
@@ -305,7 +304,7 @@ class Island {
             for (std::size_t c = 0; c < all.size(); ++c) note(candidates[c], all[c]);
     }
 
-    // Nothing earns more than what it began with.
+    // No program has a higher return than the first one.
     bool is_exploring() const { return !(fitness_.value > start_value_); }
 
     void note(const Genome& genome, const Fitness& fitness) {
@@ -315,7 +314,7 @@ class Island {
         record_fitness_ = fitness;
     }
 
-    // A father that is not the one that was looked at last.
+    // Plays the confirmation episodes for a new parent.
     void confirm() {
         if (generations_ % 5 != 0 && has_record_) return;
         const Program program(father_);
@@ -333,8 +332,8 @@ class Island {
         note(father_, {measured(returns, options_.measure), steps, 0, program.nodes()});
     }
 
-    // Evolution strategy on the constants that count: children about the father, of a size that
-    // adapts itself.
+    // Evolution strategy on the constants that count: children around the parent, with a step size
+    // that adapts itself.
     void tune() {
         constexpr int rounds = 10;
         const Activity activity = activity_of(father_);
@@ -367,7 +366,7 @@ class Island {
         stagnation_ = 0;
         restarts_ += 1;
         start_value_ = std::numeric_limits<double>::infinity();
-        known_.clear();  // nobody has asked for the reach of some of them
+        known_.clear();  // the reach of some of them was not measured
         if (!is_noisy()) fitness_ = evaluate_all({father_}).front();
     }
 

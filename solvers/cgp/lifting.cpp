@@ -81,7 +81,7 @@ std::vector<Source> sources_of(const rddl_simulator& simulator, const Observatio
     return sources;
 }
 
-// Parameters of a source that those of an action tell, as (source's, action's).
+// Parameters of a source that an action's parameters determine, as (source's, action's).
 using SharedParameters = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 // The k-th of a type by the k-th of that type.
@@ -150,7 +150,7 @@ class Lifter {
         return parameters.empty() ? fluent.name : std::string(fluent.name) + "(" + parameters + ")";
     }
 
-    // The means of a source over all groundings that agree with what bind(action) tells.
+    // Adds the means of a source over all groundings that agree with what bind(action) fixes.
     template <class Bind>
     void add_input(std::string name, const Source& source, Bind bind) {
         ProgramInput input;
@@ -177,7 +177,8 @@ class Lifter {
         scope_.input_ends.push_back(scope_.sum_count());
     }
 
-    // Of a choice of objects for the source's shared parameters; object_of(source's, action's).
+    // The number of a choice of objects for the source's shared parameters, from
+    // object_of(source's, action's).
     template <class ObjectOf>
     std::int64_t number_of(const Source& source, const SharedParameters& shared,
                            ObjectOf object_of) const {

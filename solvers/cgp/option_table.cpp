@@ -13,9 +13,13 @@ using Option = LearnerOption<O>;
 constexpr std::int64_t most_generations = std::int64_t{1} << 40;
 
 Option functions_option() {
-    Option option{{"--functions", "functions", "NAME,...",
+    Option option{{"--functions",
+                   "functions",
+                   "NAME,...",
                    "Functions, or groups of them: arith, trig, logic (default: these), round, unit",
-                   true, true},
+                   {"function_set"},
+                   true,
+                   true},
                   {},
                   {}};
     option.set = [](O& o, const std::vector<std::string>& words) {
@@ -44,15 +48,18 @@ Option generations_option(OptionText text, Member member, std::int64_t least) {
 OptionTable<O> make_table() {
     return {
         generations_option(
-            {"--gens", "generations", "N", "Generations (1000)", false},
+            {"--gens", "generations", "N", "Generations (1000)", {"n_generations"}, false},
             [](auto& o) -> auto& { return o.generations; }, 1),
         int_option(
-            {"--lambda", "children", "N",
-             "Children (32, or 8 where anything is drawn at random; 4 with --compat)"},
+            {"--lambda",
+             "children",
+             "N",
+             "Children (32, or 8 if anything is drawn at random; 4 with --compat)",
+             {"lambda_", "population_size", "n_offspring"}},
             [](auto& o) -> auto& { return o.children; }, 1, 1 << 16),
         int_option(
-            {"--cols", "nodes", "N", "Nodes (100)"}, [](auto& o) -> auto& { return o.nodes; }, 1,
-            1 << 20),
+            {"--cols", "nodes", "N", "Nodes (100)", {"columns", "n_columns"}},
+            [](auto& o) -> auto& { return o.nodes; }, 1, 1 << 20),
         int_option(
             {"--constants", "constants", "N", "Constants (4)"},
             [](auto& o) -> auto& { return o.constants; }, 0, 1 << 10),
@@ -68,23 +75,24 @@ OptionTable<O> make_table() {
         functions_option(),
         int_option(
             {"--episodes", "episodes", "N",
-             "Of each program (1, or 16 where anything is drawn at random)"},
+             "Episodes of each program (1, or 16 if anything is drawn at random)"},
             [](auto& o) -> auto& { return o.episodes; }, 1, 1 << 20),
-        choice_option<O, Measure>({"--fitness", "measure", "WHAT",
-                                   "Of the returns: mean (default), median, min, or cvar: the "
-                                   "mean of the worst fifth"},
-                                  [](auto& o) -> auto& { return o.measure; },
-                                  {{"mean", Measure::Mean},
-                                   {"median", Measure::Median},
-                                   {"min", Measure::Minimum},
-                                   {"cvar", Measure::WorstFifth}}),
+        choice_option<O, Measure>(
+            {"--fitness", "measure", "WHAT",
+             "Statistic of the returns: mean (default), median, min, or cvar: the "
+             "mean of the worst fifth"},
+            [](auto& o) -> auto& { return o.measure; },
+            {{"mean", Measure::Mean},
+             {"median", Measure::Median},
+             {"min", Measure::Minimum},
+             {"cvar", Measure::WorstFifth}}),
         generations_option(
             {"--restart", "restart_after", "N",
-             "Begin anew after so many generations without progress (300)"},
+             "Restart after so many generations without progress (300); 0: never"},
             [](auto& o) -> auto& { return o.restart_after; }, 0),
         generations_option(
             {"--tune", "tune_every", "N",
-             "Generations between searches for better constants (50); 0: none"},
+             "Generations between searches for better constants (50); 0: never"},
             [](auto& o) -> auto& { return o.tune_every; }, 0),
         choice_option<O, Lifting>(
             {"--lifted", "lifted", "WHEN",
@@ -94,25 +102,34 @@ OptionTable<O> make_table() {
             {{"auto", Lifting::Auto}, {"on", Lifting::On}, {"off", Lifting::Off}}),
         switch_option<O>(
             {"--parsimony", "parsimony", "WHEN",
-             "Whether of programs that are as good a smaller one is better: on "
+             "Whether the smaller of equally good programs wins: on "
              "(default), off"},
             [](auto& o) -> auto& { return o.parsimony; }),
         switch_option<O>(
-            {"--time-input", "time", "", "Programs read how much of the episode is over"},
+            {"--time-input", "time", "", "Programs read the elapsed part of the episode"},
             [](auto& o) -> auto& { return o.time; }),
         choice_option<O, bool>({"--compat", "compat", "WHOSE",
-                                "skdecide: search for programs as scikit-decide has them, by its "
+                                "skdecide: search for programs in scikit-decide's form, with its "
                                 "functions and its mutation; none (default)"},
                                [](auto& o) -> auto& { return o.skdecide; },
                                {{"none", false}, {"skdecide", true}}),
         int_option(
-            {"--islands", "islands", "N", "Populations (1, or one for each rank of MPI)", false},
+            {"--islands", "islands", "N", "Populations (1, or one on each rank of MPI)", {}, false},
             [](auto& o) -> auto& { return o.islands; }, 1, 1 << 12),
         generations_option(
-            {"--migrate", "migrate_every", "N", "Generations between migrations (50)"},
+            {"--migrate",
+             "migrate_every",
+             "N",
+             "Generations between migrations (50); 0: none",
+             {"migration"}},
             [](auto& o) -> auto& { return o.migrate_every; }, 0),
         int_option(
-            {"--threads", "threads", "T", "Threads, for islands (1)", false},
+            {"--threads",
+             "threads",
+             "T",
+             "Threads, at most one for each island (1)",
+             {"n_jobs", "num_threads"},
+             false},
             [](auto& o) -> auto& { return o.threads; }, 1, most_threads)};
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int file_version = 1;
 
-// Lines of the file, each of which begins with a word that tells what it is.
+// Lines of the file, each of which begins with a word that names its content.
 class Lines {
   public:
     explicit Lines(std::string_view text) : stream_(std::string(text)) {}
@@ -190,7 +190,7 @@ std::string program_text(const rddl_simulator& simulator, const ProgramScope& sc
 std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator,
                                                  std::string_view text) {
     if (is_skdecide_genome(text)) return read_skdecide_program(simulator, text);
-    if (!text.starts_with("rddl-cgp ")) throw Failure("it is no program of CGP");
+    if (!text.starts_with("rddl-cgp ")) throw Failure("it is not a CGP program");
     Lines lines(text);
     constexpr std::int64_t many = 1 << 24;
     const std::int64_t version = lines.number("rddl-cgp", 0, many);
@@ -199,7 +199,8 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
                                   version, file_version));
     const std::string domain = lines.text("domain"), instance = lines.text("instance");
     const bool lifted = lines.number("lifted", 0, 1) != 0, time = lines.number("time", 0, 1) != 0;
-    // Of any instance in which the same is seen and done: of a lifted program, by each object.
+    // A program suits every instance with the same spaces; a lifted program suits every instance of
+    // the domain.
     if (domain != simulator.problem->domain)
         throw Failure(
             fmt::format("it is of the domain {}, not of {}", domain, simulator.problem->domain));
@@ -208,9 +209,9 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
     ProgramScope& scope = found->scope;
     Genome& genome = found->genome;
     const auto other = [&] {
-        return Failure(
-            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
-                        instance, simulator.problem->instance));
+        return Failure(fmt::format(
+            "it was learned in {}, whose observations or actions differ from those of {}", instance,
+            simulator.problem->instance));
     };
     if (lines.number("inputs", 0, many) != scope.input_count()) throw other();
     for (ProgramInput& input : scope.inputs) {
@@ -234,7 +235,7 @@ std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator
         std::string name;
         rest >> name;
         const auto function = function_named(name);
-        if (!function) throw Failure(fmt::format("'{}' is no function of CGP", name));
+        if (!function) throw Failure(fmt::format("'{}' is not a CGP function", name));
         Node& node = genome.nodes.emplace_back();
         node.function = *function;
         for (int& argument : node.arguments)

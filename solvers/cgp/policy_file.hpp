@@ -19,14 +19,14 @@ struct FoundProgram {
 std::string program_text(const rddl_simulator& simulator, const ProgramScope& scope,
                          const Genome& genome);
 
-// For people: the formula, or the nodes of a delayed program.
+// The formula for readers, or the nodes of a delayed program.
 std::string program_formula(const ProgramScope& scope, const Genome& genome);
 
 // Whether it may be a program: of ours, or of scikit-decide.
 bool is_program(std::string_view text);
 
-// A lifted program may be of another instance of the domain. Throws a Failure with a sentence where
-// the text is none, incomplete, of a newer version, or of another problem.
+// A lifted program may be of another instance of the domain. Throws a Failure with a sentence if
+// the text is not a program, or is incomplete, of a newer version, or of another problem.
 std::shared_ptr<const FoundProgram> read_program(const rddl_simulator& simulator,
                                                  std::string_view text);
 

@@ -9,7 +9,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// While a program is made, its calls have places of their own behind all constants.
+// Calls have places of their own behind all constants while a program is built.
 constexpr int first_call = 1 << 24;
 
 int arity_of(Function function) {
@@ -78,7 +78,7 @@ int Program::place_of_call(const Instruction& call) {
     return first_call + number;
 }
 
-// And gives everything the slot that it has from now on.
+// Also gives every value its final slot.
 void Program::keep_what_outputs_need() {
     std::vector<int> calls(instructions_.size(), -1), constants(constants_.size(), -1);
     std::vector<int> open = outputs_;
@@ -179,7 +179,7 @@ void Program::run_one(const double* inputs, std::ptrdiff_t input_row, double* va
     for (const int output : outputs_) *outputs++ = at(output, values);
 }
 
-// What nodes read: of a delayed program a copy of what the step before has left.
+// The values that nodes read: in a delayed program a copy of the values of the step before.
 const double* Program::remembered(int lanes, double* values) const {
     if (!delayed_) return values;
     const std::ptrdiff_t count = std::ptrdiff_t{slots_} * lanes;

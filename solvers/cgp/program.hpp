@@ -10,8 +10,8 @@
 
 namespace rddlc::solvers {
 
-// What is left of a genome, for any number of lanes at once: nodes that have a part in the outputs.
-// What they compute of constants alone is computed once, and nodes that compute the same are one.
+// A genome reduced to the nodes that have a part in the outputs, for any number of lanes at once.
+// Nodes of constants alone are computed once, and nodes that compute the same are merged.
 class Program {
   public:
     Program() = default;
@@ -25,10 +25,9 @@ class Program {
     int slots() const { return slots_ + (delayed_ ? slots_ : 0); }
     // Equal programs have equal numbers.
     std::uint64_t hash() const;
-    // Lanes of input i stand at inputs + i * input_row; those that are not used are not read.
-    // `values` has room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes.
-    // A delayed program finds there what the step before has left, or zeros where an episode
-    // begins.
+    // Lanes of input i stand at inputs + i * input_row; unused inputs are not read. `values` has
+    // room for slots() * lanes numbers. Output o's lanes go to outputs + o * lanes. A delayed
+    // program finds there the values of the step before, or zeros where an episode begins.
     void run(int lanes, const double* inputs, std::ptrdiff_t input_row, double* values,
              double* outputs) const;
 

@@ -17,7 +17,7 @@ constexpr double bytes_of_remembered = 72;  // in a table of hashes
 
 double bytes_of_environment(const rddl_simulator& simulator, const ProgramScope& scope) {
     const ActionSpace& actions = scope.actions;
-    // As they are now, and the first, the least and the greatest of the episode.
+    // Observations as they are now, and the first, the minimum and the maximum of the episode.
     double bytes = sizeof(float) * 4.0 * scope.observations.column_count();
     bytes += sizeof(float) * (1.0 * actions.column_count + actions.output_count());
     bytes += sizeof(double) + sizeof(std::uint64_t) + 2.0;  // reward, seed, causes
@@ -25,7 +25,7 @@ double bytes_of_environment(const rddl_simulator& simulator, const ProgramScope&
            static_cast<double>(bytes_per_environment(simulator));
 }
 
-// What a program computes for a unit in an episode, once for all programs.
+// The bytes of a program's values for a unit in an episode, shared by all programs.
 double bytes_of_lane(const ProgramScope& scope, const CgpOptions& options) {
     const double values = options.constants + options.nodes;
     return sizeof(double) * (1.0 * scope.input_count() + scope.output_count() + values);
@@ -50,7 +50,7 @@ CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
                  static_cast<double>(scope.units.size()) * (options.skdecide ? 2 * programs : 1);
     };
     for (const EvaluatorSize& size : evaluator_sizes(options)) add(size);
-    const double candidates = 2.0 + options.children;  // with the father, and the record
+    const double candidates = 2.0 + options.children;  // with the parent and the record
     const double genome = static_cast<double>(options.nodes) * sizeof(Node) +
                           sizeof(double) * 1.0 * options.constants + sizeof(Genome);
     const double made = static_cast<double>(options.generations) * candidates;
@@ -58,7 +58,7 @@ CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
     room.environments =
         static_cast<double>(islands) * (environments * bytes_of_environment(simulator, scope) +
                                         lanes * bytes_of_lane(scope, options));
-    // As genomes, and as programs that are ready to run, which the search for constants has twice.
+    // Genomes, and programs that are ready to run, which the search for constants has twice.
     room.programs =
         static_cast<double>(islands) *
         (sizeof(Island) + 3 * candidates * genome +

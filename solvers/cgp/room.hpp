@@ -1,4 +1,4 @@
-// What CGP takes in memory, which is known before any of it is taken.
+// The memory estimate of CGP, made before any memory is allocated.
 #pragma once
 
 #include "solvers/cgp/scope.hpp"
@@ -18,7 +18,7 @@ struct CgpRoom {
     double all() const { return environments + programs; }
 };
 
-// Of so many islands. No option is "chosen here" any more.
+// The estimate for so many islands. No option is "chosen here" any more.
 CgpRoom room_of(const rddl_simulator& simulator, const ProgramScope& scope,
                 const CgpOptions& options, std::int64_t islands);
 

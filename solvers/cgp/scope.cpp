@@ -13,7 +13,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// Numbers that people read: three digits.
+// Rounds numbers for display: three digits.
 double rounded(double x) {
     if (x == 0 || !std::isfinite(x)) return 0;
     const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 2);
@@ -73,7 +73,7 @@ std::pair<std::size_t, std::size_t> sums_of(const ProgramScope& scope, std::size
             static_cast<std::size_t>(scope.input_ends[i])};
 }
 
-// What inputs were seen to be.
+// Statistics of the observed inputs.
 struct Seen {
     double count = 0, sum = 0, squares = 0;
 
@@ -118,7 +118,7 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
     options.thread_count = 1;
     options.seed = seed;
     options.autoreset = RDDL_AUTORESET_SAME_STEP;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     RandomPolicy policy(*simulator.problem, seed);
     RandomActions random(simulator, policy, environments);
     random.set_stops(&stops);
@@ -153,7 +153,7 @@ void learn_scales(const rddl_simulator& simulator, ProgramScope& scope, std::uin
         const double mean = seen[i].sum / seen[i].count;
         const double deviation =
             std::sqrt(std::max(seen[i].squares / seen[i].count - mean * mean, 0.0));
-        // What hardly moves about a mean that is near 0 stays as it is.
+        // An input that hardly moves around a mean near 0 is not shifted.
         input.shift = std::abs(mean) < 0.3 * deviation ? 0 : rounded(mean);
         const bool is_spread = deviation > 1e-9 && std::isfinite(deviation);
         input.scale = is_spread ? rounded(1 / deviation) : 1;
@@ -233,8 +233,8 @@ void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff
         for (int l = 0; l < head.count; ++l)
             logits[head.first_logit + l] = l == chosen ? 1.0f : 0.0f;
     }
-    // Picks: what has the greatest number above 0 comes first; a value of several has the size of
-    // the number, and which of them it is tells the number.
+    // Picks: the greatest number above 0 comes first. A choice with several values is preferred by
+    // the number's size; its value follows from the number.
     for (std::size_t c = 0; c < space.choices.size(); ++c) {
         const Choice& choice = space.choices[c];
         if (choice.column < 0) {

@@ -1,4 +1,4 @@
-// What a program of CGP reads and writes.
+// The inputs and outputs of a CGP program.
 //
 // A ground program reads every value that is observed and writes a number for each action value. A
 // lifted one is run for each action value by itself, and reads what concerns its objects: f(?x) for
@@ -40,8 +40,8 @@ struct ProgramScope {
         int column = -1;  // of actions; -1: all, output by output
     };
     std::vector<Unit> units;
-    // Of lifted programs: what inputs may be, sums of features times factors, plus a number. Units
-    // that are about the same objects read the same one.
+    // An input of lifted programs: sums of features times factors, plus a number. Units about the
+    // same objects read the same one.
     struct Term {
         int feature;  // -1: the factor itself
         double factor;
@@ -68,8 +68,8 @@ ProgramScope program_scope(const rddl_simulator& simulator, Lifting lifting, boo
 void read_inputs(const ProgramScope& scope, const float* features, const std::vector<int>& used,
                  double* sums, double* inputs, std::ptrdiff_t stride);
 
-// From what a program writes, output o of unit u at values[(o * units + u) * stride], to a row of
-// what a Chooser takes: the action space's numbers of reals and logits.
+// Converts the outputs of a program, output o of unit u at values[(o * units + u) * stride], to a
+// row of a Chooser's inputs: the action space's numbers of reals and logits.
 void write_outputs(const ProgramScope& scope, const double* values, std::ptrdiff_t stride,
                    float* row);
 

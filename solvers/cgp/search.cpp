@@ -6,7 +6,7 @@
 #include "solvers/files/checkpoint.hpp"
 #include "support/failure.hpp"
 
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <fmt/format.h>
 
@@ -73,7 +73,7 @@ struct CgpSearch::State {
         report();
     }
 
-    // Islands do not know of each other between migrations, so who runs them does not matter.
+    // Islands do not know of each other between migrations, so any rank may run any island.
     void run(std::int64_t generations) {
         const auto begin = std::chrono::steady_clock::now();
         while (generations > 0 && !is_stopped()) {
@@ -109,7 +109,7 @@ struct CgpSearch::State {
 
     bool is_stopped() const { return options.stops && options.stops(); }
 
-    // In a ring; all leave before any arrives.
+    // Migrates in a ring; all programs leave before any arrives.
     void migrate() {
         SavingArchive own;
         for (const auto& island : islands) {
@@ -130,7 +130,7 @@ struct CgpSearch::State {
         }
     }
 
-    // What this rank knows, as the others take it.
+    // This rank's report, in the form that other ranks read.
     std::string own_report() const {
         const Island* first = islands.front().get();
         CgpProgress own;

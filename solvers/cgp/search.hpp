@@ -1,12 +1,12 @@
-// CGP: programs change a little, and what acts as well or better stays.
+// CGP: programs change a little, and those that act as well or better stay.
 //
-// (1 + lambda) with neutral drift: a child that is as good as its father takes its place. Episodes
-// of a generation begin with the same random numbers for father and children, new ones in each
-// generation; of several episodes, all candidates play a few and the best of them the others.
-// Where all programs earn the same, nothing tells which of them is nearer to something better. Then
-// those stay that see more of the problem: a simple form of novelty search (J. Lehman, K. Stanley,
-// "Abandoning objectives", 2011). Islands do this side by side, and at times the best program of an
-// island goes to the next one, in a ring.
+// (1 + lambda) with neutral drift: a child that is as good as its parent takes its place. Episodes
+// of a generation begin with the same random numbers for parent and children, new ones in each
+// generation; of several episodes, all candidates play a few and the best of them the others. If
+// all programs have the same return, it does not show which of them is nearer to something better.
+// Then those stay that see more of the problem: a simple form of novelty search (J. Lehman, K.
+// Stanley, "Abandoning objectives", 2011). Islands do this side by side, and at times the best
+// program of an island moves to the next one, in a ring.
 #pragma once
 
 #include "solvers/cgp/genome.hpp"
@@ -50,13 +50,13 @@ struct CgpOptions {
     // is given. Its evaluation is not: one lucky episode does not make a record here.
     bool skdecide = false;
     std::uint64_t seed = 0;
-    // Asked by all threads, often: whether run() shall end early. What it has done by then is no
-    // state of a whole run. May be empty.
+    // All threads call it often: whether run() shall end early. Its results are then not those of a
+    // complete run. May be empty.
     std::function<bool()> stops;
 };
 
-// Of a program. More is better, then fewer steps, then fewer nodes. As long as nothing earns more
-// than what a search began with, a longer reach comes before fewer nodes.
+// The fitness of a program. A higher value is better, then fewer steps, then fewer nodes. As long
+// as no program has a higher return than the first one, a longer reach comes before fewer nodes.
 struct Fitness {
     double value = 0;
     double steps = 0;  // of an episode
@@ -68,14 +68,14 @@ struct CgpProgress {
     std::int64_t generations = 0, evaluations = 0, episodes = 0, restarts = 0;
     Fitness best;
     double mean_of_children = 0;  // of the last generation
-    bool replaced = false;        // the father, in the last generation of the first island
+    bool replaced = false;        // the parent, in the last generation of the first island
     double seconds = 0;
 };
 
 class CgpSearch {
   public:
-    // The simulator must outlive this. Ranks share the islands; what they find does not depend on
-    // how many ranks there are. Throws a Failure where there are fewer islands than ranks.
+    // The simulator must outlive this. Ranks share the islands; the results do not depend on the
+    // number of ranks. Throws a Failure if there are fewer islands than ranks.
     CgpSearch(const rddl_simulator& simulator, const CgpOptions& options, const Ranks& ranks = {});
     ~CgpSearch();
 
@@ -84,7 +84,7 @@ class CgpSearch {
     const ProgramScope& scope() const;
     const Genome& best() const;
     const CgpProgress& progress() const;
-    // Of all islands, at most.
+    // An upper bound over all islands.
     std::int64_t steps_of_generation() const;
 
     std::string save() const;

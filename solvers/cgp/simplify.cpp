@@ -161,7 +161,21 @@ class Simplifier {
                     if (calls(a, f)) return a;
                 if (is_truth(a)) return a;
                 break;
-            default:
+            case Function::Sine:
+            case Function::Cosine:
+            case Function::Tanh:
+            case Function::Exponential:
+            case Function::One:
+            case Function::Zero:
+            case Function::Half:
+            case Function::HalfSum:
+            case Function::HalfDistance:
+            case Function::ScaledExponential:
+            case Function::ScaledLength:
+            case Function::AbsolutePower:
+            case Function::ArcSine:
+            case Function::ArcCosine:
+            case Function::ArcTangent:
                 break;
         }
         return std::nullopt;
@@ -176,7 +190,7 @@ class Simplifier {
     std::map<Term, int> places_;
 };
 
-// Without the terms that no output needs.
+// The formula without the terms that no output needs.
 Formula without_rest(const Formula& all) {
     std::vector<bool> needed(all.terms.size());
     for (const int output : all.outputs) needed[static_cast<std::size_t>(output)] = true;

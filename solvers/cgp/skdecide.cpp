@@ -37,7 +37,7 @@ double mapped(double x, double lower, double upper, double least, double most) {
     return part * (most - least) + least;
 }
 
-// Which of `count` equal bins of [-1, 1].
+// The number of x's bin among `count` equal bins of [-1, 1].
 int bin_of_unit(double x, int count) {
     return std::min(static_cast<int>(mapped(x, -1, 1, 0, 1) * count), count - 1);
 }
@@ -50,7 +50,7 @@ std::vector<int> numbers_of(const std::string& line, const char* what) {
     for (std::string word; words >> word;) {
         const bool is_number =
             word.size() < 9 && word.find_first_not_of("0123456789") == std::string::npos;
-        if (!is_number) throw Failure(fmt::format("'{}' is no number of {}", word, what));
+        if (!is_number) throw Failure(fmt::format("'{}' is not a number of {}", word, what));
         numbers.push_back(std::stoi(word));
     }
     return numbers;
@@ -64,14 +64,14 @@ std::vector<Function> functions_of(const std::string& line) {
             std::find_if(std::begin(known_functions), std::end(known_functions),
                          [&](const Known& known) { return known.name == word; });
         if (found == std::end(known_functions))
-            throw Failure(fmt::format("'{}' is no function that scikit-decide's CGP has", word));
+            throw Failure(fmt::format("'{}' is not a function of scikit-decide's CGP", word));
         functions.push_back(found->function);
     }
     return functions;
 }
 
-// By address. Unlike Activity, which counts what scikit-decide computes, this leaves out arguments
-// that functions do not look at.
+// Marks needed nodes by address. Unlike Activity, which counts what scikit-decide computes, this
+// leaves out arguments that functions ignore.
 std::vector<bool> needed_by_outputs(const Genome& genome, const Activity& activity) {
     std::vector<bool> needed(activity.used.size());
     std::vector<int> open = genome.outputs;
@@ -122,7 +122,7 @@ ProgramScope skdecide_scope(const rddl_simulator& simulator) {
     for (const RealHead& head : scope.actions.reals)
         if (head.range != RealHead::Range::Bounded)
             throw Failure(fmt::format(
-                "programs of scikit-decide act within bounds, and the action '{}' has no two",
+                "programs of scikit-decide act within bounds, and the action '{}' lacks one",
                 scope.actions.names[static_cast<std::size_t>(head.column)]));
     const auto is_of_one_value = [](const CategoryHead& head) {
         return head.group.empty();

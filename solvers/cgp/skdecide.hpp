@@ -1,12 +1,12 @@
-// Programs of CGP as scikit-decide has them, 1.1: for comparisons, and for programs that were found
+// Programs of CGP as scikit-decide 1.1 has them: for comparisons, and for programs that were found
 // with it.
 //
-// They differ from ours in this. A node reads what other nodes computed in the step before, so a
-// chain of d nodes answers d - 1 steps late; in the first step of an episode that is 0. (There,
-// values also go on from one episode to the next. Here they do not, so that an episode depends on
-// nothing before it.) Inputs are mapped from their bounds to [-1, 1] and cut there, where -1 and 1
-// stand for bounds that are missing; bools are -1 and 1. Outputs are mapped from [-1, 1] to the
-// bounds of a real, or to as many equal bins as there are values or choices.
+// They differ from ours as follows. A node reads what other nodes computed in the step before, so a
+// chain of d nodes answers d - 1 steps late; in the first step of an episode that is 0. (In
+// scikit-decide, values also continue from one episode to the next. Here they do not, so that an
+// episode depends on nothing before it.) Inputs are mapped from their bounds to [-1, 1] and
+// clipped, where -1 and 1 stand for bounds that are missing; bools are -1 and 1. Outputs are mapped
+// from [-1, 1] to the bounds of a real, or to as many equal bins as there are values or choices.
 #pragma once
 
 #include "solvers/cgp/genome.hpp"
@@ -29,7 +29,7 @@ ProgramScope skdecide_scope(const rddl_simulator& simulator);
 // One environment's inputs, input i to inputs[i * stride], from its observed values.
 void read_skdecide_inputs(const ProgramScope& scope, const float* observed,
                           const std::vector<int>& used, double* inputs, std::ptrdiff_t stride);
-// What outputs mean, in place of write_outputs.
+// Interprets outputs as scikit-decide does, in place of write_outputs.
 void write_skdecide_outputs(const ProgramScope& scope, const double* values, std::ptrdiff_t stride,
                             float* row);
 

@@ -40,8 +40,8 @@ Trainee cgp_trainee(const rddl_simulator& simulator, const CgpOptions& options,
                     const Ranks& ranks) {
     require_ranges(cgp_option_table(), options);
     const auto search = std::make_shared<CgpSearch>(simulator, options, ranks);
-    // So many at once that to look at what came of them costs nothing, and that the time is looked
-    // at soon enough where episodes are long or actions large.
+    // Generations per update: enough that checking the results costs nothing, and few enough that
+    // the time is checked soon where episodes are long or actions large.
     const std::int64_t total = options.generations;
     const auto units = static_cast<std::int64_t>(search->scope().units.size());
     const std::int64_t values = search->steps_of_generation() * (1 + units / 16);

@@ -4,7 +4,7 @@
 #include "solvers/choosing/probabilities.hpp"
 #include "solvers/spaces/mending.hpp"
 
-#include <rddl/philox.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ rddl::philox::Block<std::uint64_t> words_of(const ChoiceKey& key, std::uint32_t 
         Key<std::uint64_t>{key.seed & 0xFFFFFFFF, (key.seed >> 32) ^ 0x50504F});
 }
 
-// In (0, 1).
+// A number in (0, 1).
 float unit(std::uint64_t word) {
     return (static_cast<float>((word & 0xFFFFFFFF) >> 8) + 0.5f) * 0x1p-24f;
 }
@@ -252,8 +252,8 @@ void Chooser::choose_picks(rddl_batch* batch, const float* outputs, int output_r
     }
 }
 
-// What may be picked next: what is legal then; where nothing is, all that is not picked yet, since
-// more changes may mend it.
+// Masks the next pick: a choice must be legal then. If no choice is legal, all that are not picked
+// yet are allowed, since more changes may repair the action.
 void Chooser::mask_pick(std::size_t i, int pick, const Chosen& chosen) {
     const auto picks = static_cast<std::size_t>(space_.picks);
     const std::size_t logits = space_.choices.size();

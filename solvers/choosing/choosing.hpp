@@ -1,4 +1,4 @@
-// From the outputs of a policy's network to actions: at random as it says, or the likeliest.
+// The action distribution: from the outputs of a policy's network to actions, sampled or likeliest.
 #pragma once
 
 #include "solvers/batches/stops.hpp"
@@ -14,13 +14,13 @@
 
 namespace rddlc::solvers {
 
-// Of reals. Ar1 is correlated in time; Sde depends on the state (ppo/state_noise.hpp).
+// The noise of reals. Ar1 is correlated in time; Sde depends on the state (ppo/state_noise.hpp).
 enum class Noise { White, Ar1, Sde };
 const char* name_of(Noise noise);  // "ar1"
 
-// Where what was chosen for n environments goes: rows of the action space's
-// real_count numbers and shifts (by how much noise of the step before moved the mean), a spread
-// (the part of the deviation that is noise of this step), index_count indices and mask_size bytes.
+// The place for the choices of n environments: rows of the action space's real_count numbers and
+// shifts (by how much noise of the step before moved the mean), a spread (the part of the deviation
+// that is noise of this step), index_count indices and mask_size bytes.
 struct Chosen {
     float* numbers;
     float* shifts;
@@ -40,7 +40,7 @@ struct ChoiceKey {
 // Independent standard normal numbers.
 void standard_normals(const ChoiceKey& key, std::span<float> numbers);
 
-// By how much reals are changed at random.
+// The standard deviations of the noise that is added to reals.
 struct Deviations {
     const float* logarithms = nullptr;  // rows of real_count; NULL: the likeliest is chosen
     int row = 0;                        // from an environment's row to the next; 0: one for all
@@ -53,8 +53,8 @@ class Chooser {
     Chooser(const rddl_simulator& simulator, const ActionSpace& space, Noise noise,
             double correlation, std::int64_t environments);
 
-    // For each environment i: reads a row of outputs, writes what was chosen and the row of action
-    // values. key_of(i) is asked for a ChoiceKey.
+    // Reads a row of outputs for each environment i, writes the chosen indices and numbers and the
+    // row of action values. key_of(i) is asked for a ChoiceKey.
     template <class KeyOf>
     void choose(rddl_batch* batch, const float* outputs, int output_row,
                 const Deviations& deviations, KeyOf key_of, const Chosen& chosen, float* actions) {
@@ -63,7 +63,7 @@ class Chooser {
         choose_all(batch, outputs, output_row, deviations, chosen, actions);
     }
 
-    // Where choosing ends early; what it points to must outlive this.
+    // Sets where choosing ends early; what it points to must outlive this.
     void set_stops(const Stops* stops) { stops_ = mending_.stops = stops; }
 
     // The next choice of the environment is the first of an episode.
@@ -72,7 +72,7 @@ class Chooser {
     // Noise of the last step, real by real, and whether there was one; for a checkpoint.
     std::vector<float>& noise() { return noise_; }
     std::vector<std::uint8_t>& has_noise() { return has_noise_; }
-    // Actions that violated a precondition and were mended, since the start.
+    // Actions that violated a precondition and were repaired, since the start.
     std::int64_t mended() const { return mended_; }
 
   private:

@@ -11,9 +11,9 @@
 
 namespace rddlc::solvers {
 
-// What a row of logits says of the index that was chosen. Logits that were not allowed have no part
-// in it. Adds to the gradient d: by_log_probability times that of the index's logarithm, and
-// by_entropy times the entropy's.
+// The log-probability of the chosen index and the entropy, from a row of logits. Logits that were
+// not allowed have no part in it. Adds to the gradient d: by_log_probability times that of the
+// index's logarithm, and by_entropy times the entropy's.
 template <class Real>
 struct Category {
     Real log_probability = 0, entropy = 0;
@@ -97,7 +97,7 @@ inline bool is_squashed(const ActionSpace& space, int real) {
     return space.reals[static_cast<std::size_t>(real)].range == RealHead::Range::Squashed;
 }
 
-// With picks a real counts where it was picked.
+// A space with picks uses a real only where it was picked.
 inline bool real_is_chosen(const ActionSpace& space, int real, const std::int32_t* indices) {
     if (space.picks == 0) return true;
     const int choice = space.reals[static_cast<std::size_t>(real)].choice;

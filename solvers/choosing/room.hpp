@@ -1,11 +1,11 @@
-// What choosing takes in memory, in bytes.
+// The memory estimate of choosing, in bytes.
 #pragma once
 
 #include "solvers/choosing/choosing.hpp"
 
 namespace rddlc::solvers {
 
-// Of a Chooser, for each environment.
+// The bytes of a Chooser for each environment.
 inline double bytes_of_chooser(const rddl_simulator& simulator, const ActionSpace& space) {
     double bytes = sizeof(ChoiceKey) + 1.0 + sizeof(float) * 1.0 * space.real_count();
     if (space.masked || space.may_be_illegal)
@@ -17,7 +17,7 @@ inline double bytes_of_chooser(const rddl_simulator& simulator, const ActionSpac
     return bytes;
 }
 
-// Of what is chosen, a row of each array of Chosen.
+// The bytes of one choice, a row of each array of Chosen.
 inline double bytes_of_choice(const ActionSpace& space) {
     return sizeof(float) * (2.0 * space.real_count() + 2) +
            sizeof(std::int32_t) * 1.0 * space.index_count() + space.mask_size();

@@ -3,7 +3,7 @@
 #include "solvers/batches/batch.hpp"
 #include "solvers/evaluation/threads.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -35,7 +35,7 @@ class Turns {
         next_ = number + 1;
         changed_.notify_all();
     }
-    // After a failure nobody may wait for the turn that never comes.
+    // After a failure no thread may wait for a turn that never comes.
     void abandon() {
         const std::scoped_lock lock(mutex_);
         abandoned_ = true;
@@ -95,7 +95,8 @@ class EpisodeBatch {
                            [](const Episode& episode) { return !episode.finished; });
     }
 
-    // Of the next step; those that violate a precondition are treated as the options say.
+    // Chooses the actions of the next step; those that violate a precondition are treated as the
+    // options say.
     void choose_actions(const Stops& stops) {
         for (std::size_t i = 0; i < episodes_.size(); ++i) {
             running_[i] = !episodes_[i].finished;
@@ -105,7 +106,7 @@ class EpisodeBatch {
                           steps_,       actions_.data(), violated_,
                           false,        &stops,          batch_options(options_, 0, 0).horizon};
         actor_(decision);
-        // Where a policy block faults, the episode is over, and the action does not matter.
+        // If a policy block faults, the episode is over, and the action does not matter.
         require_done(simulator_, simulator_.get_causes(batch_.get(), 0,
                                                        static_cast<std::int64_t>(causes_.size()),
                                                        causes_.data()));
@@ -139,7 +140,7 @@ class EpisodeBatch {
 
     const std::vector<Episode>& episodes() const { return episodes_; }
 
-    // Of the lowest number, as are the next two.
+    // The fault of the lowest episode number, as are the next two.
     std::optional<EpisodeFault> first_fault() const {
         for (std::size_t i = 0; i < episodes_.size(); ++i) {
             if (!(episodes_[i].causes & RDDL_FAULTED)) continue;
@@ -164,7 +165,7 @@ class EpisodeBatch {
                     action(i));
     }
 
-    // As far as it was asked.
+    // Whether the action is known to be illegal.
     bool is_illegal(std::size_t i) const {
         return !episodes_[i].finished && causes_[i] == RDDL_RUNNING && violated_[i] >= 0;
     }
@@ -181,7 +182,7 @@ class EpisodeBatch {
         }
     }
 
-    // Keeps what is going on in environment i, unless an episode of a lower number is there.
+    // Keeps the present situation of environment i, unless an episode of a lower number is there.
     void note(std::optional<EpisodeViolation>& first, std::size_t i) {
         const std::int64_t episode = number_of(i), step = episodes_[i].length;
         if (first && first->episode <= episode) return;
@@ -218,7 +219,7 @@ class EpisodeBatch {
     const rddl_problem& problem_;
     const EpisodeOptions& options_;
     std::int64_t first_;
-    Batch batch_;
+    BatchHandle batch_;
     std::vector<Episode> episodes_;
     std::vector<double> discounts_;
     std::vector<double> rewards_;
@@ -254,7 +255,7 @@ class Rollout {
         } catch (...) {
             const std::scoped_lock lock(result_mutex_);
             if (!failure_) failure_ = std::current_exception();
-            next_batch_ = options_.episodes;  // the other threads stop, too
+            next_batch_ = options_.episodes;  // the other threads also stop
         }
         // Only an early end leaves batches that others could wait for.
         if (stops() || has_failed()) turns_.abandon();
@@ -294,7 +295,7 @@ class Rollout {
         if (recorder) finish(number, *recorder);
         std::copy(batch.episodes().begin(), batch.episodes().end(), episodes_.begin() + first);
         note_firsts(batch);
-        // What episodes that ended early have saved; all of it if there is no horizon.
+        // Counts the steps that episodes saved by ending early; all of them if there is no horizon.
         advance(steps_at_most_ > 0 ? count * (steps_at_most_ - steps) : count);
     }
 

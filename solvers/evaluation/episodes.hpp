@@ -23,7 +23,7 @@ struct EpisodeOptions {
     Preconditions preconditions = Preconditions::Ignore;
     std::int64_t episodes = 1;
     std::uint64_t seed = 0;
-    std::optional<std::int64_t> horizon = {};  // 0: none; absent: the instance's
+    std::optional<std::int64_t> horizon = {};  // 0: no horizon; absent: the instance's
     int threads = 0;                           // 0: one per core
     std::int64_t batch = 0;                    // environments stepped together; 0: chosen here
     std::int64_t memory_limit = default_memory_limit;  // bytes of all environments
@@ -35,9 +35,9 @@ struct Episode {
     double discounted_return = 0;
     std::int64_t length = 0;  // steps
     std::uint8_t causes = RDDL_RUNNING;
-    std::int64_t illegal_actions = 0;  // those that violate a precondition; 0 if nobody looks
-    std::int64_t not_finite_step = -1;  // the first whose reward is inf or nan; -1: none
-    bool refused = false;              // ended by such an action, which was not taken
+    std::int64_t illegal_actions = 0;   // those that violate a precondition; 0 if not checked
+    std::int64_t not_finite_step = -1;  // the first whose reward is inf or nan; -1: all are finite
+    bool refused = false;               // ended by such an action, which was not taken
 };
 
 struct EpisodeFault {
@@ -68,23 +68,23 @@ struct Recorder {
     virtual ~Recorder() = default;
     virtual void before_step(const rddl_batch& batch) = 0;
     virtual void after_step(const rddl_batch& batch) = 0;
-    // After a step, for each environment that was running; `i` is its place in the batch.
+    // Called after a step, for each environment that was running; `i` is its place in the batch.
     virtual void add(std::size_t i, std::int64_t episode, std::int64_t step,
                      const std::byte* action, double reward, std::uint8_t causes) = 0;
     // The batch is over. Called for one batch after the other, in the order of their episodes.
     virtual void finish() = 0;
 };
 
-// Who watches; any of them may be empty. Called from all threads.
+// Callbacks for observers; any of them may be empty. All threads call them.
 struct Watch {
     std::function<bool()> stops;  // whether to end early, with what is finished
-    // So many of all steps are done. The total is the horizon times the episodes, or the episodes
-    // alone where nobody knows how long one is (steps_at_most).
+    // Reports that so many of all steps are done. The total is the horizon times the episodes, or
+    // the number of episodes if their length is unknown (steps_at_most).
     std::function<void(std::int64_t)> advance;
     std::function<std::unique_ptr<Recorder>(std::int64_t environments)> record;
 };
 
-// Steps of an episode; 0: nobody knows, or too many to count.
+// The maximum number of steps of an episode; 0: unknown, or too many to count.
 std::int64_t steps_at_most(const rddl_simulator& simulator, const EpisodeOptions& options);
 
 // Throws what a policy or a recorder throws.

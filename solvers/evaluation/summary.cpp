@@ -1,5 +1,7 @@
 #include "solvers/evaluation/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +60,19 @@ Summary summary_of(const Rollouts& rollouts) {
     summary.discounted_return = estimate_of(discounted);
     summary.length = estimate_of(lengths);
     return summary;
+}
+
+std::string what_is_not_finite(const Rollouts& rollouts) {
+    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
+        const Episode& episode = rollouts.episodes[e];
+        if (episode.not_finite_step >= 0)
+            return fmt::format("the reward of step {} of episode {} is not finite",
+                               episode.not_finite_step, e);
+        if (!std::isfinite(episode.undiscounted_return))
+            return fmt::format("the rewards of episode {} add up to {}", e,
+                               episode.undiscounted_return);
+    }
+    return "the returns add up to more than a number holds";
 }
 
 }  // namespace rddlc::solvers

@@ -1,9 +1,10 @@
-// What came of episodes: means with their confidence intervals.
+// Summaries of episodes: means with their confidence intervals.
 #pragma once
 
 #include "solvers/evaluation/episodes.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace rddlc::solvers {
@@ -27,5 +28,8 @@ Summary summary_of(const Rollouts& rollouts);
 
 // The quantile 0.975 of Student's distribution.
 double student_quantile(std::int64_t degrees_of_freedom);
+
+// The first episode of which the return is not finite, in a sentence.
+std::string what_is_not_finite(const Rollouts& rollouts);
 
 }  // namespace rddlc::solvers

@@ -7,7 +7,7 @@
 
 namespace rddlc::solvers {
 
-// That anybody may ask for.
+// The largest number of threads that a user may ask for.
 inline constexpr int most_threads = 4096;
 
 // Threads that work beside the calling one: so many, or fewer if the system gives no more. Where it

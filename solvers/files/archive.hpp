@@ -30,12 +30,12 @@ class SavingArchive {
         (*this)(static_cast<std::uint64_t>(text.size()));
         bytes_.append(text);
     }
-    // A vector whose size says nothing: it is known to who loads it.
+    // A vector of fixed size: the size is not saved, since the reader knows it.
     template <class T>
     void fixed(const std::vector<T>& values) {
         (*this)(values);
     }
-    // What another archive has saved.
+    // Appends the bytes of another archive.
     void append(std::string_view bytes) { bytes_.append(bytes); }
     const std::string& bytes() const { return bytes_; }
 

@@ -19,7 +19,8 @@ void begin_checkpoint(LoadingArchive& archive, const CheckpointKind& kind,
     std::uint64_t version = 0;
     Fingerprint its;
     archive(magic);
-    if (magic != kind.magic) throw Failure(fmt::format("it is no checkpoint of {}", kind.solver));
+    if (magic != kind.magic)
+        throw Failure(fmt::format("it is not a checkpoint of {}", kind.solver));
     archive(version);
     if (version != kind.version)
         throw Failure(fmt::format("it is of version {}, and this program reads version {}", version,

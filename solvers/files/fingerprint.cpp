@@ -89,7 +89,7 @@ std::string difference(const Fingerprint& other, const Fingerprint& own) {
         return fmt::format("it is of the problem {} ({}), not of {} ({})", other.instance,
                            other.domain, own.instance, own.domain);
     if (other.spaces != own.spaces)
-        return "it is of another version of the problem: what is seen or done has changed";
+        return "it is of another version of the problem: observations or actions have changed";
     std::string parts;
     if (other.horizon != own.horizon)
         add_part(parts, fmt::format("the horizon was {} and is {}", other.horizon, own.horizon));

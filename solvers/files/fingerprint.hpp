@@ -1,4 +1,4 @@
-// Numbers that tell problems, or files, apart.
+// Numbers that distinguish problems, or files.
 #pragma once
 
 #include <rddl/simulator.h>
@@ -10,12 +10,12 @@
 
 namespace rddlc::solvers {
 
-// Of what a policy sees and of what it chooses from: fluents that are observed and actions, with
-// their types, objects and bounds. A policy acts in every simulator of the same spaces.
+// The fingerprint of a policy's observations and actions: their fluents with types, objects and
+// bounds. A policy acts in every simulator of the same spaces.
 std::uint64_t spaces_of(const rddl_simulator& simulator);
 
-// Of everything that a trajectory depends on, in parts, so that a message can say which one has
-// changed.
+// The fingerprint of everything that a trajectory depends on, in parts, so that a message can say
+// which one has changed.
 struct Fingerprint {
     std::string domain, instance;
     std::uint64_t spaces = 0;
@@ -38,8 +38,7 @@ struct Fingerprint {
 
 Fingerprint fingerprint(const rddl_simulator& simulator);
 
-// What differs, in a sentence about what is of `other`: "it is of the problem ..."; "" if nothing
-// does.
+// The difference in a sentence about `other`: "it is of the problem ..."; "" if they are equal.
 std::string difference(const Fingerprint& other, const Fingerprint& own);
 
 // Changes with any single byte. Against bad luck, not bad will.

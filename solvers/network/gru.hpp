@@ -23,7 +23,7 @@
 namespace rddlc::solvers {
 
 struct Gru {
-    int inputs = 0, units = 0;  // 0 units: there is none
+    int inputs = 0, units = 0;  // 0 units: no memory
     int padded_units = 0;
     std::size_t input_weights = 0, state_weights = 0, bias = 0;  // where they begin
     std::size_t parameters = 0;                                  // numbers
@@ -31,11 +31,11 @@ struct Gru {
     // Numbers of a sample's parts, and of a row of weights.
     int values() const { return 4 * padded_units; }
     int weight_row() const { return 3 * padded_units; }
-    // Where cn begins.
+    // The place of cn.
     std::size_t state_bias() const { return bias + static_cast<std::size_t>(weight_row()); }
 };
 
-// Where the parameters of n, r and z begin; all but cn.
+// The places of the parameters of n, r and z; cn is not among them.
 struct GruPart {
     const char* name;
     std::size_t input_weights, state_weights, bias;
@@ -49,7 +49,7 @@ inline std::array<GruPart, 3> gru_parts(const Gru& gru) {
     return {part("candidate", 0, 2), part("reset", 1, 0), part("update", 2, 1)};
 }
 
-// Of a part, those from the inputs and those from the old state.
+// The weights of a part from the inputs, and those from the old state.
 template <class Real>
 Weights<Real> input_weights(const Gru& gru, const GruPart& part, Real* parameters) {
     return {parameters + part.input_weights, gru.inputs, gru.units, gru.weight_row(), 1};
@@ -61,15 +61,15 @@ Weights<Real> state_weights(const Gru& gru, const GruPart& part, Real* parameter
 
 Gru make_gru(int inputs, int units);
 
-// Steps of several samples side by side, in the order of the steps. Row r of a step goes on with
-// row r of the step before.
+// Steps of several samples side by side, in the order of the steps. Row r of a step continues row r
+// of the step before.
 struct Sequence {
     std::span<const int> counts;  // rows of each step, never more than of the step before
     const std::uint8_t* begins;   // of each row; 1: there is nothing to remember
 };
 
-// For one instruction set. `x` has rows of `x_row` numbers, `after` of `after_row`, all others are
-// padded: states have padded_units numbers.
+// The functions of one instruction set. `x` has rows of `x_row` numbers, `after` of `after_row`,
+// all others are padded: states have padded_units numbers.
 template <class Real>
 struct GruFunctions {
     // One step: the states `after` it, given those `before` it.
@@ -89,7 +89,7 @@ struct GruFunctions {
     void (*transpose)(const Gru&, const Real* parameters, Real* rows);
 };
 
-// Those of this processor, as network_functions().
+// The functions for this processor, as network_functions().
 const GruFunctions<float>& gru_functions();
 
 }  // namespace rddlc::solvers

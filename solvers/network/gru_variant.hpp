@@ -58,8 +58,8 @@ void gru_forward(const Gru& gru, const Real* parameters, const Sequence& sequenc
     }
 }
 
-// Of one step: gradients by the four parts before their functions take the place of the parts, and
-// those by the states before it are written.
+// The backward pass of one step: the gradients by the four parts before their functions take the
+// place of the parts, and those by the states before it are written.
 template <class Real>
 void gru_step_back(const Gru& gru, const Real* rows, int count, const Real* before, Real* values,
                    const Real* d_after, Real* d_before) {

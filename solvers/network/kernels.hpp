@@ -33,8 +33,8 @@ struct Strided {
     std::ptrdiff_t row, step;
 };
 
-// Where the sums of a product go: the sum at row r and column c begins with begin(r, c), and
-// end(r, c, sum) stores it, or what is made of it, from the register. Here it is added to a matrix.
+// The destination of a product's sums: the sum at row r and column c begins with begin(r, c), and
+// end(r, c, sum) stores it, or a function of it, from the register. This one adds to a matrix.
 template <class Real>
 struct Added {
     Real* to;
@@ -50,8 +50,8 @@ struct Added {
     }
 };
 
-// From row r and column c on, `rows` x `vectors` vectors of sums stay in registers. As a call of a
-// function it would take a tenth longer.
+// Keeps `rows` x `vectors` vectors of sums, from row r and column c on, in registers. As a call of
+// a function it would take a tenth longer.
 template <int rows, int vectors, int bytes, class Real, class Sums>
 [[gnu::always_inline]] inline void product_block(int r, int c, int depth, Strided<Real> a,
                                                  const Real* b, std::ptrdiff_t b_row,
@@ -105,7 +105,7 @@ inline void product(int rows, int columns, int depth, Strided<Real> a, const Rea
                     std::ptrdiff_t b_row, const Sums& sums) {
     constexpr int width = VectorOf<Real>::width, wide = VectorOf<Real, RDDL_WIDE_BYTES>::width;
     int c = 0;
-    if constexpr (wide > width) {  // there are twice as many registers, too
+    if constexpr (wide > width) {  // there are also twice as many registers
         for (; c + 4 * wide <= columns; c += 4 * wide)
             product_columns<4, RDDL_WIDE_BYTES>(rows, c, depth, a, b, b_row, sums);
         for (; c + 2 * wide <= columns; c += 2 * wide)
@@ -128,7 +128,7 @@ inline Real dot_product(int count, const Real* a, const Real* b) {
 }
 
 // The results of a layer of few outputs: x w + bias, where w has a row of `inputs` numbers for each
-// output. What pads rows of results becomes 0.
+// output. The padding of rows of results becomes 0.
 template <class Real>
 inline void few_results(int count, int inputs, int outputs, const Real* x, const Real* w,
                         const Real* bias, Real* to, int row) {
@@ -170,8 +170,8 @@ inline Vector<float, bytes> tanh_of(Vector<float, bytes> x) {
     return x * p / q;
 }
 
-// What ends a layer: h = value(sum), and what becomes of a derivative d by h. All map 0 to 0, so
-// padding stays 0, and what is no number to what is none.
+// The end of a layer: h = value(sum), and the derivative by h. All functions map 0 to 0, so padding
+// stays 0, and map nan to nan.
 struct Linear {
     template <class Real, int bytes>
     static Vector<Real, bytes> value(Vector<Real, bytes> sum) {

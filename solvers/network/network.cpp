@@ -2,14 +2,14 @@
 
 #include "solvers/network/gru.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace rddlc::solvers {
 
-// The same text for each instruction set. What is included above is compiled for any processor.
+// The same text for each instruction set. The headers above are compiled for any processor.
 namespace portable {
 #define RDDL_VECTOR_BYTES 16
 #define RDDL_WIDE_BYTES 16

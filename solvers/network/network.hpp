@@ -36,7 +36,7 @@ struct Layer {
     std::size_t rows = 0;               // where the weights' rows begin in that of rows
     std::size_t values = 0;             // where its results begin in a sample's activations
 
-    // Those in the array of the network's parameters.
+    // The weights of the layer in the array of the network's parameters.
     template <class Real>
     Weights<Real> weights_in(Real* parameters) const {
         return {parameters + weights, inputs, outputs, by_outputs ? 1 : padded_outputs,
@@ -49,7 +49,7 @@ enum class Activation { Tanh, Relu };  // Relu: max(0, x)
 inline const char* name_of(Activation activation) {
     return activation == Activation::Relu ? "relu" : "tanh";
 }
-// Nothing if none has this name.
+// Returns nothing if no activation has this name.
 inline std::optional<Activation> activation_named(std::string_view name) {
     for (const Activation each : {Activation::Tanh, Activation::Relu})
         if (name == name_of(each)) return each;
@@ -60,7 +60,8 @@ inline std::optional<Activation> activation_named(std::string_view name) {
 struct Network {
     std::vector<Layer> layers;
     Activation activation = Activation::Tanh;
-    int inner = 0;  // of the inputs, the last ones, come from another network: backward() tells it
+    int inner = 0;  // of the inputs, the last ones, come from another network; backward() reports
+                    // their gradient
     std::size_t parameters = 0;  // numbers
     std::size_t rows = 0;  // numbers: weights as [output][padded input], for backward(); of the
                            // first layer those of the inner inputs
@@ -76,23 +77,23 @@ Network make_network(int inputs, const std::vector<int>& hidden, int outputs, in
 // Samples that go through all layers together, so that what they need stays in a processor's cache.
 inline constexpr int tile = 64;
 
-// For one instruction set. `x` has rows of `x_row` numbers, all other rows are padded; `count` is
-// at most a tile. Activations are layer by layer, in each `count` rows.
+// The functions of one instruction set. `x` has rows of `x_row` numbers, all other rows are padded;
+// `count` is at most a tile. Activations are layer by layer, in each `count` rows.
 template <class Real>
 struct NetworkFunctions {
     // Results of the last layer stand at layers.back().values * count.
     void (*forward)(const Network&, const Real* parameters, int count, const Real* x, int x_row,
                     Real* activations);
     // Adds the gradient by the parameters to `gradient`, given that by the last layer's results in
-    // `d_outputs`, whose padding is 0, and that by the inner inputs to `d_inner` (NULL where there
-    // are none), rows of padded(inner) numbers. `rows` is what transpose() has made; `scratch` has
-    // as many numbers as the activations.
+    // `d_outputs`, whose padding is 0, and that by the inner inputs to `d_inner` (NULL if the
+    // network has no inner inputs), rows of padded(inner) numbers. `rows` is what transpose() has
+    // made; `scratch` has as many numbers as the activations.
     void (*backward)(const Network&, const Real* rows, int count, const Real* x, int x_row,
                      const Real* activations, const Real* d_outputs, Real* scratch, Real* gradient,
                      Real* d_inner);
     // The weights as rows.
     void (*transpose)(const Network&, const Real* parameters, Real* rows);
-    // The sum of the squares. These sizes, too, are multiples of the padding.
+    // The sum of the squares. These sizes are also multiples of the padding.
     double (*squares)(std::size_t count, const Real* numbers);
     // to += from; sizes are multiples of the padding.
     void (*add)(std::size_t count, const Real* from, Real* to);
@@ -102,7 +103,8 @@ struct NetworkFunctions {
                  Real epsilon, Real* first, Real* second, Real* parameters);
 };
 
-// Those of this processor; RDDL_INSTRUCTION_SET=sse2 in the environment asks for those of any.
+// The functions for this processor; RDDL_INSTRUCTION_SET=sse2 in the environment selects those for
+// any x86-64.
 const NetworkFunctions<float>& network_functions();
 
 }  // namespace rddlc::solvers

@@ -83,7 +83,7 @@ void transpose(const Network& network, const Real* parameters, Real* rows) {
     }
 }
 
-// In as many sums as the padding, so that instruction sets do not differ.
+// Adds in as many sums as the padding, so that instruction sets do not differ.
 template <class Real>
 double squares(std::size_t count, const Real* numbers) {
     double sums[padding] = {};

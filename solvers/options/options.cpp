@@ -1,6 +1,6 @@
 #include "solvers/options/options.hpp"
 
-#include "support/diagnostic.hpp"
+#include "support/option_names.hpp"
 
 namespace rddlc::solvers {
 
@@ -14,10 +14,16 @@ std::vector<std::string> words_of_list(const std::string& text) {
     return words;
 }
 
-std::string unknown_option(const std::string& name, const std::vector<std::string>& known) {
-    const auto near = did_you_mean(name, known);
-    return fmt::format("there is no option '{}'{}", name,
-                       near ? fmt::format("; did you mean '{}'?", *near) : "");
+std::string unknown_option(const std::string& name, const std::vector<OptionText>& known,
+                           Face face) {
+    std::vector<KnownOption> names;
+    for (const OptionText& option : known) {
+        const bool is_python = face == Face::Python;
+        KnownOption each{is_python ? option.keyword : option.name, option.elsewhere};
+        each.others.push_back(is_python ? option.name : option.keyword);
+        names.push_back(std::move(each));
+    }
+    return fmt::format("there is no option '{}'{}", name, option_meant_text(name, names));
 }
 
 }  // namespace rddlc::solvers

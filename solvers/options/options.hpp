@@ -26,23 +26,25 @@ struct OptionRefused : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What people see of an option.
+// The texts of an option that users see.
 struct OptionText {
     std::string name;     // "--lr", of command lines
     std::string keyword;  // "learning_rate", of Python
     std::string value;    // "RATE"; "" for a flag
     std::string help;
-    bool is_setting = true;                 // a run goes on with the same
+    // Its names in Stable-Baselines3 and RLlib: an unknown option of such a name means this one.
+    std::vector<std::string> elsewhere = {};
+    bool is_setting = true;                 // a resumed run has the same
     bool is_list = false;                   // of words with commas between them
     std::vector<std::string> choices = {};  // the only words; empty: others
 };
 
 template <class Options>
 struct LearnerOption : OptionText {
-    // By the words of its value: one, unless it is a list. Throws an OptionRefused, and has changed
-    // nothing then.
+    // Sets the option from the words of its value: one, unless it is a list. Throws an
+    // OptionRefused, and has changed nothing then.
     std::function<void(Options&, const std::vector<std::string>&)> set;
-    // As `set` takes it; "auto": what the learner chooses by itself.
+    // The value as `set` takes it; "auto": the learner chooses it.
     std::function<std::string(const Options&)> text;
 };
 
@@ -76,6 +78,20 @@ LearnerOption<Options> number_option(OptionText text, Member member, Number leas
     return option;
 }
 
+// A number above 0.
+template <class Options, class Member>
+LearnerOption<Options> positive_option(OptionText text, Member member, double most) {
+    LearnerOption<Options> option =
+        number_option<Options, double>(std::move(text), member, 0, most);
+    option.set = [=, set = option.set](Options& options, const std::vector<std::string>& words) {
+        if (number_in_word<double>(words.front(), 0, 0))
+            throw OptionRefused(
+                fmt::format("'{}' is not a number above 0, up to {}", words.front(), most));
+        set(options, words);
+    };
+    return option;
+}
+
 template <class Options, class Choice, class Member>
 LearnerOption<Options> choice_option(OptionText text, Member member,
                                      const std::vector<std::pair<std::string, Choice>>& choices) {
@@ -105,25 +121,29 @@ LearnerOption<Options> switch_option(OptionText text, Member member) {
     return choice_option<Options, bool>(std::move(text), member, {{"on", true}, {"off", false}});
 }
 
-// Of all learners, where they are made by a keyword or a program.
+// The options of all learners, where they are made by a keyword or a program.
 template <class Options>
 LearnerOption<Options> seed_option() {
     return number_option<Options, std::uint64_t>(
-        {"--seed", "seed", "S", "Seed of all random numbers (0)"},
+        {"--seed", "seed", "S", "Seed of all random numbers (0)", {"random_state"}},
         [](auto& o) -> auto& { return o.seed; }, 0, std::numeric_limits<std::uint64_t>::max());
 }
 template <class Options>
 LearnerOption<Options> memory_option() {
     return number_option<Options, std::int64_t>(
-        {"--memory-limit", "memory_limit", "BYTES",
-         fmt::format("Bytes that the learner may take ({})", default_memory_limit), false},
+        {"--memory-limit",
+         "memory_limit",
+         "BYTES",
+         fmt::format("Bytes that the learner may take ({})", default_memory_limit),
+         {},
+         false},
         [](auto& o) -> auto& { return o.memory_limit; }, 1,
         std::numeric_limits<std::int64_t>::max());
 }
 
 // ------------------------------------------------------------------------------ what tables do
 
-// "--lr", "0.0003": of those that a run goes on with.
+// The settings that a resumed run keeps, as "--lr", "0.0003".
 template <class Options>
 std::vector<std::pair<std::string, std::string>> settings_of(const OptionTable<Options>& table,
                                                              const Options& options) {
@@ -136,7 +156,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const OptionTable<O
 // The words between commas.
 std::vector<std::string> words_of_list(const std::string& text);
 
-// For options that no face has looked at. Throws a Failure.
+// Checks options that did not pass a parser. Throws a Failure.
 template <class Options>
 void require_ranges(const OptionTable<Options>& table, const Options& options) {
     Options copy = options;
@@ -151,7 +171,11 @@ void require_ranges(const OptionTable<Options>& table, const Options& options) {
     }
 }
 
+// The names by which a face knows its options.
+enum class Face { CommandLine, Python };
+
 // "there is no option 'minibach'; did you mean 'minibatch'?"
-std::string unknown_option(const std::string& name, const std::vector<std::string>& known);
+std::string unknown_option(const std::string& name, const std::vector<OptionText>& known,
+                           Face face);
 
 }  // namespace rddlc::solvers

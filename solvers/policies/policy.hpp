@@ -15,7 +15,7 @@
 
 namespace rddlc::solvers {
 
-// What a policy is asked: a batch of n environments before its next step.
+// The question to a policy: a batch of n environments before its next step.
 struct Decision {
     rddl_batch* batch;
     std::span<const std::uint8_t> running;   // n; 0: the episode is over, any action will do

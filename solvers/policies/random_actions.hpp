@@ -23,7 +23,7 @@ class RandomActions {
           violated_(static_cast<std::size_t>(environments), -1),
           searches_(violated_.size()) {}
 
-    // Where a search for legal actions ends early; what it points to must outlive this.
+    // Sets where a search for legal actions ends early; what it points to must outlive this.
     void set_stops(const Stops* stops) { stops_ = stops; }
 
     // Writes the action with which environment i leaves its state wherever is_running(i); legal

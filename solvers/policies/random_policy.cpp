@@ -1,6 +1,6 @@
 #include "solvers/policies/random_policy.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 // The policy draws from an "episode" that no environment ever reaches.
 constexpr std::uint64_t policy_episode = std::uint64_t{1} << 63;
 
-// Where not even the default action is legal: how many actions are drawn for one step, and then how
-// many that differ from the default in one value only.
+// The search if not even the default action is legal: how many actions are drawn for one step, and
+// then how many that differ from the default in one value only.
 constexpr std::uint32_t most_samples = 128;
 constexpr std::uint32_t most_single_changes = 256;
 

@@ -1,14 +1,14 @@
 // Uniformly random legal actions, reproducible whatever the batch and the number of threads.
 //
-// Values: booleans, enumerated values and bounded ints uniformly; bounded reals uniformly;
-// reals bounded on one side at an exponential distance (mean 1) from the bound; unbounded reals
-// standard normal; ints that are not bounded on both sides as the reals, rounded toward the
-// inside. With a limit of k non-default values, k values chosen at random are drawn and the
-// others keep their default. Of each group of bools that it is told of, one that is chosen at
-// random changes, or none where that is allowed.
+// Values: booleans, enumerated values and bounded ints uniformly; bounded reals uniformly; reals
+// bounded on one side at an exponential distance (mean 1) from the bound; unbounded reals standard
+// normal; ints that are not bounded on both sides as the reals, rounded toward the inside. With a
+// limit of k non-default values, k values chosen at random are drawn and the others keep their
+// default. In each given group of bools, one that is chosen at random changes, or, where that is
+// allowed, no bool changes.
 //
-// The policy does not know which actions are legal: whoever knows asks it for another one until one
-// is (`try_another`). The caller may do so for many environments side by side.
+// The policy does not know which actions are legal: a caller that knows asks for another one until
+// one is (`try_another`). The caller may do so for many environments side by side.
 #pragma once
 
 #include "solvers/spaces/groups.hpp"
@@ -37,7 +37,7 @@ class RandomPolicy {
         bool knows_changed = false;
         std::vector<std::uint32_t> changed = {};  // values that differ from their default
 
-        // As at first, in the same memory.
+        // Restores the first state, in the same memory.
         void restart() { begin_sample(0); }
         void begin_sample(std::uint32_t number) {
             sample = number;

@@ -13,13 +13,13 @@ struct Course {
     std::ptrdiff_t row;
     const float* rewards;
     const float* values;  // of the states in which the steps began
-    // What the state is worth to which a step led, where an episode ended with that step (0 if it
-    // terminated), and after the last step. Elsewhere it is not read.
+    // The value of the state after a step with which an episode ended (0 if it terminated), and
+    // after the last step. Other entries are not read.
     const float* next_values;
     const std::uint8_t* ends;  // 1: an episode ended with that step
 };
 
-// Writes the advantages, and the returns that values shall estimate: advantage + value.
+// Writes the advantages, and the returns that values should estimate: advantage + value.
 inline void estimate_advantages(const Course& course, double gamma, double lambda,
                                 float* advantages, float* returns) {
     double advantage = 0;

@@ -1,6 +1,6 @@
 #include "solvers/ppo/collector.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 
@@ -64,7 +64,7 @@ Collector::Collector(const rddl_simulator& simulator, const PpoModel& model,
     feature_moments_.resize(environments * features);
     return_moments_.resize(environments);
     seeds_.resize(environments);
-    // As many as there may be, so that nothing is allocated later.
+    // The upper bound, so that nothing is allocated later.
     finished_.reserve(environments * static_cast<std::size_t>(options.rollout));
 }
 
@@ -238,7 +238,7 @@ Failure Collector::not_finite(std::size_t e) const {
         "'rddl run --policy random --trace' shows what leads to such rewards");
 }
 
-// Of the state that comes next in its episode.
+// The value of the next state of the episode.
 float Collector::value_of(std::int64_t e, const float* features) {
     model_.normaliser.write(features, inputs_.data());
     memories_.look(e, 1, inputs_.data());
@@ -247,7 +247,7 @@ float Collector::value_of(std::int64_t e, const float* features) {
     return activations_[model_.value.layers.back().values];
 }
 
-// Of all samples of its environments, and of the states that they are in now.
+// Estimates the values of all samples of its environments, and of their present states.
 void Collector::estimate_values(Experience& experience) {
     const int width = model_.features(), row = model_.input_row();
     const std::size_t result = model_.value.layers.back().values;

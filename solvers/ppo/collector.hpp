@@ -47,7 +47,7 @@ class Collector {
     std::int64_t mended() const { return chooser_.mended(); }
     double simulator_seconds() const { return simulator_seconds_; }
 
-    // All that a run needs to go on as if it had not stopped.
+    // All that a run needs to continue as if it had not stopped.
     template <class Archive>
     void archive(Archive& archive);
 
@@ -66,7 +66,7 @@ class Collector {
     double gamma_;
     bool bootstraps_;
     std::int64_t first_, count_, origin_;
-    Batch batch_;
+    BatchHandle batch_;
     Chooser chooser_;
     StateNoise state_noise_;
     Memories memories_;

@@ -1,8 +1,8 @@
-// A reward for seeing more of the problem, where returns do not tell one episode from another.
+// A reward for seeing more of the problem, where returns do not distinguish episodes.
 //
 // In a problem that pays at its goal alone there is nothing to learn from until an episode gets
-// there. So as long as nearly all episodes earn the same, each step earns by how much it widens the
-// range of what its episode has observed. It fades as other returns come.
+// there. So as long as nearly all episodes have the same return, each step is rewarded by how much
+// it widens the range of the episode's observations. The reward fades as other returns come.
 #pragma once
 
 #include "solvers/ppo/model.hpp"
@@ -15,7 +15,7 @@
 
 namespace rddlc::solvers {
 
-// What each environment's episode has seen so far.
+// The observations of each environment's episode so far.
 class Seen {
   public:
     Seen() = default;
@@ -30,8 +30,8 @@ class Seen {
         std::copy_n(features, row_, most_.data() + environment * row_);
     }
 
-    // By how much the ranges grow, in deviations of each feature, as a mean over features. The
-    // newest observation counts, not the time nor older ones.
+    // The growth of the ranges, in deviations of each feature, as a mean over features. The newest
+    // observation counts; the time and older observations do not.
     float widen(std::size_t environment, const float* features, const float* factors) {
         float* const least = least_.data() + environment * row_;
         float* const most = most_.data() + environment * row_;
@@ -57,10 +57,10 @@ class Seen {
     std::vector<float> least_, most_;  // rows of features
 };
 
-// What seeing more is worth, from 0 to 1, by the returns of the last episodes: 1 if all are the
-// same, nothing if one in ten is another than the least.
+// The weight of seeing more, from 0 to 1, by the returns of the last episodes: 1 if all are the
+// same, 0 if one in ten differs from the least.
 inline double curiosity(std::span<const double> returns) {
-    constexpr std::size_t fewest = 20;  // that tell something
+    constexpr std::size_t fewest = 20;  // that carry information
     if (returns.size() < fewest) return 0;
     const double least = *std::min_element(returns.begin(), returns.end());
     const auto others = std::count_if(returns.begin(), returns.end(),

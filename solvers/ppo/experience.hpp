@@ -1,4 +1,4 @@
-// What an update learns from: all steps of all environments between two updates.
+// The rollout buffer of an update: all steps of all environments between two updates.
 #pragma once
 
 #include "solvers/choosing/choosing.hpp"

@@ -17,7 +17,7 @@ std::string array_text(const std::string& name, const std::vector<float>& values
     for (std::size_t i = 0; i < values.size(); ++i)
         text += fmt::format("{}{:.9g}f", i % 8 == 0 ? "\n    " : " ", values[i]) +
                 (i + 1 < values.size() ? "," : "");
-    // A number without a point is no float.
+    // A number without a point is not a float.
     return text + "};\n";
 }
 
@@ -36,7 +36,7 @@ std::vector<float> bias_of(const Layer& layer, const float* parameters) {
     return {bias, bias + layer.outputs};
 }
 
-// "1f" is no C++.
+// "1f" is not valid C++.
 std::string with_points(std::string text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -75,7 +75,7 @@ GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
         append(arrays.state, rows_of(state_weights(gru, part, parameters)));
         append(arrays.bias, {parameters + part.bias, parameters + part.bias + gru.units});
     }
-    // Only the candidate has one for what it reads of the state.
+    // Only the candidate has a second bias, for the state that it reads.
     const float* const read = parameters + gru.state_bias();
     for (const int p : order)
         append(arrays.bias, p == 0 ? std::vector<float>(read, read + gru.units)
@@ -83,7 +83,7 @@ GruArrays arrays_of(const PpoModel& model, const std::array<int, 3>& order) {
     return arrays;
 }
 
-// For each output 1 where it ends with tanh, else 0.
+// Holds 1 for each output that ends with tanh, else 0.
 std::vector<float> squashed_outputs(const PpoModel& model) {
     std::vector<float> squashed(static_cast<std::size_t>(model.policy.outputs()));
     for (std::size_t r = 0; r < model.actions.reals.size(); ++r)
@@ -169,7 +169,7 @@ std::string node(const std::string& operation, const std::vector<std::string>& i
     return out;
 }
 
-// Of 64-bit ints: where dimensions of 1 are.
+// A tensor of 64-bit ints: the axes of dimensions of 1.
 std::string axes_tensor(const std::string& name, std::int64_t axis) {
     std::string out, raw;
     append_number(out, 1, 1);

@@ -6,7 +6,7 @@
 #include "solvers/ppo/unrolled.hpp"
 #include "solvers/ranks/ranks.hpp"
 
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
 
 #include <cstdint>
 #include <span>
@@ -29,8 +29,8 @@ class Learner {
         double learning_rate, entropy_weight, kl_penalty;
     };
     // One step down the gradient of the mean loss of all ranks' samples, whose advantages have
-    // these moments about 0. Returns sums over all samples, or, where options.stops tells so, zeros
-    // of a step that was not made; throws a Failure if the gradient is not finite.
+    // these moments about 0. Returns sums over all samples, or zeros if options.stops ended the
+    // step before it was made; throws a Failure if the gradient is not finite.
     LossSums learn(const Experience& experience, std::span<const std::uint32_t> segments,
                    const Moments& advantages, const Step& step);
 
@@ -39,7 +39,7 @@ class Learner {
     std::int64_t adam_steps = 0;
 
   private:
-    // What one thread needs for a tile of samples.
+    // The buffers of one thread for a tile of samples.
     struct Tile {
         std::vector<float> numbers, shifts, spreads, log_probabilities, advantages, values, returns,
             log_deviations, d_log_deviations;
@@ -47,7 +47,7 @@ class Learner {
         std::vector<std::uint8_t> masks;
         std::vector<float> policy_activations, value_activations, scratch, d_outputs, d_values;
     };
-    // And for a chunk of them.
+    // The buffers for a chunk of samples.
     struct Workplace {
         Tile tile;
         std::vector<std::uint32_t> samples;
@@ -59,7 +59,8 @@ class Learner {
     void learn_chunk(const Experience& experience, std::span<const std::uint32_t> segments,
                      const LossWeights& weights, Workplace& place, float* gradient,
                      LossSums& sums) const;
-    // Of samples whose inputs are there. Adds the gradient by what is remembered to d_memory.
+    // Learns from samples whose inputs are there. Adds the gradient by what is remembered to
+    // d_memory.
     void learn_tile(const Experience& experience, std::span<const std::uint32_t> samples,
                     const LossWeights& weights, Tile& place, const float* inputs, float* d_memory,
                     float* gradient, LossSums& sums) const;

@@ -74,7 +74,7 @@ void add_loss(const ActionSpace& space, const LossWeights& weights, const Sample
                         -static_cast<Real>(weights.entropy_weight) * weight,
                         d_outputs + s * output_row, d_log_deviations);
 
-        // Of values: the estimate, or where it is clipped near to what it was.
+        // The value loss: from the estimate, or from the estimate clipped near its old value.
         const Real estimate = estimates[s * value_row];
         Real error = estimate - samples.returns[s];
         bool moves = true;

@@ -1,4 +1,4 @@
-// What a recurrent policy remembers of the episode of each environment (network/gru.hpp).
+// The memory of a recurrent policy in the episode of each environment (network/gru.hpp).
 #pragma once
 
 #include "solvers/ppo/model.hpp"

@@ -1,6 +1,8 @@
 #include "solvers/ppo/model.hpp"
 
-#include <rddl/philox.hpp>
+#include "solvers/ppo/orthogonal.hpp"
+
+#include <rddl/values/philox.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,33 +32,6 @@ class Normals {
     std::uint64_t seed_, counter_ = 0;
 };
 
-// Rows of normal numbers, each made orthogonal to those before it (Gram and Schmidt), with length
-// `gain`: `rows` of them are at most `columns`.
-std::vector<double> orthogonal_rows(int rows, int columns, double gain, Normals& normals,
-                                    const std::function<bool()>& stops) {
-    std::vector<double> all(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-    const auto row_of = [&](int r) {
-        return all.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(columns);
-    };
-    for (int r = 0; r < rows; ++r) {
-        if (stops && stops()) return all;
-        double* const row = row_of(r);
-        for (int c = 0; c < columns; ++c) row[c] = normals.next();
-        for (int twice = 0; twice < 2; ++twice)
-            for (int other = 0; other < r; ++other) {
-                const double* const before = row_of(other);
-                double product = 0;
-                for (int c = 0; c < columns; ++c) product += row[c] * before[c];
-                for (int c = 0; c < columns; ++c) row[c] -= product * before[c];
-            }
-        double length = 0;
-        for (int c = 0; c < columns; ++c) length += row[c] * row[c];
-        for (int c = 0; c < columns; ++c) row[c] /= std::sqrt(length);
-    }
-    for (double& number : all) number *= gain;
-    return all;
-}
-
 // Weights of any part of the model, one part after the other.
 struct Initialiser {
     Normals normals;
@@ -66,7 +41,8 @@ struct Initialiser {
         const int inputs = weights.inputs, outputs = weights.outputs;
         const bool wide = inputs >= outputs;
         const int rows = std::min(inputs, outputs), columns = std::max(inputs, outputs);
-        const std::vector<double> orthogonal = orthogonal_rows(rows, columns, gain, normals, stops);
+        const std::vector<double> orthogonal = orthogonal_rows(
+            rows, columns, gain, [this] { return normals.next(); }, stops);
         const auto place = [columns](int r, int c) {
             return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
                    static_cast<std::size_t>(c);
@@ -142,7 +118,7 @@ void make_parameters(PpoModel& model, const PpoOptions& options) {
     initialise(model.value, 1, model.parameters.data() + model.value_begin());
     if (model.recurrent > 0)
         initialise(model.memory, model.parameters.data() + model.memory_begin());
-    // Where it is a sum over units, so that the sum has about this deviation.
+    // A deviation that is a sum over units is divided so that the sum has about this deviation.
     const double parts = std::max(model.noisy_units(), 1);
     std::fill_n(model.parameters.data() + model.deviations_begin(), model.deviation_count(),
                 static_cast<float>(options.log_deviation - 0.5 * std::log(parts)));

@@ -1,4 +1,5 @@
-// What PPO learns: the networks of policy and values, and what the policy needs beside them.
+// The model of PPO: the networks of policy and values, and the numbers that the policy needs beside
+// them.
 #pragma once
 
 #include "solvers/network/gru.hpp"
@@ -22,7 +23,7 @@ struct PpoModel {
     int noise_steps = 8;     // with the same weights, of Sde
     std::vector<int> hidden;
     Activation activation = Activation::Tanh;  // of hidden layers
-    int recurrent = 0;                         // units that remember; 0: none
+    int recurrent = 0;                         // units that remember; 0: no memory
     // Both networks see a row of features and then what is remembered, this row's features
     // included.
     Network policy, value;
@@ -36,7 +37,7 @@ struct PpoModel {
     std::size_t deviations_begin() const { return policy.parameters + value.parameters; }
     const float* value_parameters() const { return parameters.data() + value_begin(); }
     const float* log_deviations() const { return parameters.data() + deviations_begin(); }
-    // Units of the last hidden layer, of which noise is made that depends on the state; else 0.
+    // Units of the last hidden layer if the noise depends on the state; else 0.
     int noisy_units() const {
         return noise == Noise::Sde && actions.real_count() > 0 ? hidden.back() : 0;
     }
@@ -46,27 +47,27 @@ struct PpoModel {
                static_cast<std::size_t>(padded(std::max(deviation_count(), 1)));
     }
     const float* memory_parameters() const { return parameters.data() + memory_begin(); }
-    // The best that one step of the environment can be told: rows of features.
+    // Features in a row of observations.
     int features() const { return observations.feature_count(); }
     // Numbers from a row of the networks' inputs to the next.
     int input_row() const { return features() + memory.padded_units; }
 };
 
-// With orthogonal weights (A. Saxe et al., 2014): of gain sqrt(2) in hidden layers, 0.01 in the
-// policy's last, 1 in the value's last one and in the memory, whose bias of z is 1: at first it
-// forgets slowly (R. Jozefowicz et al., 2015).
+// Makes a model with orthogonal weights (A. Saxe et al., 2014): of gain sqrt(2) in hidden layers,
+// 0.01 in the policy's last, 1 in the value's last one and in the memory, whose bias of z is 1: at
+// first it forgets slowly (R. Jozefowicz et al., 2015).
 PpoModel make_model(const ObservationSpace& observations, const ActionSpace& actions,
                     const PpoOptions& options);
 
-// The same in two steps: first what the networks are, which takes no room yet, and then their
-// parameters. These are not all made where options.stops tells so.
+// The same in two steps: first the networks' layout, which takes no memory yet, and then their
+// parameters. Only some parameters are made if options.stops says so.
 PpoModel model_without_parameters(const ObservationSpace& observations, const ActionSpace& actions,
                                   const PpoOptions& options);
 void make_parameters(PpoModel& model, const PpoOptions& options);
 // How many there are, or will be.
 std::size_t parameter_count(const PpoModel& model);
 
-// What the networks are, once the spaces and all sizes are there; it takes no room yet.
+// Lays out the networks, once the spaces and all sizes are there; it allocates no parameters yet.
 void lay_out_networks(PpoModel& model);
 
 // Room for the networks, once the spaces and all that says what they are is there; all parameters

@@ -6,7 +6,7 @@
 
 namespace rddlc::solvers {
 
-// The preset comes first: whoever takes several options takes them in the order of the table.
+// The preset comes first: callers apply several options in the order of the table.
 const OptionTable<PpoOptions>& ppo_option_table();
 
 }  // namespace rddlc::solvers

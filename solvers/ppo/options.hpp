@@ -1,4 +1,4 @@
-// What PPO is told: J. Schulman et al., "Proximal policy optimization algorithms", 2017, with the
+// The options of PPO: J. Schulman et al., "Proximal policy optimization algorithms", 2017, with the
 // details of S. Huang et al., "The 37 implementation details of PPO", 2022.
 #pragma once
 
@@ -33,7 +33,7 @@ struct PpoOptions {
     double gamma = 0.99;        // discount; never above the instance's where that is below 1
     double lambda = 0.95;       // of generalised advantage estimation
     double clip = 0.2;          // of the probability ratio
-    double value_clip = 0;      // 0: none
+    double value_clip = 0;      // 0: no clipping
     double value_weight = 0.5;  // of the squared error of values
     std::optional<double> entropy_weight;  // absent: 0, or 0.01 with a category or picks
     double gradient_norm = 0.5;            // at most; 0: any
@@ -47,24 +47,24 @@ struct PpoOptions {
     int noise_steps = 8;       // of Sde, with the same weights
     double log_deviation = 0;  // of noise, at the start
     bool squashes = false;     // reals with two bounds are tanh of a normal number, not cut
-    // Where nearly all episodes earn the same, seeing more of the problem is rewarded
+    // Rewards seeing more of the problem while nearly all episodes have the same return
     // (curiosity.hpp).
     bool curious = true;
     std::vector<int> hidden = {64, 64};        // of the policy's network, and of the values'
     Activation activation = Activation::Tanh;  // of hidden layers
-    // Units that remember, which both networks see beside the observation; 0: none. The gradient
-    // goes back through as many steps as a segment has at most.
+    // Units that remember, which both networks see beside the observation; 0: no memory. The
+    // gradient goes back through as many steps as a segment has at most.
     int recurrent = 0;
     int segment = 32;
     ObservationOptions observations;
-    // Whether what follows the horizon is estimated; absent: unless the policy sees the time, when
-    // the horizon is a fact of the problem and no accident.
+    // Whether the value after the horizon is estimated; absent: unless the policy sees the time,
+    // when the horizon is a fact of the problem and no accident.
     std::optional<bool> bootstraps;
     std::uint64_t seed = 0;
     int threads = 1;
     std::int64_t memory_limit = default_memory_limit;  // bytes of all that it takes (room.hpp)
-    // Asked by all threads, often: whether an update shall end early. What it has done by then is
-    // no state of a whole run. May be empty.
+    // All threads call it often: whether an update shall end early. Its results are then not those
+    // of a complete run. May be empty.
     std::function<bool()> stops;
 };
 
@@ -78,8 +78,8 @@ inline std::size_t segments_per_minibatch(const PpoOptions& options) {
     return static_cast<std::size_t>(options.minibatch / longest_segment(options));
 }
 
-// "fast" (the defaults), "sb3" (Stable-Baselines3's defaults), "rllib" (RLlib's). Nothing if there
-// is no such preset.
+// "fast" (the defaults), "sb3" (Stable-Baselines3's defaults), "rllib" (RLlib's). Returns nothing
+// if no preset has this name.
 std::optional<PpoOptions> preset(std::string_view name);
 
 }  // namespace rddlc::solvers

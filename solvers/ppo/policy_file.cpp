@@ -1,3 +1,4 @@
+// Over 400 lines: each part of the file is written and read in one place.
 #include "solvers/ppo/policy_file.hpp"
 
 #include "solvers/batches/batch.hpp"
@@ -24,7 +25,8 @@ using Json = nlohmann::json;
 std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
-// Nine digits tell a float from its neighbours; "-0" would be the int 0 in JSON, without a sign.
+// Nine digits distinguish a float from its neighbours; "-0" would be the int 0 in JSON, without a
+// sign.
 std::string array(const float* values, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
@@ -87,7 +89,7 @@ std::vector<float> numbers_in(const Json& json, std::size_t count, const char* m
 constexpr const char* other_layers = "its layers do not fit";
 constexpr int most_units = 1 << 16, most_remembered = 1 << 14;
 
-// Older files tell the correlation alone.
+// Older files hold only the correlation.
 Noise noise_of(const Json& json, double correlation) {
     const std::string name = json.value("noise", correlation > 0 ? "ar1" : "white");
     for (const Noise noise : {Noise::White, Noise::Ar1, Noise::Sde})
@@ -141,7 +143,7 @@ std::string text_of(const ObservationSpace& space) {
                        space.stack, space.time, space.horizon);
 }
 
-// In files [output][input].
+// Files hold weights as [output][input].
 std::string weights_text(const Weights<const float>& weights) {
     std::string text;
     std::vector<float> of_output(static_cast<std::size_t>(weights.inputs));
@@ -204,7 +206,7 @@ void read_gru(const Json& json, const Gru& gru, float* parameters) {
     read_bias(json.at("state_bias"), gru.units, parameters + gru.state_bias());
 }
 
-// Of a file's member "recurrent", before anything gets that size.
+// The size in a file's member "recurrent", checked before anything gets that size.
 int units_of(const Json& json) {
     const auto units = whole_number(json.at("units"), "number of units", 1, most_remembered);
     if (json.at("state_bias").size() != static_cast<std::size_t>(units))
@@ -280,7 +282,7 @@ void require_small_numbers(const PpoModel& model) {
         if (model.log_deviations()[d] > 80) throw Failure("its noise is too large");
 }
 
-// What is seen, but for the horizon, which another instance of the problem may have.
+// The observation space without the horizon, which another instance of the problem may have.
 Json seen_in(Json space) {
     space.erase("horizon");
     return space;
@@ -289,7 +291,7 @@ Json seen_in(Json space) {
 void require_format(const Json& json) {
     if (!json.is_object() || json.value("format", "") != "rddl-policy" ||
         json.value("solver", "") != "ppo")
-        throw Failure("it is no policy of PPO");
+        throw Failure("it is not a PPO policy");
     const Json& version = json.at("version");
     if (version.is_number_integer() && version > policy_file_version)
         throw Failure(fmt::format("it is of version {}, and this program reads versions up to {}",
@@ -297,7 +299,7 @@ void require_format(const Json& json) {
     whole_number(version, "version", 1, policy_file_version);
 }
 
-// Of any instance in which the same is seen and done.
+// Accepts any instance with the same spaces.
 void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& model) {
     const rddl_problem& problem = *simulator.problem;
     if (json.at("domain") != problem.domain)
@@ -313,12 +315,12 @@ void read_spaces(const rddl_simulator& simulator, const Json& json, PpoModel& mo
     model.actions = action_space(simulator);
     for (const Json& real : json.at("action").at("reals"))
         if (real.at("range") == "squashed") squash_bounded(model.actions);
-    // As values: other programs lay out JSON in their own way.
+    // Compares values, since other programs lay out JSON in their own way.
     if (seen_in(parse_json(text_of(model.observations))) != seen_in(seen.at("space")) ||
         parse_json(text_of(model.actions)) != json.at("action"))
-        throw Failure(
-            fmt::format("it was learned in {}, where what is seen or done is not as in {}",
-                        json.at("instance").get<std::string>(), problem.instance));
+        throw Failure(fmt::format(
+            "it was learned in {}, whose observations or actions differ from those of {}",
+            json.at("instance").get<std::string>(), problem.instance));
 }
 
 // A value of JSON takes about that much once it is read, with what vectors keep in reserve.
@@ -374,99 +376,6 @@ std::shared_ptr<const PpoModel> read(const rddl_simulator& simulator, std::strin
     return model;
 }
 
-struct PpoActor {
-    PpoActor(const rddl_simulator& its_simulator, std::shared_ptr<const PpoModel> its_model,
-             bool its_random, std::uint64_t its_seed, std::int64_t environments)
-        : simulator(its_simulator),
-          model(std::move(its_model)),
-          random(its_random),
-          seed(its_seed),
-          records(simulator),
-          chooser(simulator, model->actions, model->noise, model->correlation, environments),
-          state_noise(*model, environments),
-          memories(*model, environments) {
-        if (state_noise.is_used()) state_noise.look_at_policy();
-        const auto count = static_cast<std::size_t>(environments);
-        const auto rows = [&](int row) {
-            return count * static_cast<std::size_t>(row);
-        };
-        observations.resize(rows(model->observations.column_count()));
-        features.resize(rows(model->features()));
-        inputs.resize(rows(model->input_row()));
-        outputs.resize(rows(model->policy.padded_outputs()));
-        activations.resize(tile * model->policy.activations);
-        numbers.resize(rows(model->actions.real_count()));
-        shifts.resize(numbers.size());
-        spreads.resize(count);
-        log_probabilities.resize(count);
-        indices.resize(rows(model->actions.index_count()));
-        masks.resize(rows(model->actions.mask_size()));
-        actions.resize(rows(model->actions.column_count));
-    }
-
-    void act(Decision& decision) {
-        chooser.set_stops(decision.stops);
-        const std::int64_t count = static_cast<std::int64_t>(decision.running.size());
-        const int width = model->features(), row = model->input_row();
-        const int output_row = model->policy.padded_outputs();
-        require_done(simulator, simulator.get_observation_values(decision.batch, RDDL_FLOAT,
-                                                                 observations.data()));
-        for (std::int64_t e = 0; e < count; ++e) {
-            const std::int64_t steps = decision.steps[static_cast<std::size_t>(e)];
-            write_features(model->observations,
-                           observations.data() + e * model->observations.column_count(), steps,
-                           steps == 0, features.data() + e * width);
-            model->normaliser.write(features.data() + e * width, inputs.data() + e * row);
-            if (steps > 0) continue;
-            chooser.begin_episode(e);
-            state_noise.begin_episode(e);
-            memories.begin_episode(e);
-        }
-        const auto key_of = [&](std::int64_t e) {
-            const auto at = static_cast<std::size_t>(e);
-            return ChoiceKey{seed, static_cast<std::uint64_t>(decision.episodes[at]),
-                             static_cast<std::uint64_t>(decision.steps[at])};
-        };
-        for (std::int64_t e = 0; e < count; e += tile) {
-            const int some = static_cast<int>(std::min<std::int64_t>(tile, count - e));
-            memories.remember(e, some, inputs.data() + e * row);
-            network_functions().forward(model->policy, model->parameters.data(), some,
-                                        inputs.data() + e * row, row, activations.data());
-            std::copy_n(activations.data() +
-                            model->policy.layers.back().values * static_cast<std::size_t>(some),
-                        some * output_row, outputs.data() + e * output_row);
-            for (int i = 0; i < some && random && state_noise.is_used(); ++i)
-                state_noise.make(e + i,
-                                 last_hidden(model->policy, activations.data(), some) +
-                                     i * hidden_row(model->policy),
-                                 key_of(e + i));
-        }
-        const Chosen chosen{numbers.data(), shifts.data(), spreads.data(),
-                            indices.data(), masks.data(),  log_probabilities.data()};
-        chooser.choose(decision.batch, outputs.data(), output_row,
-                       !random                 ? Deviations{}
-                       : state_noise.is_used() ? state_noise.deviations()
-                                               : Deviations{model->log_deviations()},
-                       key_of, chosen, actions.data());
-        for (std::int64_t e = 0; e < count; ++e)
-            records.write(actions.data() + e * model->actions.column_count,
-                          decision.actions + static_cast<std::size_t>(e) * records.record_size());
-    }
-
-    const rddl_simulator& simulator;
-    std::shared_ptr<const PpoModel> model;
-    bool random;
-    std::uint64_t seed;
-    ActionRecords records;
-    Chooser chooser;
-    StateNoise state_noise;
-    Memories memories;
-    std::vector<float> observations, features, inputs, outputs, activations, numbers, shifts,
-        spreads, log_probabilities, actions;
-    std::vector<std::int32_t> indices;
-    std::vector<std::uint8_t> masks;
-};
-
 }  // namespace
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model) {
@@ -502,22 +411,10 @@ std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
     try {
         return read(simulator, text);
     } catch (const RefusedJson& refused) {
-        throw Failure(refused.byte ? "it is not complete, or no JSON" : refused.what());
+        throw Failure(refused.byte ? "it is incomplete, or not JSON" : refused.what());
     } catch (const nlohmann::json::exception&) {
-        throw Failure("it is no policy of PPO, or something in it is missing");
+        throw Failure("it is not a PPO policy, or something in it is missing");
     }
-}
-
-Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
-                  bool random, std::uint64_t seed, std::string name) {
-    return {std::move(name), spaces_of(simulator),
-            [&simulator, model, random, seed](std::int64_t environments) -> Actor {
-                const auto actor =
-                    std::make_shared<PpoActor>(simulator, model, random, seed, environments);
-                return [actor](Decision& decision) {
-                    actor->act(decision);
-                };
-            }};
 }
 
 }  // namespace rddlc::solvers

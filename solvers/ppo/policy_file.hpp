@@ -1,8 +1,6 @@
-// Policies of PPO as JSON (docs/solvers.md describes it), and as policies.
+// Policies of PPO as JSON (docs/solvers.md describes it).
 #pragma once
 
-#include "solvers/choosing/choosing.hpp"
-#include "solvers/policies/policy.hpp"
 #include "solvers/ppo/model.hpp"
 #include "support/memory.hpp"
 
@@ -19,15 +17,11 @@ inline constexpr int policy_file_version = 4;
 
 std::string ppo_policy_text(const rddl_simulator& simulator, const PpoModel& model);
 
-// Throws a Failure with a sentence where the text is none, incomplete, of a newer version, or of
-// another problem; where it takes more than the limit to read, or a number in it is none that a
-// network may have.
+// Throws a Failure with a sentence if the text is not a policy, or is incomplete, of a newer
+// version, or of another problem; and if reading it takes more than the limit, or it holds a number
+// that a network may not have.
 std::shared_ptr<const PpoModel> read_ppo_policy(const rddl_simulator& simulator,
                                                 std::string_view text,
                                                 std::int64_t memory_limit = default_memory_limit);
-
-// Chooses what is likeliest, or at random as it has learned. The simulator must outlive it.
-Policy ppo_policy(const rddl_simulator& simulator, std::shared_ptr<const PpoModel> model,
-                  bool random, std::uint64_t seed, std::string name);
 
 }  // namespace rddlc::solvers

@@ -59,7 +59,7 @@ double bytes_of_step(const PpoModel& model, const PpoOptions& options) {
 double bytes_of_environment(const rddl_simulator& simulator, const PpoModel& model) {
     const ActionSpace& actions = model.actions;
     const double features = model.features(), columns = model.observations.column_count();
-    // As they are, the least and the greatest, and moments.
+    // Observations as they are, the minimum and the maximum, and moments.
     double bytes = features * (3 * bytes_of(1) + sizeof(Moments)) + bytes_of(2 * columns);
     bytes +=
         bytes_of(actions.column_count + model.policy.padded_outputs() + model.memory.padded_units);

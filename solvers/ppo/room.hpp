@@ -1,4 +1,4 @@
-// What PPO takes in memory, which is known before any of it is taken.
+// The memory estimate of PPO, made before any memory is allocated.
 #pragma once
 
 #include "solvers/ppo/model.hpp"
@@ -17,7 +17,7 @@ struct PpoRoom {
     double all() const { return networks + files + steps + environments; }
 };
 
-// Of a model whose networks are laid out; they need no parameters yet.
+// The estimate for a model whose networks are laid out; they need no parameters yet.
 PpoRoom room_of(const rddl_simulator& simulator, const PpoModel& model, const PpoOptions& options);
 
 // Throws a Failure with the sizes, and with what makes them smaller, where that is more than

@@ -1,4 +1,4 @@
-// What minibatches are made of: steps that are learned from one after the other.
+// Segments, of which minibatches are made: steps that are learned from one after the other.
 #pragma once
 
 #include <cstddef>

@@ -58,7 +58,7 @@ class StateNoise {
     void look_at_policy();
     // The noise of the next step, given the hidden layer.
     void make(std::int64_t environment, const float* hidden, const ChoiceKey& key);
-    // Of all environments.
+    // The deviations of all environments.
     Deviations deviations() const;
 
     template <class Archive>
@@ -75,7 +75,7 @@ class StateNoise {
     std::vector<float> log_deviations_, noise_;  // rows of reals
 };
 
-// Where the results of the last hidden layer begin, in activations of `count` samples. Rows have
+// The place of the last hidden layer's results, in activations of `count` samples. Rows have
 // hidden_row(network) numbers.
 inline const float* last_hidden(const Network& network, const float* activations, int count) {
     return activations +

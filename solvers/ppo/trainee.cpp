@@ -1,6 +1,7 @@
 #include "solvers/ppo/trainee.hpp"
 
 #include "solvers/ppo/option_table.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 
@@ -13,7 +14,7 @@ namespace rddlc::solvers {
 
 namespace {
 
-// What this process has done: a run that goes on has steps that others made.
+// The work of this process: a resumed run has steps that others made.
 struct Work {
     std::int64_t steps_before = 0;
     double seconds = 0;

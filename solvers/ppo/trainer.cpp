@@ -1,3 +1,4 @@
+// Over 400 lines: one class, the state of a training, in the order of an update.
 #include "solvers/ppo/trainer.hpp"
 
 #include "solvers/files/checkpoint.hpp"
@@ -7,8 +8,8 @@
 #include "solvers/ppo/room.hpp"
 #include "support/failure.hpp"
 
-#include <rddl/philox.hpp>
-#include <rddl/threads.hpp>
+#include <rddl/batch/threads.hpp>
+#include <rddl/values/philox.hpp>
 
 #include <fmt/format.h>
 
@@ -129,7 +130,7 @@ struct PpoTrainer::State {
         });
     }
 
-    // Of all ranks.
+    // Adds up the moments of all ranks.
     void add_up(std::vector<Moments>& sums) const {
         static_assert(sizeof(Moments) == 3 * sizeof(double));
         ranks.add_up({&sums.front().count, 3 * sums.size()});
@@ -137,7 +138,7 @@ struct PpoTrainer::State {
 
     // Environment by environment, so that shards do not matter.
     void learn_scales() {
-        // Of each feature, and of the returns.
+        // The moments of each feature, and of the returns.
         const std::size_t features = feature_statistics.size();
         std::vector<Moments>& all = moments;
         all.assign(features + 1, {});
@@ -192,8 +193,8 @@ struct PpoTrainer::State {
         return options.learning_rate * std::max(0.0, 1 - done);
     }
 
-    // Of all ranks, as they are in `order`: what normalises the advantages of each minibatch is
-    // known before the first of them is learned from.
+    // Sums up the advantages of all ranks, as they are in `order`: the normalisation of each
+    // minibatch's advantages is known before the first of them is learned from.
     void sum_up_advantages() {
         const std::size_t size = segments_per_minibatch(options);
         const Segments& segments = experience.segments;
@@ -267,7 +268,7 @@ struct PpoTrainer::State {
         episodes.insert(episodes.end(), ended.begin(), ended.end());
     }
 
-    // Of all ranks, in their order.
+    // Notes the episodes of all ranks, in their order.
     void note_episodes() {
         if (ranks.count == 1) {
             for (const auto& collector : collectors) note(collector->finished());
@@ -332,7 +333,7 @@ struct PpoTrainer::State {
         collect(0);
         if (is_stopped()) return;
         learn_scales();
-        // Once more, about a mean that is near.
+        // The second round sums up about a mean that is near.
         collect(0);
         if (is_stopped()) return;
         std::fill(feature_statistics.begin(), feature_statistics.end(), RunningStatistics{});
@@ -354,7 +355,7 @@ struct PpoTrainer::State {
             learn(rate);
         } catch (const Failure& failure) {
             throw Failure(fmt::format("after {} steps {}", progress.steps, failure.what()),
-                          "try a lower --lr, or look for rewards and observations that are huge");
+                          "try a lower --lr, or check for huge rewards and observations");
         }
         progress.learn_seconds = seconds_since(begin);
         progress.steps += static_cast<std::int64_t>(experience.count()) * ranks.count;
@@ -386,7 +387,7 @@ struct PpoTrainer::State {
         archive_environments(archive);
     }
 
-    // Of all ranks, one after the other.
+    // Archives the environments of all ranks, one after the other.
     template <class Archive>
     void archive_environments(Archive& archive) {
         int count = ranks.count;

@@ -18,7 +18,7 @@
 
 namespace rddlc::solvers {
 
-// Of the last update; means over its samples, or over the episodes that ended in it.
+// The progress at the last update; means over its samples, or over the episodes that ended in it.
 struct PpoProgress {
     std::int64_t steps = 0, updates = 0;  // since the beginning
     std::int64_t episodes = 0;            // that ended in the last update
@@ -47,9 +47,10 @@ class PpoTrainer {
     const PpoOptions& options() const;
     const PpoProgress& progress() const;
 
-    // All that it takes to go on as if nothing had happened, on as many ranks.
+    // All that it takes to continue as if nothing had happened, on as many ranks.
     std::string save() const;
-    // Of a trainer with the same options. Throws a Failure where it is none or of another problem.
+    // Loads the state of a trainer with the same options. Throws a Failure if the bytes are not
+    // such a state, or are of another problem.
     void load(std::string_view bytes);
 
   private:

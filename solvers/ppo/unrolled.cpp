@@ -31,7 +31,7 @@ void Unrolled::lay_out(const Experience& experience, std::span<const std::uint32
             if (t == all.length(segment)) break;
             const std::uint32_t sample = all.sample(segment, t);
             samples.push_back(sample);
-            // What the first step begins with is in the experience.
+            // The state before the first step is in the experience.
             const auto last = sample - static_cast<std::uint32_t>(experience.environments);
             begins_.push_back(t > 0 ? experience.ends[last] : 0);
             ++count;

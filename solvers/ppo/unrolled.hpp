@@ -14,7 +14,7 @@ namespace rddlc::solvers {
 class Unrolled {
   public:
     Unrolled() = default;
-    // Of at most so many segments of at most so many steps. The model must outlive this.
+    // Holds at most so many segments of at most so many steps. The model must outlive this.
     Unrolled(const PpoModel& model, std::size_t segments, std::size_t longest);
 
     // Writes the samples, and takes down what of their steps matters here.
@@ -22,7 +22,8 @@ class Unrolled {
                  std::vector<std::uint32_t>& samples);
     // Inputs of the networks, row by row: behind the features comes what is remembered then.
     void remember(float* inputs);
-    // By what is remembered in each row: zero at first, for the networks' gradients to be added.
+    // The gradient by what is remembered in each row: zero at first, for the networks' gradients to
+    // be added.
     float* d_memory() { return d_memory_.data(); }
     // Adds the gradient by the parameters of what remembers to `gradient`; `rows` are its
     // transposed weights.

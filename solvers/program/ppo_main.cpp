@@ -1,5 +1,6 @@
 // main() of a program that rddl_add_solver makes with SOLVER ppo.
 #include "solvers/ppo/option_table.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainee.hpp"
 #include "solvers/program/program.hpp"

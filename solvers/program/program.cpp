@@ -25,7 +25,7 @@ void note_signal(int signal) {
 void print_options(const std::vector<ProgramOption>& options) {
     for (const ProgramOption& option : options)
         print("  {:<24} {}\n", option.name + (option.value.empty() ? "" : " " + option.value),
-                   option.help);
+              option.help);
 }
 
 // Takes the words behind the verb; those that are not "--..." go to `take_other`.
@@ -40,9 +40,8 @@ void take_words(int argc, char** argv, const std::vector<ProgramOption>& options
         }
         const auto option = std::ranges::find(options, word, &ProgramOption::name);
         if (option == options.end()) {
-            std::vector<std::string> known;
-            for (const ProgramOption& each : options) known.push_back(each.name);
-            throw Failure(unknown_option(word, known), {}, usage_error);
+            throw Failure(unknown_option(word, {options.begin(), options.end()}, Face::CommandLine),
+                          {}, usage_error);
         }
         if (option->value.empty()) {
             given[word] = "on";
@@ -73,24 +72,25 @@ constexpr std::uint64_t largest_seed = std::numeric_limits<std::uint64_t>::max()
 
 std::vector<ProgramOption> training_options(TrainingOptions& training) {
     return {
-        {{"--out", "", "FOLDER", "Where the run is written"},
+        {{"--out", "", "FOLDER", "Folder of the run's files"},
          [&](const std::vector<std::string>& words) {
              training.folder = words.front();
          }},
-        {{"--resume", "", "", "Go on with the run in that folder, by the same options"},
+        {{"--resume", "", "", "Resume the run in that folder, with the same options"},
          [&](const std::vector<std::string>&) {
              training.resumes = true;
          }},
         number<std::uint64_t>({"--seed", "", "S", "Seed of all random numbers (0)"}, training.seed,
                               0, largest_seed),
-        number<double>({"--time", "", "SECONDS", "End after so long"}, training.seconds, 0, 1e9),
-        number<double>({"--stop-return", "", "RETURN", "End when an evaluation earns this"},
-                       training.stop_return, -1e300, 1e300)};
+        number<double>({"--time", "", "SECONDS", "End after this time"}, training.seconds, 0, 1e9),
+        number<double>(
+            {"--stop-return", "", "RETURN", "End when an evaluation reaches this return"},
+            training.stop_return, -1e300, 1e300)};
 }
 
 std::vector<ProgramOption> evaluation_options(EpisodeOptions& episodes) {
-    return {number<std::int64_t>({"--episodes", "", "N", "How many (100)"}, episodes.episodes, 1,
-                                 100'000'000),
+    return {number<std::int64_t>({"--episodes", "", "N", "Episodes to run (100)"},
+                                 episodes.episodes, 1, 100'000'000),
             number<std::uint64_t>({"--seed", "", "S", "Seed of all random numbers (0)"},
                                   episodes.seed, 0, largest_seed)};
 }

@@ -18,7 +18,7 @@ class Policy:
         with open(path) as file:
             self.file = json.load(file)
         if self.file.get("format") != "rddl-policy" or self.file.get("solver") != "ppo":
-            raise ValueError(f"{path} is no policy of PPO")
+            raise ValueError(f"{path} is not a PPO policy")
         if self.file["version"] > 4:
             raise ValueError(f"{path} is of version {self.file['version']}, and this reads versions up to 4")
         name = self.file.get("activation", "tanh")

@@ -1,5 +1,5 @@
-// What a program and the library that knows MPI have in common. Programs load that library when
-// they are started by mpirun, so that nobody else pays for it.
+// The interface between a program and the library that knows MPI. Programs load that library only
+// if mpirun started them, so that other programs do not pay for it.
 #pragma once
 
 #include <cstddef>

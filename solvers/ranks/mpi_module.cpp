@@ -1,7 +1,7 @@
 // The only file that knows MPI: a library that programs load when they are started by mpirun.
 #include "solvers/ranks/module.hpp"
 
-// Without the classes for C++, which MPI has given up.
+// The classes for C++ are left out; MPI has given them up.
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t most_at_once = std::size_t{1} << 28;  // MPI counts in ints
 
 void start(int* number, int* count) {
-    // While it waits, a rank lets others have its core: where there are fewer cores than processes,
-    // training takes a half of the time.
+    // A rank lets others have its core while it waits: with fewer cores than processes, training
+    // takes half of the time.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     int given = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);

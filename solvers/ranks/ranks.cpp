@@ -20,15 +20,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How many processes mpirun has started: 1 if nobody has, 0 if it does not tell. The names are
-// those of Open MPI, of MPICH and srun, and of PMIx.
+// The number of processes that mpirun has started: 1 without mpirun, 0 if it does not say. The
+// names are those of Open MPI, of MPICH and srun, and of PMIx.
 int processes_started() {
     for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"})
         if (const char* const count = std::getenv(name)) return std::atoi(count);
     return std::getenv("PMIX_RANK") ? 0 : 1;
 }
 
-// Beside the program, as it is installed and as it is built; else where rddlc was installed.
+// Looks beside the program, both installed and built; then in the folder where rddlc was installed.
 const RanksModule* load_module() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
@@ -36,7 +36,7 @@ const RanksModule* load_module() {
          {program.parent_path().parent_path() / RDDL_MODULES_FROM_PREFIX, fs::path(RDDL_MODULES)}) {
         const fs::path file = folder / "rddl_mpi.so";
         if (!fs::exists(file, ignored)) continue;
-        // What MPI loads itself looks for its functions.
+        // Libraries that MPI loads look for its functions.
         void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
         if (!library) throw Failure(fmt::format("cannot load MPI: {}", ::dlerror()));
         const auto get =
@@ -89,8 +89,8 @@ class Watch {
                   seen = now;
                   if (waits < 8) continue;
                   tell(
-                      "{}: error: rank {} waits in vain for another one, which has ended\n"
-                      "  the last checkpoint is whole, and --resume goes on from it\n",
+                      "{}: error: rank {} lost contact with another rank, which has ended\n"
+                      "  the last checkpoint is whole, and --resume continues from it\n",
                       program, ranks.number);
                   ::_exit(diagnosed);
               }
@@ -105,7 +105,7 @@ class Watch {
     std::thread thread_;
 };
 
-// What all have seen is told by the first rank, which ends the others then, by a signal.
+// Leaves it to the first rank to report what all have seen; it then ends the others by a signal.
 void let_the_first_tell(const std::function<bool()>& stops) {
     for (int i = 0; i < 20; ++i) {
         std::this_thread::sleep_for(50ms);

@@ -26,16 +26,15 @@ struct Ranks {
     // Each number becomes the sum of those of all ranks.
     void add_up(std::span<float> numbers) const;
     void add_up(std::span<double> numbers) const;
-    // What each rank has, in the order of the ranks.
+    // The texts of all ranks, in the order of the ranks.
     std::vector<std::string> gather(std::string_view own) const;
     // Whether that holds for one of them.
     bool any(bool holds) const;
 };
 
-// Runs `work` on all ranks. What is thrown in one of them ends all, and is told once where all
-// throw it. `stops` (Ctrl-C; may be empty) lets those end that wait in vain for one that is no
-// more. Throws a Failure where mpirun has started several processes and this program does not know
-// MPI.
+// Runs `work` on all ranks. An exception in one of them ends all, and is reported once if all throw
+// it. `stops` (Ctrl-C; may be empty) ends ranks that wait for one that is gone. Throws a Failure if
+// mpirun has started several processes and this program does not know MPI.
 ExitStatus run_on_ranks(std::string_view program, const std::function<bool()>& stops,
                         const std::function<ExitStatus(const Ranks&)>& work);
 

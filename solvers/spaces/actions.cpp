@@ -24,16 +24,6 @@ bool is_category(const rddl_column& column) {
     return column.scalar == RDDL_INT && column.upper - column.lower < most_categories;
 }
 
-std::vector<rddl_column> action_columns(const rddl_simulator& simulator) {
-    std::vector<rddl_column> columns(
-        static_cast<std::size_t>(simulator.action_value_count(&simulator)));
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        columns[c].struct_size = sizeof(rddl_column);
-        simulator.action_column(&simulator, static_cast<std::int64_t>(c), &columns[c]);
-    }
-    return columns;
-}
-
 // The mean size of the reals in the initial state, at least 1: what an unbounded action, of which
 // nothing else is known, is measured in.
 double typical_size(const rddl_simulator& simulator) {
@@ -55,15 +45,15 @@ double typical_size(const rddl_simulator& simulator) {
     return count > 0 ? std::max(1.0, sum / count) : 1;
 }
 
-// The greatest power of two by which a value may be away from where it starts, in `direction`, at
-// the beginning of an episode; `otherwise` if there is no such limit.
+// The greatest power of two by which a value may differ from its start, in `direction`, at the
+// beginning of an episode; `otherwise` if there is no such limit.
 double legal_size(const rddl_simulator& simulator, const ActionRecords& records,
                   const std::vector<float>& defaults, int column, double start, double direction,
                   double otherwise, const Stops& stops) {
     if (simulator.problem->precondition_count == 0 || is_stopped(&stops)) return otherwise;
     rddl_batch_options options{};
     options.thread_count = 1;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     std::vector<std::byte> action(records.record_size());
     std::vector<float> values = defaults;
     double largest = 0;
@@ -125,7 +115,7 @@ void add_category(ActionSpace& space, const rddl_column& column, int index) {
     space.categories.push_back(head);
 }
 
-// Which column each choice of the simulator changes, and to which value.
+// The column that each choice of the simulator changes, and its new value.
 std::vector<Choice> simulator_choices(const rddl_simulator& simulator,
                                       const std::vector<rddl_column>& columns) {
     std::vector<Choice> choices;
@@ -180,7 +170,7 @@ void add_masks_of_categories(ActionSpace& space, const rddl_simulator& simulator
     }
 }
 
-// Where the first bool of a group had a category, the group has one; those of its others go.
+// A group gets one category in place of those of its bools, at the place of the first bool's.
 void add_groups(ActionSpace& space, const Groups& groups) {
     std::vector<const std::vector<int>*> group_of(static_cast<std::size_t>(space.column_count));
     for (const std::vector<int>& group : groups.columns)
@@ -209,7 +199,7 @@ bool fit_into_masks(std::int64_t picks, std::int64_t choices) {
     return choices <= most_mask_bytes / std::max<std::int64_t>(picks, 1);
 }
 
-// The simulator tries each choice for a mask, and looks at all of the action each time.
+// The simulator tries each choice for a mask, and checks the whole action each time.
 bool may_ask_for_masks(const rddl_problem& problem, std::int64_t columns, std::int64_t choices) {
     constexpr std::int64_t most_values = 4'000'000;
     return problem.precondition_count == 0 || choices <= most_values / columns;
@@ -226,11 +216,17 @@ bool has_choice(const rddl_column& column) {
     return column.scalar == RDDL_BOOL || column.lower < column.upper;
 }
 
-double softplus(double x) {
-    return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
-}
-
 }  // namespace
+
+std::vector<rddl_column> action_columns(const rddl_simulator& simulator) {
+    std::vector<rddl_column> columns(
+        static_cast<std::size_t>(simulator.action_value_count(&simulator)));
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        columns[c].struct_size = sizeof(rddl_column);
+        simulator.action_column(&simulator, static_cast<std::int64_t>(c), &columns[c]);
+    }
+    return columns;
+}
 
 void require_choices(const rddl_simulator& simulator) {
     const std::vector<rddl_column> columns = action_columns(simulator);
@@ -298,7 +294,7 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops) {
     const bool is_limited = limit < space.column_count;
     const auto groups =
         bites && limit > 1 ? find_groups(simulator, columns, space, records, stops) : std::nullopt;
-    // Picks keep to limits, too, and know what is legal; but from the default they do not find to
+    // Picks also keep to limits and know what is legal; but from the default they do not find
     // actions where one bool of each group has to change.
     if (groups && !(is_limited && groups->may_be_none)) {
         add_groups(space, *groups);
@@ -318,116 +314,6 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops) {
 void squash_bounded(ActionSpace& space) {
     for (RealHead& head : space.reals)
         if (head.range == RealHead::Range::Bounded) head.range = RealHead::Range::Squashed;
-}
-
-namespace {
-
-// Asked for in each step of each environment.
-inline double value_of_real(const RealHead& head, double number) {
-    double value = 0;
-    switch (head.range) {
-        case RealHead::Range::Squashed:
-            number = std::tanh(number);
-            [[fallthrough]];
-        case RealHead::Range::Bounded:
-            value =
-                head.lower + (std::clamp(number, -1.0, 1.0) + 1) * 0.5 * (head.upper - head.lower);
-            break;
-        case RealHead::Range::AboveLower:
-            value = head.lower + head.scale * softplus(number);
-            break;
-        case RealHead::Range::BelowUpper:
-            value = head.upper - head.scale * softplus(number);
-            break;
-        case RealHead::Range::Free:
-            value = head.centre + head.scale * number;
-            break;
-    }
-    value = std::clamp(value, -1e9, 1e9);  // noise may be anything, ints may not
-    return std::clamp(head.rounds ? std::nearbyint(value) : value, head.lower, head.upper);
-}
-
-}  // namespace
-
-double real_value(const RealHead& head, double number) {
-    return value_of_real(head, number);
-}
-
-void write_action(const ActionSpace& space, const float* numbers, const std::int32_t* indices,
-                  float* values) {
-    std::copy(space.defaults.begin(), space.defaults.end(), values);
-    const auto set_real = [&](std::size_t r) {
-        constexpr double most = std::numeric_limits<float>::max();
-        const double value = value_of_real(space.reals[r], static_cast<double>(numbers[r]));
-        if (!std::isnan(value))  // else the default: simulators refuse actions that are none
-            values[space.reals[r].column] = static_cast<float>(std::clamp(value, -most, most));
-    };
-    if (space.picks > 0) {
-        for (int p = 0; p < space.picks && indices[p] > 0; ++p) {
-            const Choice& choice = space.choices[static_cast<std::size_t>(indices[p])];
-            if (choice.real >= 0)
-                set_real(static_cast<std::size_t>(choice.real));
-            else
-                values[choice.column] = static_cast<float>(choice.value);
-        }
-        return;
-    }
-    for (std::size_t r = 0; r < space.reals.size(); ++r) set_real(r);
-    for (std::size_t h = 0; h < space.categories.size(); ++h) {
-        const CategoryHead& head = space.categories[h];
-        const std::int64_t value = head.first_value + indices[h];
-        if (head.group.empty()) {
-            values[head.column] = static_cast<float>(value);
-        } else if (value > 0) {
-            float& changed = values[head.group[static_cast<std::size_t>(value - 1)]];
-            changed = 1 - changed;
-        }
-    }
-}
-
-ActionRecords::ActionRecords(const rddl_simulator& simulator)
-    : record_size_(static_cast<std::size_t>(simulator.problem->action_size)) {
-    const auto* const action = static_cast<const std::byte*>(simulator.problem->default_action);
-    blank_.assign(action, action + record_size_);
-    for (const rddl_column& column : action_columns(simulator)) {
-        const rddl_fluent& fluent = *rddl_fluent_at(simulator.problem, column.fluent);
-        const std::int64_t size = fluent.scalar == RDDL_BOOL ? 1 : 8;
-        entries_.push_back(
-            {static_cast<std::size_t>(fluent.offset + column.grounding * size), fluent.scalar});
-    }
-}
-
-void ActionRecords::write(const float* values, std::byte* record) const {
-    std::copy(blank_.begin(), blank_.end(), record);
-    for (std::size_t c = 0; c < entries_.size(); ++c) {
-        const Entry& entry = entries_[c];
-        if (entry.scalar == RDDL_BOOL) {
-            record[entry.offset] = static_cast<std::byte>(values[c] > 0.5f);
-        } else if (entry.scalar == RDDL_INT) {
-            const auto value = static_cast<std::int64_t>(std::nearbyint(values[c]));
-            std::memcpy(record + entry.offset, &value, sizeof value);
-        } else {
-            const auto value = static_cast<double>(values[c]);
-            std::memcpy(record + entry.offset, &value, sizeof value);
-        }
-    }
-}
-
-void ActionRecords::read(const std::byte* record, float* values) const {
-    for (std::size_t c = 0; c < entries_.size(); ++c) {
-        const Entry& entry = entries_[c];
-        if (entry.scalar == RDDL_BOOL) {
-            values[c] = record[entry.offset] != std::byte{0} ? 1.0f : 0.0f;
-        } else if (entry.scalar == RDDL_INT) {
-            std::int64_t value;
-            std::memcpy(&value, record + entry.offset, sizeof value);
-            values[c] = static_cast<float>(value);
-        } else {
-            double value;
-            std::memcpy(&value, record + entry.offset, sizeof value);
-            values[c] = static_cast<float>(value);
-        }
-    }
 }
 
 }  // namespace rddlc::solvers

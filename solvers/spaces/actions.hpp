@@ -41,12 +41,12 @@ struct CategoryHead {
     int first_logit = 0;
     int count = 0;
     std::int64_t first_value = 0;
-    std::vector<int> group{};  // columns of bools: 0 changes none of them, k changes group[k - 1]
+    std::vector<int> group{};  // columns of bools: 0 changes no bool, k changes group[k - 1]
 };
 
 // One change of the default action.
 struct Choice {
-    int column = -1;            // -1: none, to stop
+    int column = -1;            // -1: no column, to stop
     std::int64_t value = 0;     // of a category
     int real = -1;              // or the real head whose number it takes
     std::int64_t of_mask = -1;  // the simulator's number of this choice; -1: always allowed
@@ -61,9 +61,9 @@ struct ActionSpace {
     std::vector<Choice> choices;           // of picks; the first one stops
     int picks = 0;                         // at most; 0: each category by itself
     int logit_count = 0;
-    bool masked = false;             // a mask tells which logits are allowed
-    bool asks = true;                // the simulator makes it, unless that would take too long
-    bool may_be_illegal = false;     // what is chosen may violate a precondition, and is mended
+    bool masked = false;          // a mask says which logits are allowed
+    bool asks = true;             // the simulator makes it, unless that would take too long
+    bool may_be_illegal = false;  // the chosen action may violate a precondition, and is repaired
     std::vector<int> logit_of_mask;  // of categories, by the simulator's choices: a logit, or -1
 
     int real_count() const { return static_cast<int>(reals.size()); }
@@ -79,8 +79,8 @@ struct ActionSpace {
 // choices to pick from. Makes no step.
 void require_choices(const rddl_simulator& simulator);
 
-// Looks at the problem, and by a few random steps at what its preconditions forbid. Throws as
-// require_choices does. Ends early where `stops` says so.
+// Finds the space from the problem, and by a few random steps what its preconditions forbid. Throws
+// as require_choices does. Ends early if `stops` says so.
 ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops = {});
 
 // The groups of bools that preconditions allow one change each (preconditions.hpp), if all of them
@@ -88,6 +88,9 @@ ActionSpace action_space(const rddl_simulator& simulator, const Stops& stops = {
 // nothing is tried.
 std::optional<Groups> groups_without_limit(const rddl_simulator& simulator, int least_bools,
                                            const Stops& stops = {});
+
+// The columns of action values.
+std::vector<rddl_column> action_columns(const rddl_simulator& simulator);
 
 // Reals with two bounds become squashed.
 void squash_bounded(ActionSpace& space);

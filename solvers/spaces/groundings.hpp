@@ -1,4 +1,4 @@
-// Which objects a grounding of a fluent is about: the last parameter changes fastest.
+// The objects of a fluent's grounding: the last parameter changes fastest.
 #pragma once
 
 #include <rddl/simulator.h>

@@ -14,13 +14,13 @@ using Search = MendingSearch;
 
 // How often a real is halved before it takes its default.
 constexpr int most_halves = 3;
-// How many values are mended one by one; after that all others take their default. Fewer of large
-// actions, of which each question takes its time.
+// How many values are repaired one by one; after that all others take their default. Large actions
+// get fewer, since each check of theirs takes its time.
 int most_mended(int columns) {
     return std::clamp(16'000 / columns, 1, 16);
 }
 
-// Of one environment.
+// The repair of one environment's action.
 class Mending {
   public:
     Mending(const MendingRoom& room, int columns, const float* base)

@@ -35,7 +35,7 @@ struct MendingSearch {
     }
 };
 
-// What the work takes, so that nothing is allocated again and again.
+// Buffers that are kept, so that nothing is allocated repeatedly.
 struct MendingRoom {
     MendingRoom() = default;
     MendingRoom(const rddl_simulator& simulator, const ActionSpace& space,
@@ -51,10 +51,10 @@ struct MendingRoom {
 };
 
 // Values at fault fall back toward those of a legal action: a real by halves at first, then all the
-// way. Which values are at fault is found by asking about actions of which only the first ones are
-// set. The legal action is the default; where that is illegal, as where one bool of a group has to
-// change, what is wanted but for its numbers, or else a random one. Where none is found, an action
-// stays as it is.
+// way. Checks of actions of which only the first values are set find the values at fault. The legal
+// action is the default. If the default is illegal, for example because one bool of a group has to
+// change, the legal action keeps the wanted discrete choices and resets the numbers, or else is a
+// random one. If no legal action is found, an action stays as it is.
 //
 // `actions` are rows of values, `records` the same as records; both are changed. Returns how many
 // actions were illegal.

@@ -1,4 +1,4 @@
-// What a learner sees: a row of floats for each environment.
+// The observations of a learner: a row of floats for each environment.
 #pragma once
 
 #include <rddl/simulator.h>
@@ -46,13 +46,12 @@ struct ObservationSpace {
 ObservationSpace observation_space(const rddl_simulator& simulator,
                                    const ObservationOptions& options);
 
-// The name that people give a value: "rlevel(t1)", "turn".
+// The name of a value for readers: "rlevel(t1)", "turn".
 std::string grounded_name(const rddl_simulator& simulator, std::int32_t fluent,
                           std::int64_t grounding);
 
 // Turns a simulator's row of values into the features of the row. `features` holds those of the
-// episode's last observation, which move on; where the episode `begins` there were none, and the
-// older ones become 0.
+// episode's last observation, which move on. If the episode `begins`, the older ones become 0.
 void write_features(const ObservationSpace& space, const float* values, std::int64_t steps,
                     bool begins, float* features);
 

@@ -85,7 +85,7 @@ class Trial {
 
     const rddl_simulator& simulator_;
     const ActionRecords& records_;
-    Batch batch_;
+    BatchHandle batch_;
     RandomPolicy policy_;
     std::size_t columns_;
     std::vector<float> values_;
@@ -93,7 +93,7 @@ class Trial {
     std::vector<std::int32_t> violated_;
 };
 
-// What the changes of a group have in common.
+// The property that the changes of a group share.
 struct Common {
     std::int32_t type = -1;     // an object of this type; -1: nothing
     bool last = false;          // it is the last parameter of the type, not the first one
@@ -188,7 +188,7 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
         }
         if (trial.count_legal() < environments) {
             if (space.reals.empty()) return std::nullopt;
-            trial.reset_numbers(space);  // learners mend those
+            trial.reset_numbers(space);  // learners repair those
             if (trial.count_legal() < environments) return std::nullopt;
         }
 
@@ -196,7 +196,7 @@ std::optional<Groups> confirmed(Trial trial, const ActionSpace& space,
         if (trial.count_legal() > 0) return std::nullopt;
         change_all(&Tried::other);
 
-        change_all(&Tried::changed);  // none of a group
+        change_all(&Tried::changed);  // no bool of a group
         const std::int64_t legal = trial.count_legal();
         if (legal != may_be_none.value_or(legal > 0) * environments) return std::nullopt;
         may_be_none = legal > 0;

@@ -1,5 +1,5 @@
-// What preconditions forbid, found out by trying: a simulator says whether an action is legal, not
-// which other ones are.
+// Finds by trial what preconditions forbid: a simulator says whether an action is legal, not which
+// other ones are.
 #pragma once
 
 #include "solvers/batches/stops.hpp"

@@ -1,4 +1,4 @@
-// Which learner takes a problem, without a step of it.
+// Finds which learner accepts a problem, without a step of it.
 #pragma once
 
 #include <rddl/simulator.h>

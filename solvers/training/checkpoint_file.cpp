@@ -31,9 +31,9 @@ std::string sealed(std::string_view bytes) {
 std::string read_sealed(const std::filesystem::path& path, std::int64_t largest) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    // Devices have no end. What is not there is told by who reads it.
+    // Reading a device would never end. read_file reports a missing file.
     if (is_there(path) && (error || !std::filesystem::is_regular_file(path, error)))
-        throw Failure("it is no checkpoint, nor a file");
+        throw Failure("it is not a regular file");
     if (!error && size > static_cast<std::uintmax_t>(largest))
         throw Failure(fmt::format("it has {}, more than the limit of {}",
                                   memory_text(static_cast<double>(size)),
@@ -42,7 +42,7 @@ std::string read_sealed(const std::filesystem::path& path, std::int64_t largest)
     std::string bytes = read_file(path, static_cast<std::size_t>(largest));
     const std::size_t header = header_of({}).size();
     if (!bytes.starts_with(beginning) || bytes.size() < header)
-        throw Failure("it is no checkpoint, or one of another version of this program");
+        throw Failure("it is not a checkpoint, or one of another version of this program");
     const std::string_view body = std::string_view(bytes).substr(header);
     if (!bytes.starts_with(header_of(body)))
         throw Failure("it is damaged: it is not as it was written");

@@ -10,7 +10,7 @@ namespace rddlc::solvers {
 
 std::string sealed(std::string_view bytes);
 
-// Throws a Failure where that is no such file, has more than `largest` bytes, or is not as it was
+// Throws a Failure if the file is not sealed, has more than `largest` bytes, or is not as it was
 // written.
 std::string read_sealed(const std::filesystem::path& path, std::int64_t largest);
 

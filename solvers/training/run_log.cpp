@@ -1,6 +1,7 @@
 #include "solvers/training/run_log.hpp"
 
 #include "solvers/files/protocol_buffers.hpp"
+#include "support/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,17 @@ std::string number_text(double value) {
 
 std::size_t RunLog::width() const {
     return static_cast<std::size_t>(std::count(columns_.begin(), columns_.end(), '\n')) + 3;
+}
+
+void RunLog::check_loaded() const {
+    const bool has_whole_lines = columns_.empty() || columns_.back() == '\n';
+    if (!has_whole_lines || numbers_.size() % width() != 0)
+        throw Failure("it is damaged: the rows of its log are not complete");
+    constexpr double greatest = 9007199254740992;  // 2^53: any count up to it is a double
+    for (std::size_t row = 0; row < numbers_.size(); row += width())
+        if (const double steps = numbers_[row + 1];
+            !(steps >= 0 && steps <= greatest && steps == std::floor(steps)))
+            throw Failure("it is damaged: a number of steps in its log is not a count");
 }
 
 void RunLog::add(std::int64_t steps, double seconds, double wall_time, const Row& row) {

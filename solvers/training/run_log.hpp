@@ -22,10 +22,13 @@ class RunLog {
     void archive(Archive& archive) {
         archive(columns_);
         archive(numbers_);
+        if constexpr (Archive::is_loading) check_loaded();
     }
 
   private:
     std::size_t width() const;
+    // Throws a Failure where what was loaded can be no log.
+    void check_loaded() const;
     std::string columns_;          // names, each with a line break
     std::vector<double> numbers_;  // row by row: wall time, steps, seconds, the row
 };

@@ -4,19 +4,16 @@
 #include "solvers/files/archive.hpp"
 #include "solvers/files/fingerprint.hpp"
 #include "solvers/training/checkpoint_file.hpp"
+#include "solvers/training/run_folder.hpp"
 #include "solvers/training/run_log.hpp"
 #include "support/files.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 
@@ -40,44 +37,6 @@ std::string time_text(double seconds) {
                         : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-// The folder of a run, which one process writes at a time.
-class RunFolder {
-  public:
-    RunFolder() = default;
-    ~RunFolder() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    RunFolder(const RunFolder&) = delete;
-    RunFolder& operator=(const RunFolder&) = delete;
-
-    // Throws a Failure where another process holds it. File systems without locks let all pass.
-    void hold(const std::filesystem::path& folder) {
-        descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
-            errno == EWOULDBLOCK)
-            throw Failure(
-                fmt::format("another run writes into the folder '{}' now", folder.string()),
-                "wait for its end, or name another one with --out");
-    }
-
-  private:
-    int descriptor_ = -1;
-};
-
-// The first episode of which the return is not finite, in a sentence.
-std::string what_is_not_finite(const Rollouts& rollouts) {
-    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
-        const Episode& episode = rollouts.episodes[e];
-        if (episode.not_finite_step >= 0)
-            return fmt::format("the reward of step {} of episode {} is not finite",
-                               episode.not_finite_step, e);
-        if (!std::isfinite(episode.undiscounted_return))
-            return fmt::format("the rewards of episode {} add up to {}", e,
-                               episode.undiscounted_return);
-    }
-    return "the returns add up to more than a number holds";
-}
-
 class Training {
   public:
     Training(const rddl_simulator& simulator, const Trainee& trainee,
@@ -96,7 +55,7 @@ class Training {
             stops = result_.interrupted || ends_by_time_ || result_.reached;
             if (!stops && saves_) save(state());
         }
-        // Whoever goes on shall not know of an evaluation that a whole run does not make.
+        // A resumed run must not know of an evaluation that a complete run does not make.
         const std::string before = state();
         if (!evaluated_ || evaluated_at_ != trainee_.steps()) evaluate();
         show(true);
@@ -141,7 +100,7 @@ class Training {
             if (!options_.resumes && std::filesystem::exists(file("checkpoint")))
                 throw Failure(
                     fmt::format("the folder '{}' holds a run already", options_.folder.string()),
-                    "go on with --resume, or name another one with --out");
+                    "continue it with --resume, or name another one with --out");
             if (is_folder(options_.folder)) require_writable(file("checkpoint"), {});
         }
         if (options_.resumes) load();
@@ -149,7 +108,7 @@ class Training {
 
     double elapsed() const { return seconds_before_ + seconds_between(begin_, Clock::now()); }
 
-    // What clocks and signals tell one rank is true for all.
+    // Shares what clocks and signals report on one rank with all ranks.
     void agree() {
         const bool interrupted = options_.stops && options_.stops();
         const bool out_of_time = options_.seconds > 0 && elapsed() >= options_.seconds;
@@ -161,7 +120,7 @@ class Training {
         saves_ = flags[2] > 0;
     }
 
-    // False where it was interrupted: then all is as it was before, so that a run that goes on is
+    // Returns false if it was interrupted: then all is as it was before, so that a resumed run is
     // the same to the byte.
     bool update() {
         if (!trainee_.ends_early) {
@@ -175,7 +134,7 @@ class Training {
         return !result_.interrupted;
     }
 
-    // What is to be done after it. A run that was interrupted meanwhile does it when it goes on.
+    // The work after an update. A run that was interrupted meanwhile does it when it is resumed.
     void finish_update() {
         const bool due = trainee_.part_done() >= static_cast<double>(evaluations_ + 1) /
                                                      static_cast<double>(options_.evaluations);
@@ -212,7 +171,7 @@ class Training {
         result_.episodes = summary.episodes;
         result_.faulted = summary.faulted;
         if (rollouts.first_fault) result_.first_fault = rollouts.first_fault->message;
-        // Of episodes with the same return, those that reach their end sooner are better.
+        // Among episodes with the same return, those that reach their end sooner are better.
         const bool is_finite = std::isfinite(last_return_);
         result_.not_finite = is_finite ? "" : what_is_not_finite(rollouts);
         const bool better =
@@ -239,7 +198,7 @@ class Training {
         log_.add(trainee_.steps(), elapsed(), now, row);
     }
 
-    // On a terminal one line, several times a second; elsewhere a line every five seconds.
+    // Shows one line on a terminal, several times a second; elsewhere a line every five seconds.
     void show(bool last) {
         if (options_.quiet || !options_.ranks.is_first()) return;
         const auto now = Clock::now();
@@ -270,7 +229,7 @@ class Training {
         write_file(file(name), text, used);
     }
 
-    // What a checkpoint holds of the training itself.
+    // The part of a checkpoint about the training itself.
     std::string state() {
         SavingArchive archive;
         archive_all(archive);
@@ -333,7 +292,7 @@ class Training {
             archive(learner);
             trainee_.load(learner);
         } catch (const Failure& failure) {
-            throw Failure(fmt::format("cannot go on from '{}': {}", path.string(), failure.what()),
+            throw Failure(fmt::format("cannot resume from '{}': {}", path.string(), failure.what()),
                           failure.hint);
         }
     }
@@ -372,7 +331,7 @@ class Training {
         }
         if (!others.empty())
             throw Failure("it is of a run with other options: " + others,
-                          "go on with the options of that run, or begin one with another --out");
+                          "continue with the options of that run, or begin one with another --out");
     }
 
     template <class Archive>
@@ -402,7 +361,7 @@ class Training {
     bool ends_by_time_ = false, saves_ = false;
     RunLog log_;
     Clock::time_point begin_ = Clock::now(), last_shown_, last_saved_;
-    double seconds_before_ = 0;  // of runs that this one goes on with
+    double seconds_before_ = 0;  // of the runs that this one resumes
     bool evaluated_ = false, has_best_ = false, owes_evaluation_ = false;
     std::int64_t evaluated_at_ = 0, evaluations_ = 0;
     double last_return_ = 0, last_length_ = 0, best_return_ = 0, best_length_ = 0;

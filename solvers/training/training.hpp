@@ -18,7 +18,7 @@
 
 namespace rddlc::solvers {
 
-// What is known after an update, under the names that Stable-Baselines3 has for it.
+// The results of an update, under the names that Stable-Baselines3 has for them.
 using Row = std::vector<std::pair<std::string, double>>;
 
 // Options that change what is learned, as they are given: "--lr", "0.0003".
@@ -27,7 +27,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 // A solver at work, as the training sees it.
 struct Trainee {
     std::string solver;                   // "ppo"
-    Settings settings;                    // a run goes on with the same
+    Settings settings;                    // a resumed run has the same
     std::string note;                     // what it has chosen that users may not expect, or ""
     bool ends_early = false;              // update() does where TrainingOptions::stops says so
     std::function<void()> update;         // a little more work
@@ -57,7 +57,7 @@ struct TrainingOptions {
     std::int64_t memory_limit = default_memory_limit;  // bytes of a checkpoint that is read
     bool quiet = false;
     std::function<bool()> stops;  // Ctrl-C; may be empty
-    Ranks ranks;                  // which train together; the first one writes and tells
+    Ranks ranks;                  // which train together; the first one writes and reports
 };
 
 struct TrainingResult {
@@ -72,7 +72,7 @@ struct TrainingResult {
     std::string not_finite;  // where the last evaluation's return is not: what has made it so
 };
 
-// How many digits people read: "1.5 M", "812".
+// A count in few digits: "1.5 M", "812".
 std::string count_text(double count);
 
 // ".cgp" or ".json": of policy files in the folder of a run.
@@ -81,8 +81,8 @@ std::string policy_extension(std::string_view solver);
 // Files in the folder: policy.json (the best policy; .cgp for CGP), last.json, progress.csv,
 // events.out.tfevents.rddl, run.json (the solver, the problem and the seed), checkpoint. All are
 // written whole or not at all. Policies that a run of another solver has left there are removed
-// once these are written. Throws a Failure where the folder holds another run, nothing to resume,
-// or a run that goes on in another process; and at its end where no evaluation had a finite return.
+// once these are written. Throws a Failure if the folder holds another run, nothing to resume, or a
+// run that another process continues; and at its end if no evaluation had a finite return.
 TrainingResult train(const rddl_simulator& simulator, const Trainee& trainee,
                      const TrainingOptions& options);
 

@@ -1,7 +1,7 @@
 """Every diagnostic code has a page and a test, and no page or test has a code that does not exist.
 
-The tests of a code are the case folders that mark it, and what tests/robustness does to the programs
-where RDDL alone cannot cause it: files that are missing, too large, not writable.
+The tests of a code are the case folders that mark it, and the tests in tests/robustness if RDDL
+alone cannot cause it: files that are missing, too large, not writable.
 """
 
 import re
@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CODE = re.compile(r"\b([EW][0-9]{4})\b")
 # "inline constexpr Code wrong_arity{'E', 203};"
 CONSTANT = re.compile(r"\bCode\s+(\w+)\{'([EW])',\s*([0-9]+)\}")
-# In tests/robustness: no code of rddlc, and to explain it is refused.
+# Codes in tests/robustness that do not exist: explaining them is refused.
 NO_CODES = {"E9999"}
 
 

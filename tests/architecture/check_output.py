@@ -1,8 +1,10 @@
-"""Texts reach people, and numbers become texts and are read, by functions that know what a terminal and a locale do.
+"""Texts reach people, and numbers become texts and are read, by functions that respect terminals
+and locales.
 
-Names, paths and messages may be anybody's: print() and tell() of compiler/support/program.hpp leave nothing in them that
-drives a terminal. Applications set a locale, where printf and strtod write and read 0,5: std::to_chars, std::from_chars
-and fmt know none.
+Names, paths and messages may come from strangers: print() and tell() of
+support/program.hpp leave nothing in them that drives a terminal. Applications set a
+locale, where printf and strtod write and read 0,5: std::to_chars, std::from_chars and fmt ignore
+locales.
 """
 
 import re
@@ -10,15 +12,15 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ["compiler", "runtime", "cli", "solvers", "planners", "python/native", "templates"]
+FOLDERS = ["support", "compiler", "runtime", "render", "solvers", "planners", "workbench", "cli", "python/native", "templates"]
 PRINTS = re.compile(r"\bfmt::print\(|\bstd::c(out|err|log)\b|\b(std::)?(puts|fputs|putchar|printf|fprintf|perror)\(")
 KNOWS_LOCALE = re.compile(r"\b(v?s?n?printf|strto(d|f|ld)|atof|setlocale|imbue)\(|\bstd::sto(d|f|ld)\b"
                           r"|\{:[^}\"]*L\}")
 # Each with its reason.
 PRINTERS = {
-    "compiler/support/program.cpp": "print() and tell() themselves",
+    "support/program.cpp": "print() and tell() themselves",
     "compiler/ir/verify.cpp": "a mistake of our own, before the program ends",
-    "cli/rddl/pictures/watch.cpp": "escape codes that move a terminal's cursor; its texts are printable",
+    "workbench/pictures/watch.cpp": "escape codes that move a terminal's cursor; its texts are printable",
 }
 
 

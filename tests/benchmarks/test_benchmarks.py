@@ -57,7 +57,7 @@ class Compare(unittest.TestCase):
         status, text = self.run_compare("--rddl", RDDL)
         self.assertEqual(status, 0, text)
         self.assertIn("geometric mean", text)
-        # What the file has is not measured again: no program is needed.
+        # Results in the file are not measured again: no program is needed.
         again, same_text = self.run_compare("--rddl", "/nowhere/rddl")
         self.assertEqual((again, same_text), (status, text))
         status, text = self.run_compare("--rddl", "/nowhere/rddl", "--fresh")
@@ -156,7 +156,7 @@ class Cliffs(unittest.TestCase):
             status, text = run_program(cliffs.main, "--rddl", RDDL, *options)
             self.assertEqual(status, 0, text)
             self.assertIn(f"{PROBLEM} 0", text)
-            # What the file has is not measured again: no program is needed.
+            # Results in the file are not measured again: no program is needed.
             self.assertEqual(run_program(cliffs.main, "--rddl", "/nowhere/rddl", *options), (status, text))
 
     def test_tells_what_is_slower_in_a_batch(self):
@@ -168,7 +168,7 @@ class Cliffs(unittest.TestCase):
 
 
 class LegalActions(unittest.TestCase):
-    """Of pyRDDLGym, as the peers' programs draw them."""
+    """Legal actions of pyRDDLGym, as the peers' programs draw them."""
 
     def environment(self, problem: str):
         case = case_of(problem)

@@ -22,7 +22,7 @@ void add_marks(const std::string& file, int number, const std::string& line,
     }
 }
 
-// As for rddlc: --std=rddlc, -Wno-W0202.
+// Reads options as rddlc does: --std=rddlc, -Wno-W0202.
 void read_options(const fs::path& file, Case& result) {
     std::ifstream stream(file);
     for (std::string option; stream >> option;) {

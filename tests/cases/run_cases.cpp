@@ -1,4 +1,4 @@
-// Every folder beside this file is a case; none is registered anywhere. See README.md.
+// Every folder beside this file is a case; cases are not registered. See README.md.
 #include "case.hpp"
 #include "driver/driver.hpp"
 #include "driver/process.hpp"
@@ -49,7 +49,7 @@ bool is_part(const std::string& part, const Diagnostic& diagnostic) {
     return true;
 }
 
-// What has no place in the text may be marked anywhere.
+// A diagnostic without a place in the text may be marked anywhere.
 bool fits(const Mark& mark, const Diagnostic& diagnostic, const Compilation& compilation) {
     const char* kind = compilation.diagnostics.is_error(diagnostic) ? "error" : "warning";
     if (mark.kind != kind || mark.code != to_string(diagnostic.code)) return false;
@@ -170,11 +170,11 @@ void expect_compiled_trace(const Case& expected, const Compilation& compilation,
 
 // The interpreter's trace is the expected one, and that of the compiled simulator.
 void expect_trace(const Case& expected, const Compilation& compilation) {
-    cli::LoadOptions load;
+    workbench::LoadOptions load;
     load.externs = expected.headers;
-    const auto interpreted =
-        cli::interpreted_simulator(*compilation.program, compilation.sources,
-                                   cli::external_library(*compilation.program, {}, load));
+    const auto interpreted = workbench::interpreted_simulator(
+        *compilation.program, compilation.sources,
+        workbench::external_library(*compilation.program, {}, load));
     const std::string trace = trace_of(*interpreted);
     if (expected.expects("trace.exp")) expect_golden(expected.folder / "trace.exp", trace, "cases");
 #ifdef RDDL_BATCHES
@@ -182,7 +182,7 @@ void expect_trace(const Case& expected, const Compilation& compilation) {
 #endif
 }
 
-// From the step for moderate values on, if there is one: it makes most steps.
+// The text from the step for moderate values on, if there is one: it makes most steps.
 std::string usual_step(const std::string& text) {
     const std::size_t begin = text.find("namespace moderate {");
     return begin == text.npos ? text : text.substr(begin);

@@ -31,12 +31,12 @@ double real_between(double lower, double upper, std::uint64_t number) {
 }
 
 // One value in three is not the default; at most one where the problem limits their number.
-Record action_at(const rddl_problem& problem, const cli::RecordLayout& layout, int step) {
+Record action_at(const rddl_problem& problem, const workbench::RecordLayout& layout, int step) {
     Record record(layout.size());
     if (record.empty()) return record;
     std::memcpy(record.data(), problem.default_action, record.size());
     std::uint64_t value = 0;
-    for (const cli::RecordEntry& entry : layout.entries()) {
+    for (const workbench::RecordEntry& entry : layout.entries()) {
         const std::uint64_t number = scrambled(static_cast<std::uint64_t>(step), value++);
         if (number % 3 != 0) continue;
         std::byte* const target = record.data() + entry.offset;
@@ -72,9 +72,9 @@ std::string ending(std::uint8_t causes) {
 
 std::string trace_of(const rddl_simulator& simulator) {
     const rddl_problem& problem = *simulator.problem;
-    const cli::RecordLayout state_layout(problem, RDDL_STATE);
-    const cli::RecordLayout action_layout(problem, RDDL_ACTION);
-    const cli::RecordLayout observation_layout(problem, RDDL_OBSERVATION);
+    const workbench::RecordLayout state_layout(problem, RDDL_STATE);
+    const workbench::RecordLayout action_layout(problem, RDDL_ACTION);
+    const workbench::RecordLayout observation_layout(problem, RDDL_OBSERVATION);
     Record state(state_layout.size()), observation(observation_layout.size());
 
     rddl_batch_options options{};

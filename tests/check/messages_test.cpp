@@ -119,6 +119,9 @@ TEST(Messages, FunctionsAndAggregations) {
     EXPECT_EQ(report("r' = min[1, 2, 3];"),
               "'min' takes 2 arguments, found 3\n"
               "hint: nest it: 'min[a, min[b, c]]'; over objects it is 'min_{?x : type} ...'");
+    EXPECT_EQ(report("r' = Normal(1);"),
+              "'Normal' takes 2 arguments, found 1\nhint: write 'Normal(mean, variance)'");
+    EXPECT_EQ(report("r' = exp[1, 2];"), "'exp' takes 1 argument, found 2\nhint: write 'exp[x]'");
     EXPECT_EQ(report("r' = atan2[1, 2];"),
               "there is no function 'atan2'\n"
               "hint: use 'atan[y / x]' and distinguish the quadrants; --std=rddlc allows it");
@@ -197,7 +200,7 @@ TEST(Messages, ValuesInTheInstance) {
 
 TEST(Messages, ABodyThatGoesOn) {
     EXPECT_EQ(report("r' = sum_{?x : t} [P(?x)] + 10;"),
-              "this belongs to the body of 'sum', which goes on to the end\n"
+              "this belongs to the body of 'sum', which extends to the end\n"
               "note at '[P(?x)]': the body does not end with these brackets\n"
               "hint: RDDL reads 'sum_{?x : t} [[P(?x)] + 10]'; '[sum_{?x : t} [P(?x)]] + 10' was "
               "probably "

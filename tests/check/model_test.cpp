@@ -1,4 +1,4 @@
-// What the model holds: types, values, order of evaluation, and its printed form.
+// The content of the model: types, values, order of evaluation, and its printed form.
 #include "checking.hpp"
 #include "model/print.hpp"
 

@@ -1,5 +1,5 @@
-// The pages of docs/diagnostics keep their word: the first example gets the page's diagnostic and
-// no other, the corrected one gets none.
+// Checks the pages of docs/diagnostics: the first example gets the page's diagnostic and no other,
+// the corrected one gets no diagnostic.
 #include "checking.hpp"
 #include "support/files.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 const std::filesystem::path pages = PAGES_FOLDER;
 
-// Those of this stage: the hundreds 02 to 05.
+// The codes of this stage: the hundreds 02 to 05.
 std::vector<std::string> codes_with_pages() {
     std::vector<std::string> codes;
     for (const auto& entry : std::filesystem::directory_iterator(pages)) {

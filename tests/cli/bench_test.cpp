@@ -1,4 +1,4 @@
-// What `rddl bench` tells, and how it asks other simulators.
+// The output of `rddl bench`, and its calls of other simulators.
 #include "program.hpp"
 
 #include <array>
@@ -38,7 +38,7 @@ void expect_speeds(const json& measurements) {
         EXPECT_GT(m["steps"], 0);
         EXPECT_GE(m["seconds"], 0.01);
         EXPECT_GT(m["processor_seconds"], 0);
-        // With some slack for two clocks.
+        // Two clocks differ a little.
         EXPECT_LT(m["processor_seconds"],
                   (m["seconds"].get<double>() + 0.01) * m["threads"].get<int>());
         EXPECT_NEAR(m["steps_per_second"].get<double>(),

@@ -1,4 +1,5 @@
-// What is kept between runs: compiled once, made anew where it is damaged, and nobody else's.
+// The cache between runs: things are compiled once, compiled again if damaged, and not shared with
+// other users.
 #include "program.hpp"
 
 #include <fcntl.h>
@@ -91,7 +92,7 @@ TEST_F(Cache, KeepsWhatIsPreparedForTheLatestToolchains) {
 
 TEST_F(Cache, CompilesWithoutAPrecompiledHeader) {
     const std::string run_it = "run domain.rddl instance.rddl --quiet --no-cache";
-    // A compiler that makes none is not asked again.
+    // A compiler that cannot precompile headers is not asked again.
     write_file(folder_ / "log.sh",
                "echo \"$@\" >>log; case \"$*\" in *c++-header*) exit 1; esac; exec c++ \"$@\"");
     EXPECT_EQ(run(run_it, "CXX='sh log.sh'").status, 0);
@@ -140,7 +141,7 @@ TEST_F(Cache, LoadsNothingThatOthersMayHaveWritten) {
     }
     fs::permissions(folder, fs::perms::owner_all);
 
-    // An object that lies there from a time when they could is made anew.
+    // An object from a time when other users could write there is compiled again.
     const fs::path object = shared_objects(cache()).at(0);
     fs::permissions(object, fs::perms::others_write, fs::perm_options::add);
     EXPECT_EQ(run(run_it).status, 0);
@@ -171,7 +172,7 @@ TEST_F(Program, TellsOfWrongEnvironmentVariables) {
     };
     EXPECT_EQ(
         told("RDDL_INSTRUCTION_SET=foo "),
-        "rddl: error: RDDL_INSTRUCTION_SET is 'foo', which is none of sse2, avx2 and avx512\n");
+        "rddl: error: RDDL_INSTRUCTION_SET is 'foo', which is not one of sse2, avx2 and avx512\n");
     EXPECT_EQ(told("RDDLC_INCLUDE=/nonexistent "),
               "rddl: error: RDDLC_INCLUDE is '/nonexistent', which holds no rddl/simulator.hpp\n");
     EXPECT_EQ(told("RDDL_INSTRUCTION_SET= "), "");

@@ -1,4 +1,6 @@
-// What users see of list, info, check, run and bench.
+// The output of list, info, check, run and bench.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "program.hpp"
 
 #include <algorithm>
@@ -41,60 +43,59 @@ TEST_P(MisusedProgram, SaysWhatIsWrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     Program, MisusedProgram,
-    testing::Values(Misuse{"", "name a command, such as 'rddl list'"},
-                    Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
-                    Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
-                    Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
-                    Misuse{"hlep", "no command is called 'hlep'; did you mean 'help'?"},
-                    Misuse{"help rum", "no command is called 'rum'; did you mean 'run'?"},
-                    Misuse{"help nosuch", "no command is called 'nosuch'\n"},
-                    Misuse{"--completions",
-                           "--completions is given no value; expected --completions "},
-                    Misuse{"run", "DOMAIN is required"},
-                    Misuse{"run domain.rddl instance.rddl --episode=3",
-                           "unknown option '--episode'; did you mean '--episodes'?"},
-                    Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
-                    Misuse{"run domain.rddl instance.rddl --episodes 0",
-                           "--episodes: '0' is not an int from 1 to 100000000"},
-                    Misuse{"run domain.rddl instance.rddl --episodes abc",
-                           "--episodes: 'abc' is not an int from 1 to 100000000"},
-                    Misuse{"run domain.rddl instance.rddl --seed -1",
-                           "--seed: '-1' is not an int from 0 on"},
-                    Misuse{"run domain.rddl instance.rddl --seed",
-                           "--seed is given no value; expected --seed S: "},
-                    Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
-                           "--seed is given twice: '1' and '2'"},
-                    Misuse{"run domain.rddl instance.rddl --engine compield",
-                           "--engine: 'compield' is not one of compiled, interpreter; did you "
-                           "mean 'compiled'?"},
-                    Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
-                           "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
-                    Misuse{"run domain.rddl instance.rddl --json=maybe",
-                           "--json: 'maybe' is not true or false"},
-                    Misuse{"compare domain.rddl instance.rddl --policies ,",
-                           "--policies: a value is missing in ','; expected --policies "
-                           "POLICY,...: "},
-                    Misuse{"compare domain.rddl instance.rddl --policies noop,,random",
-                           "--policies: a value is missing in 'noop,,random'"},
-                    Misuse{"compare domain.rddl instance.rddl --policies noop,",
-                           "--policies: a value is missing in 'noop,'"},
-                    Misuse{"compare domain.rddl instance.rddl --policies ''",
-                           "--policies is given no value; expected --policies POLICY,...: "},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit abc",
-                           "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit -1",
-                           "--memory-limit: '-1' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 0",
-                           "--memory-limit: '0' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
-                           "--memory-limit: '4X' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
-                           "--memory-limit: '9999999999999G' is not a size"},
-                    Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
-                           "--trace is given no value"},
-                    Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
-                    Misuse{"check", "name a problem, or say --all"},
-                    Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
+    testing::Values(
+        Misuse{"", "name a command, such as 'rddl list'"},
+        Misuse{"--explain E9999", "there is no diagnostic 'E9999'; '--explain list'"},
+        Misuse{"--explain", "--explain is given no value; expected --explain CODE"},
+        Misuse{"rum domain.rddl", "no command is called 'rum'; did you mean 'run'?"},
+        Misuse{"hlep", "no command is called 'hlep'; did you mean 'help'?"},
+        Misuse{"help rum", "no command is called 'rum'; did you mean 'run'?"},
+        Misuse{"help nosuch", "no command is called 'nosuch'\n"},
+        Misuse{"--completions", "--completions is given no value; expected --completions "},
+        Misuse{"run", "DOMAIN is required"},
+        Misuse{"run domain.rddl instance.rddl --episode=3",
+               "unknown option '--episode'; did you mean '--episodes'?"},
+        Misuse{"run domain.rddl instance.rddl more", "too many arguments: 'more'"},
+        Misuse{"run domain.rddl instance.rddl --episodes 0",
+               "--episodes: '0' is not an int from 1 to 100000000"},
+        Misuse{"run domain.rddl instance.rddl --episodes abc",
+               "--episodes: 'abc' is not an int from 1 to 100000000"},
+        Misuse{"run domain.rddl instance.rddl --seed -1", "--seed: '-1' is not an int from 0 on"},
+        Misuse{"run domain.rddl instance.rddl --seed",
+               "--seed is given no value; expected --seed S: "},
+        Misuse{"run domain.rddl instance.rddl --seed 1 --seed 2",
+               "--seed is given twice: '1' and '2'"},
+        Misuse{"run domain.rddl instance.rddl --engine compield",
+               "--engine: 'compield' is not one of compiled, interpreter; did you "
+               "mean 'compiled'?"},
+        Misuse{"verify domain.rddl instance.rddl --lanes 1,x",
+               "--lanes: 'x' is not one of 1, 8, 16, 32, 64\n"},
+        Misuse{"run domain.rddl instance.rddl --json=maybe",
+               "--json: 'maybe' is not true or false"},
+        Misuse{"compare domain.rddl instance.rddl --policies ,",
+               "--policies: a value is missing in ','; expected --policies "
+               "POLICY,...: "},
+        Misuse{"compare domain.rddl instance.rddl --policies noop,,random",
+               "--policies: a value is missing in 'noop,,random'"},
+        Misuse{"compare domain.rddl instance.rddl --policies noop,",
+               "--policies: a value is missing in 'noop,'"},
+        Misuse{"compare domain.rddl instance.rddl --policies ''",
+               "--policies is given no value; expected --policies POLICY,...: "},
+        Misuse{"run domain.rddl instance.rddl --memory-limit abc",
+               "--memory-limit: 'abc' is not a size, such as 512M, 4G or a number"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit -1",
+               "--memory-limit: '-1' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 0",
+               "--memory-limit: '0' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 4X",
+               "--memory-limit: '4X' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --memory-limit 9999999999999G",
+               "--memory-limit: '9999999999999G' is not a size"},
+        Misuse{"run domain.rddl instance.rddl --trace= --engine=interpreter",
+               "--trace is given no value"},
+        Misuse{"run domain.rddl instance.rddl --trace ''", "--trace is given no value"},
+        Misuse{"check", "name a problem, or say --all"},
+        Misuse{"check --all domain.rddl", "--all checks the whole repository"}));
 
 TEST_F(Program, ExplainsDiagnosticsAsTheCompilerDoes) {
     const auto page = std::filesystem::path(RDDL_EXAMPLES) / "../docs/diagnostics/E0203.md";
@@ -200,7 +201,7 @@ TEST_F(Program, DescribesAProblem) {
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << '\n' << outcome.out;
 }
 
-// As training would refuse it, but without a step.
+// Training would refuse it with the same sentence, but this takes no step.
 TEST_F(Program, TellsWhichLearnersTakeAProblem) {
     write_file(folder_ / "idle.rddl",
                "domain idle { pvariables { x : { state-fluent, real, default = 1.0 }; };\n"
@@ -271,13 +272,13 @@ TEST_F(Program, NamesItsOwnExplanation) {
          {"check bad/domain.rddl", "check bad", "fmt bad/domain.rddl", "run bad"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 1) << arguments;
-        EXPECT_TRUE(outcome.err.ends_with("\n'rddl --explain E0103' tells more\n"))
+        EXPECT_TRUE(outcome.err.ends_with("\n'rddl --explain E0103' explains it\n"))
             << arguments << '\n'
             << outcome.err;
     }
     const Outcome unbuilt = run("run domain.rddl instance.rddl --no-cache", "CXX=nosuch");
     EXPECT_EQ(unbuilt.status, 1);
-    EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' tells more\n"), std::string::npos)
+    EXPECT_NE(unbuilt.err.find("\n'rddl --explain E0905' explains it\n"), std::string::npos)
         << unbuilt.err;
 }
 
@@ -328,7 +329,7 @@ TEST_F(Program, SaysWhichFilesAreMissing) {
     EXPECT_EQ(told("run domain.rddl"),
               "error: there is no instance block [E0204]\n"
               "hint: give the instance's file after the domain's\n"
-              "1 error\n'rddl --explain E0204' tells more\n");
+              "1 error\n'rddl --explain E0204' explains it\n");
     EXPECT_TRUE(
         told("run domain.rddl 1").starts_with("rddl: error: there is no instance file '1'\n"));
     write_file(folder_ / "e/other.rddl", "");
@@ -358,7 +359,7 @@ TEST_F(Program, ChecksADomainAlone) {
                               "no instance was given: "})
         EXPECT_NE(bad.err.find(place), std::string::npos) << place << '\n' << bad.err;
 
-    // Nobody else can do without, nor is a second file meant to be another domain.
+    // Other commands need an instance, and a second file is not read as another domain.
     EXPECT_EQ(run("info domain.rddl").status, 1);
     EXPECT_EQ(run("check domain.rddl domain.rddl").status, 1);
 }
@@ -424,8 +425,7 @@ TEST_F(Program, CountsFaults) {
         << message;
 }
 
-// Lamp b heats up so fast that it faults in most episodes; those of the others go on to the
-// horizon.
+// Lamp b heats up so fast that it faults in most episodes; the others continue to the horizon.
 constexpr const char* risky_problem = R"(domain risky {
     types { lamp : object; };
     pvariables {

@@ -42,7 +42,7 @@ class Floats : public Program {
     }
 };
 
-// Of reals; of those greater than 1 as a part of them. All else is the same.
+// The tolerance of reals; relative for those greater than 1. All else is the same.
 constexpr double tolerance = 1e-4;
 
 void expect_near(const json& found, const json& exact, const std::string& where) {

@@ -1,4 +1,4 @@
-// What users see of rddl fmt.
+// The behaviour of rddl fmt as users see it.
 #include "program.hpp"
 
 #include <sys/stat.h>
@@ -103,7 +103,7 @@ TEST_F(Fmt, RefusesOptionsThatContradict) {
     EXPECT_EQ(run("fmt").status, 2);
 }
 
-// As docs/commands.md says: a file is replaced as a whole, not written through.
+// docs/commands.md promises it: a file is replaced as a whole, not written through.
 TEST_F(Program, FollowsSymbolicLinksAndLeavesHardOnes) {
     const std::string text = "domain   d { pvariables { }; cpfs { }; reward = 0; }\n";
     write_file(folder_ / "file.rddl", text);

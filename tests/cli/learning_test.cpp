@@ -78,7 +78,7 @@ TEST_F(LearningProgram, TrainsEvaluatesAndCompares) {
               compared["policies"][2]["return"]["mean"]);
 }
 
-// Killed at any moment, a run goes on as if nothing had happened.
+// A run that is killed at any moment resumes as if nothing had happened.
 TEST_F(LearningProgram, GoesOnAfterItWasKilled) {
     for (const char* const network : {"", "--activation relu ", "--recurrent 8 --segment 10 "}) {
         std::filesystem::remove_all(folder_ / "parts");
@@ -96,7 +96,8 @@ TEST_F(LearningProgram, GoesOnAfterItWasKilled) {
     }
 }
 
-// With a memory, too: a trace by a policy file earns what its evaluation tells.
+// This also holds with a memory: a trace by a policy file has the return that its evaluation
+// reports.
 TEST_F(LearningProgram, RemembersInEveryCommand) {
     const std::string maze = " " RDDL_EXAMPLES "/t_maze/domain.rddl " RDDL_EXAMPLES
                              "/t_maze/instance.rddl --engine interpreter ";
@@ -114,7 +115,7 @@ TEST_F(LearningProgram, RemembersInEveryCommand) {
     const json random =
         run_json("evaluate" + maze + "--policy r/last.json --stochastic --episodes 60 --json");
     EXPECT_GT(random["policies"][0]["return"]["mean"], 3.5);
-    // Whoever has another network cannot go on with it.
+    // A run with another network cannot be resumed.
     const Outcome other = run("train ppo" + maze + "--recurrent 8 --resume --out r");
     EXPECT_EQ(other.status, 1);
     expect_part(other.err, "it is of a run with other options: --envs was 16 and is 64, ");
@@ -131,7 +132,7 @@ TEST_F(LearningProgram, CtrlCSavesAndEnds) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run/policy.json"));
 }
 
-// In the middle of an update, which is made anew: what comes of it is the same to the byte.
+// Ctrl-C comes in the middle of an update, which is made again: the result is the same to the byte.
 TEST_F(LearningProgram, GoesOnAfterCtrlCAsIfNothingHadHappened) {
     const std::string ppo =
         "ppo --steps 9600 --envs 16 --rollout 200 --minibatch 800 --epochs 60 "
@@ -163,7 +164,7 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     const auto refuses = [&](const std::string& sentence, const std::string& more = "") {
         const Outcome outcome = run(on_tanks("train cgp", options + "--resume " + more));
         EXPECT_EQ(outcome.status, 1);
-        expect_part(outcome.err, "cannot go on from 'c/checkpoint': " + sentence);
+        expect_part(outcome.err, "cannot resume from 'c/checkpoint': " + sentence);
     };
     for (const std::size_t at :
          {std::size_t{20}, std::size_t{26}, whole.size() / 2, whole.size() - 1}) {
@@ -175,12 +176,12 @@ TEST_F(LearningProgram, RefusesCheckpointsThatAreNotAsTheyWere) {
     write_file(file, whole.substr(0, whole.size() - 1));
     refuses("it is damaged");
     write_file(file, whole.substr(0, 10));
-    refuses("it is no checkpoint, or one of another version of this program");
+    refuses("it is not a checkpoint, or one of another version of this program");
     std::filesystem::resize_file(file, 100'000'000'000);
     refuses("it has 93.1 GiB, more than the limit of 4 GiB");
     std::filesystem::remove(file);
     std::filesystem::create_symlink("/dev/zero", file);
-    refuses("it is no checkpoint, nor a file");
+    refuses("it is not a regular file");
     std::filesystem::remove(file);
     write_file(file, whole);
     const Outcome ppo = run(on_tanks("train ppo", "--resume --out c"));
@@ -225,7 +226,7 @@ instance i {{ domain = d; non-fluents = n; horizon = 9; discount = 1.0; }}
     expect_part(
         cgp.err,
         "no evaluation has a finite return: the reward of step 4 of episode 0 is not finite");
-    // Who chooses well never meets it.
+    // A policy that chooses well never meets the fault.
     std::filesystem::remove_all(folder_ / "cgp");
     write_file(folder_ / "some.rddl", problem("if (up) then 1.0 else exp[800.0 + x]"));
     const Outcome some = train("cgp some.rddl --gens 30");
@@ -249,13 +250,12 @@ TEST_F(LearningProgram, ReplaysRecordedPlans) {
         run_json("compare" + car + "--policies noop,plan.jsonl --episodes 3 --json");
     EXPECT_EQ(compared["policies"][1]["return"]["max"], random["return"]["mean"]);
     EXPECT_NE(compared["policies"][0]["return"]["max"], random["return"]["mean"]);
-    // What is recorded of another problem, or holds no action, is refused.
+    // A trace of another problem, or without actions, is refused.
     EXPECT_NE(run(on_tanks("evaluate", "--policy plan.jsonl")).err.find("plan.jsonl', line 1"),
               std::string::npos);
     write_file(folder_ / "empty.jsonl", "\n");
-    EXPECT_NE(
-        run(on_tanks("evaluate", "--policy empty.jsonl")).err.find("there is no action in it"),
-        std::string::npos);
+    EXPECT_NE(run(on_tanks("evaluate", "--policy empty.jsonl")).err.find("it holds no actions"),
+              std::string::npos);
 }
 
 // Width and height in the header of a PNG file.
@@ -284,7 +284,8 @@ TEST_F(LearningProgram, DrawsLearningCurvesAndComparisons) {
     EXPECT_NE(read_file(folder_ / "a.svg").find("<svg"), std::string::npos);
     // A band about one curve, or two curves.
     ASSERT_EQ(run("plot runs/tanks_cgp_0/ runs/tanks_cgp_1 --size 640x480 --png b.png").status, 0);
-    // Another number than the seed is no seed: two curves, though the runs are the same.
+    // A number in a name that is not the seed does not group runs: two curves, though the runs are
+    // the same.
     std::filesystem::create_directories(folder_ / "lambdas");
     for (const char* const children : {"4", "8"})
         std::filesystem::copy(folder_ / "runs/tanks_cgp_0",
@@ -295,7 +296,7 @@ TEST_F(LearningProgram, DrawsLearningCurvesAndComparisons) {
     ASSERT_EQ(run(lambdas + "--png each.png --each").status, 0);
     EXPECT_EQ(read_file(folder_ / "l.png"), read_file(folder_ / "each.png"));
     write_file(folder_ / "lambdas/lambda_4/run.json", "{\"seed\": -1}");
-    EXPECT_NE(run("plot lambdas/lambda_4").err.find("does not tell the seed"), std::string::npos);
+    EXPECT_NE(run("plot lambdas/lambda_4").err.find("does not state the seed"), std::string::npos);
     ASSERT_EQ(run("plot runs --each --size 640x480 --png c.png").status, 0);
     EXPECT_NE(read_file(folder_ / "a.png"), read_file(folder_ / "c.png"));
     const Outcome wrong = run("plot runs --y rollout/loss");
@@ -332,7 +333,7 @@ TEST_F(LearningProgram, ExportsWhatItLearned) {
                   read_file(folder_ / fmt::format("{}/policy.json", policy)));
     }
     EXPECT_GT(read_file(folder_ / "out.onnx").size(), 500u);
-    // Where acting at random earned much more while it learned, evaluations say so.
+    // Evaluations say so if random actions had a much higher return during learning.
     for (const auto& [returns, is_told] :
          {std::pair{"1000000", true}, {"-1000000", false}, {"x", false}}) {
         write_file(folder_ / "p/progress.csv", fmt::format("rollout/ep_rew_mean\n{}\n", returns));
@@ -372,11 +373,11 @@ TEST_F(LearningProgram, RefusesWhatCannotBe) {
     refuses(on_tanks("train cgp", "--lambda 65536 --episodes 1000000"),
             "try a smaller --lambda, --episodes or --islands, or a larger --memory-limit");
     refuses(on_tanks("train cgp", "--cols 1000000 --lambda 60000"), "CGP would take about ");
-    // Where nobody asks for so many steps, fewer are made.
+    // Fewer steps are made unless the user asks for so many.
     const Outcome fitting = run(on_tanks("train ppo", "--steps 100 --memory-limit 2M --out f"));
     EXPECT_EQ(fitting.status, 0) << fitting.err;
     expect_part(fitting.err, " in place of 128, since this problem is large");
-    refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is no function of CGP");
+    refuses(on_tanks("train cgp", "--functions add,nothing"), "'nothing' is not a CGP function");
     refuses(on_tanks("train ppo", "--resume --out nowhere"), "cannot read");
     refuses(on_tanks("evaluate", "--policy nothing"), "neither random, noop, rddl");
     write_file(folder_ / "broken.json",

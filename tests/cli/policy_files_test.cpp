@@ -1,4 +1,4 @@
-// Where policies and checkpoints meet a simulator: which they fit, and which files are refused.
+// Policies and checkpoints that meet a simulator: which they fit, and which files are refused.
 #include "program.hpp"
 
 #include <chrono>
@@ -52,12 +52,12 @@ TEST_F(PolicyFiles, AreResumedInTheSameDynamicsOnly) {
     const std::vector<Change> changes = {
         {"domain.rddl", "then 2.0 else", "then 3.0 else", "a CPF, the reward"},
         {"domain.rddl", "reward = (", "reward = 1.0 + (", "a CPF, the reward"},
-        {"domain.rddl", "extra <= 1.0", "extra <= 2.0", "what is seen or done has changed"},
+        {"domain.rddl", "extra <= 1.0", "extra <= 2.0", "observations or actions have changed"},
         {"domain.rddl", "<= 8.0", "<= 7.0", "a CPF, the reward, a condition"},
         {"domain.rddl", "[water(?t) < 0.0]", "[water(?t) < -1.0]", "a condition"},
         {"domain.rddl", "real, default = 5.0", "real, default = 6.0", "the initial state"},
         {"instance.rddl", "LEAK(t2) = 0.25", "LEAK(t2) = 0.5", "a non-fluent"},
-        {"instance.rddl", "t3 }", "t3, t4 }", "what is seen or done has changed"},
+        {"instance.rddl", "t3 }", "t3, t4 }", "observations or actions have changed"},
         {"instance.rddl", "horizon = 12", "horizon = 13", "the horizon was 12 and is 13"},
         {"instance.rddl", "discount = 0.9", "discount = 0.5", "the discount was 0.9 and is 0.5"},
         {"instance.rddl", "instance tanks_1", "instance tanks_2",
@@ -111,7 +111,7 @@ TEST_F(PolicyFiles, ActInOtherInstancesOfTheSameSpaces) {
             if (policy == "lifted")
                 EXPECT_EQ(larger.status, 0) << larger.err;
             else
-                refuses(larger, "where what is seen or done is not as in tanks_2");
+                refuses(larger, "whose observations or actions differ from those of tanks_2");
         }
     change("domain.rddl", "domain tanks", "domain basins");
     for (const char* const file : {"instance.rddl", "larger.rddl"}) {
@@ -137,11 +137,28 @@ TEST_F(PolicyFiles, OfTwoInAFolderRunJsonSaysWhich) {
     std::filesystem::copy(folder_ / "p/run.json", folder_ / "r/run.json",
                           std::filesystem::copy_options::overwrite_existing);
     EXPECT_EQ(mean_of("r"), mean_of("r/policy.json"));
-    for (const char* const run_json : {"", "[]", "{\"solver\":1}", "{\"solver\":\"x\"}", "1e999"}) {
+    std::filesystem::remove(folder_ / "r/run.json");
+    refuses(run("evaluate" + on("instance.rddl", "--policy r")),
+            "holds policy.cgp and policy.json, and no run.json that says which");
+}
+
+TEST_F(PolicyFiles, OfAFolderWhoseRunJsonMakesNoSenseAreRefused) {
+    ASSERT_EQ(train("cgp", "--gens 4 --out r").status, 0);
+    const std::pair<std::string, const char*> wrong[] = {
+        {"", "is not the JSON of a run"},
+        {"[]", "is not the JSON of a run: it is not an object"},
+        {"{\"solver\":1}", "'solver' is a text, not 1"},
+        {"{\"solver\":\"cgp\",\"domain\":[2]}", "'domain' is a text, not [2]"},
+        {"{\"solver\":\"x\"}", "'x' is neither ppo nor cgp"},
+        {"{\"seed\":1}", "does not state the solver of a run"},
+        {"1e999", "is not the JSON of a run"},
+        {"{\"solver\":\"ppo\"}", "there is no policy.json in the folder 'r'"}};
+    for (const auto& [run_json, message] : wrong) {
         write_file(folder_ / "r/run.json", run_json);
-        refuses(run("evaluate" + on("instance.rddl", "--policy r")),
-                "holds policy.cgp and policy.json, and no run.json that says which");
+        refuses(run("evaluate" + on("instance.rddl", "--policy r")), message);
     }
+    std::filesystem::remove(folder_ / "r/run.json");
+    EXPECT_EQ(run("evaluate" + on("instance.rddl", "--policy r")).status, 0);
 }
 
 TEST_F(PolicyFiles, OfAnEarlierRunAreRemovedOnceThereAreNewOnes) {
@@ -310,8 +327,8 @@ TEST_F(PolicyFiles, CtrlCIsHeardWithinAChoiceAmongThousands) {
         }
 }
 
-// Where each of many objects may get one of many, so random actions give most of them one: they are
-// not drawn freely and repaired until hardly any is left.
+// Each of many objects may get one of many, so random actions give most of them one: they are not
+// drawn freely and repaired until hardly any is left.
 TEST_F(PolicyFiles, RandomActionsKnowWhatExcludesEachOther) {
     std::string items = "i0", people = "p0";
     for (int i = 1; i < 30; ++i) {

@@ -50,7 +50,7 @@ TEST_F(PolicyProgram, RunsFromAFile) {
     EXPECT_NE(without_speed(run_json(run_it + " --seed 4" + interpreted)), summary);
 }
 
-// What a trace says about the steps.
+// The part of a trace about the steps.
 std::string steps_of(const std::string& trace) {
     return trace.substr(trace.find('\n'));
 }

@@ -1,4 +1,4 @@
-// What run and replay do about actions that violate a precondition.
+// The treatment of actions that violate a precondition, by run and replay.
 #include "program.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +103,7 @@ TEST_F(Strict, TakesTheDefaultActionInstead) {
     EXPECT_EQ(taken["state"]["water___t2"], 8.0);
 }
 
-// What is said of a condition that fails after {"a(o2)": true, "r": 2.5}.
+// The explanation of a condition that fails after {"a(o2)": true, "r": 2.5}.
 struct Failing {
     const char* condition;
     const char* note;

@@ -1,5 +1,5 @@
-// The rddl program as a user runs it, in a folder of its own with a small problem. What it compiles
-// is kept for all tests, but for those of the cache.
+// The rddl program as a user runs it, in a folder of its own with a small problem. All tests share
+// compiled code, except those of the cache.
 #pragma once
 
 #include <fmt/format.h>
@@ -70,7 +70,8 @@ inline nlohmann::json without_speed(nlohmann::json summary) {
     return summary;
 }
 
-// Every episode ends with a fault in its first step that may fault; with a chance of 0 none does.
+// Every episode ends with a fault in its first step that may fault; with a chance of 0 no episode
+// does.
 inline std::string faulty_problem(const std::string& chance) {
     return "domain faulty { pvariables { bad : { state-fluent, bool, default = false }; };\n"
            "  cpfs { bad' = Bernoulli(if (bad) then 1.5 else " +

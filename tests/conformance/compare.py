@@ -33,7 +33,7 @@ class Column:
 
 @dataclass
 class Findings:
-    """What comparing one instance with one engine gave."""
+    """The result of comparing one instance with one engine."""
 
     exact_values: int = 0  # compared one by one
     worst_difference: float = 0.0  # relative, of reals
@@ -65,7 +65,7 @@ def compare_transitions(
 
 
 def compare_draws(problem: Problem, point: DrawPoint, found: Columns, findings: Findings) -> None:
-    """At one state and action: what is not random value by value, the rest in distribution."""
+    """Compares at one state and action: deterministic values one by one, the rest in distribution."""
 
     description_of_start = describe_start(point.state, point.action)
 
@@ -112,8 +112,8 @@ def relative_difference(expected: np.ndarray, found: np.ndarray) -> np.ndarray:
 
 
 def statistics(column: Column, expected: Columns, found: Columns):
-    """One sample for each value of the column, and one of their sum, which tells whether values
-    that are drawn together hang together as they should."""
+    """One sample for each value of the column, and one of their sum, which shows whether values
+    that are drawn together depend on each other as they should."""
     first, second = expected[column.name], found[column.name]
     for index, label in enumerate(column.labels):
         yield label, first[:, index], second[:, index]

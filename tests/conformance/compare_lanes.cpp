@@ -1,12 +1,12 @@
-// Steps the same environments one by one, in packs, and in packs by two threads, and compares
-// all bits of what they tell.
+// Steps the same environments one by one, in packs, and in packs by two threads, and compares all
+// bits of their outputs.
 //
 //     compare_lanes SIMULATOR.so STEPS ENVIRONMENTS
 //
 // Every second environment takes a choice (one value that is not the default), the others any
-// action: every value drawn within its bounds. Preconditions are not heeded, so that faults are
-// compared, too. Prints what was compared. Exit status: 0 if all agree, 1 if not, 2 if nothing
-// could be compared.
+// action: every value drawn within its bounds. Preconditions are ignored, so that faults are also
+// compared. Prints what was compared. Exit status: 0 if all agree, 1 if not, 2 if nothing could be
+// compared.
 #include "stepping.hpp"
 
 #include <dlfcn.h>
@@ -35,19 +35,19 @@ int main(int argument_count, char** arguments) {
     const int steps = std::atoi(arguments[2]);
     const int count = std::atoi(arguments[3]);
     const int lanes = simulator.lane_count;
-    Batch scalar(simulator, count, 1, 1);
-    Batch packs(simulator, count, lanes, 1);
-    Batch threads(simulator, count, lanes, 2);
+    ObservedBatch scalar(simulator, count, 1, 1);
+    ObservedBatch packs(simulator, count, lanes, 1);
+    ObservedBatch threads(simulator, count, lanes, 2);
     Records actions(simulator, static_cast<std::size_t>(count), RDDL_ACTION);
     std::int64_t ends = 0, faults = 0;
     for (int step = 0; step < steps; ++step) {
         actions.draw();
-        for (Batch* const batch : {&scalar, &packs, &threads}) batch->step(actions.records);
+        for (ObservedBatch* const batch : {&scalar, &packs, &threads}) batch->step(actions.records);
         for (const std::uint8_t causes : scalar.told.causes) {
             ends += causes != RDDL_RUNNING;
             faults += (causes & RDDL_FAULTED) != 0;
         }
-        for (const Batch* const other : {&packs, &threads})
+        for (const ObservedBatch* const other : {&packs, &threads})
             if (const char* const what = difference(scalar.told, other->told)) {
                 std::printf("%s differ in step %d%s\n", what, step,
                             other == &threads ? ", with two threads" : "");

@@ -33,7 +33,8 @@ class Programs:
     folder: Path
 
     def precompile(self):
-        """The headers, which are most of what a check reads; without a warning, too."""
+        """Compiles the headers, which are most of what a check reads; this must also give no
+        warning."""
         for compiler in self.options.compilers:
             folder = self.folder_of(compiler)
             folder.mkdir()
@@ -84,7 +85,7 @@ class Programs:
 
 
 def failure_of(command: list) -> str:
-    """What it says if it fails."""
+    """Returns the command's errors if it fails."""
     result = subprocess.run(list(map(str, command)), capture_output=True, text=True)
     return "" if result.returncode == 0 else result.stderr[:3000] or f"status {result.returncode}"
 

@@ -1,4 +1,4 @@
-"""Steps the same environments one by one and in packs, and compares all bits of what they tell.
+"""Steps the same environments one by one and in packs, and compares all bits of their outputs.
 
     .venv/bin/python tests/conformance/lanes.py                     the smallest instance of each problem
     .venv/bin/python tests/conformance/lanes.py --all               all 586 instances

@@ -22,7 +22,7 @@ KINDS = ("fluents", "terminations", "invariants", "preconditions")
 
 
 def problem(counts: dict[str, int]) -> str:
-    """With so many fluents of both roles and conditions; the types of the fluents change now and then."""
+    """A problem with so many fluents of both roles and conditions; the types of the fluents vary."""
     fluents = range(max(2, counts.get("fluents", 0)))
     lines = ["domain many { pvariables {"]
     kinds = ["real, default = 0.5", "real, default = 1.5", "int, default = 3", "bool, default = true"]

@@ -74,7 +74,7 @@ class Problem:
         return random or self.random_reward or self.random_ending
 
     def outcome_fluents(self) -> tuple[Fluent, ...]:
-        """What a step computes, besides reward and end of the episode."""
+        """Returns the fluents that a step computes, besides reward and end of the episode."""
         return self.states + self.observations
 
 

@@ -56,7 +56,8 @@ def faults(
 
 
 def ask(rddl: Path, case: Case, lines: list[str], engine: str) -> tuple[list[dict], bytes]:
-    """What `rddl replay` answers, line by line. The horizon is off: lines are independent steps."""
+    """Returns the answers of `rddl replay`, line by line. The horizon is off: lines are independent
+    steps."""
     with tempfile.TemporaryDirectory(prefix="conformance-") as folder:
         asked, answered = Path(folder, "input.jsonl"), Path(folder, "output.jsonl")
         asked.write_text("".join(lines))

@@ -1,4 +1,4 @@
-"""Which optimisations do something to which problems: each is left out where it counts."""
+"""Finds which optimisations change which problems: each is left out where it counts."""
 
 import json
 import subprocess
@@ -13,8 +13,8 @@ FAST_MATH = ("fast_math", "prove_invariants", "straighten_rows")
 
 
 def cases_without_each(rddlc: Path, cases: list[Case], most: int) -> list[Case]:
-    """For each optimisation the cases, `most` at most, in which it saves most, compiled without it;
-    with all of FAST_MATH for each of these."""
+    """For each optimisation: the cases, `most` at most, in which it saves most, compiled without
+    it; with all of FAST_MATH for each of these."""
     savings: dict[str, list[tuple[float, Case]]] = {}
     for case in cases:
         for name, left in operations_left(rddlc, case).items():
@@ -27,7 +27,7 @@ def cases_without_each(rddlc: Path, cases: list[Case], most: int) -> list[Case]:
 
 
 def operations_left(rddlc: Path, case: Case) -> dict[str, float]:
-    """For each optimisation that does something, which part of the operations it leaves."""
+    """For each optimisation that does something: the part of the operations that it leaves."""
     command = [rddlc, *problem_words(case), "-w", "--fast-math"]
     command += ["--stats=json", "--stop-after=optimise"]
     result = subprocess.run(list(map(str, command)), capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""Which problems are compared: rddlrepository's by name, and the project's own examples."""
+"""Finds the problems to compare: rddlrepository's by name, and the project's own examples."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -116,7 +116,7 @@ def all_problems() -> list[str]:
 
 
 def cases_of(problems: list[str]) -> list[Case]:
-    """All instances of these problems of rddlrepository; of all where none is named."""
+    """Returns all instances of these problems of rddlrepository; of all problems without a name."""
     return [case for problem in problems or all_problems() for case in repository_cases(problem)]
 
 

@@ -23,7 +23,7 @@ def refusals_of(case: Case, plan: RefusalPlan, folder: Path | None) -> Refusals:
 
 
 def kept(case: Case, plan, folder: Path | None, suffix: str, sources: tuple[str, ...], record):
-    """From the folder if it is there, else from the reference."""
+    """Returns the recording from the folder if it is there, else from the reference."""
     if folder is None:
         return record(case, plan)
     mark = fingerprint(case, plan, sources)

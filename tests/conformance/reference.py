@@ -178,7 +178,7 @@ class Reference:
             np.broadcast_to(bound, fluent.shape).reshape(-1).astype(float)
             for bound in self.env._bounds[fluent.name]
         )
-        # Where there is no bound, some tens around the other one, or around 0.
+        # A missing bound becomes some tens away from the other one, or from 0.
         low, high = (
             np.where(np.isfinite(low), low, np.where(np.isfinite(high), high - 20.0, -10.0)),
             np.where(np.isfinite(high), high, np.where(np.isfinite(low), low + 20.0, 10.0)),
@@ -279,7 +279,7 @@ class Reference:
         return not self.simulator.check_terminal_states()
 
     def draw_at(self, starts: list[tuple[Values, Values]], count: int) -> list[DrawPoint]:
-        """Draws from each state under its action, but for those that pyRDDLGym refuses."""
+        """Draws from each state under its action, except for those that pyRDDLGym refuses."""
         points = []
         for state, action in starts:
             try:
@@ -325,7 +325,7 @@ class Plan:
 
 @dataclass
 class Recording:
-    """What the reference did with one instance."""
+    """The behaviour of the reference on one instance."""
 
     problem: Problem
     walk: Transitions

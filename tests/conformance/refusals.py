@@ -1,14 +1,14 @@
-"""Where pyRDDLGym itself stops with an error, ours must report a fault: in the same state, under
-the same action.
+"""Ours must report a fault where pyRDDLGym itself stops with an error: in the same state, under the
+same action.
 
-That happens under actions that the preconditions forbid, which pyRDDLGym executes unless told
-otherwise. So these walks take any action within the bounds and max-nondef-actions.
+That happens under actions that the preconditions forbid, which pyRDDLGym executes by default. So
+these walks take any action within the bounds and max-nondef-actions.
 
 One kind of error we do not share: pyRDDLGym evaluates both branches of an `if` for all objects as
 soon as some take the one and some the other, and so stops at a probability of 1.3 in a branch that
-no object with that probability takes. Ours looks at the branch taken (docs/decisions.md). Such a
-step is found by making it twice, with each improper Bernoulli false and then true: if that changes
-nothing, nobody took its branch, and the step is compared like any other.
+no object with that probability takes. Ours evaluates only the branch taken (docs/decisions.md).
+Such a step is found by making it twice, with each improper Bernoulli false and then true: if that
+changes nothing, no object took its branch, and the step is compared like any other.
 """
 
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ class Refusals:
     """A walk under any actions: what was refused with good reason, and some of the other steps."""
 
     problem: Problem
-    walk: Transitions | None  # none where everything was refused
+    walk: Transitions | None  # None if everything was refused
     refused: list[Refused]
 
 
@@ -68,7 +68,8 @@ class HeedlessReference(Reference):
         return True
 
     def step_without_untaken_branches(self, state: Values, action: Values) -> Values | None:
-        """The outcome of a refused step if the refusal was about a branch that nobody takes."""
+        """Returns the outcome of a refused step if the refusal was about a branch that no object
+        takes."""
         try:
             first, second = (self._step_with(value, state, action) for value in (False, True))
         except REFUSED:

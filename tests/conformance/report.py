@@ -69,6 +69,6 @@ def write_document(reports) -> None:
 
 
 def natural_order(label: str) -> tuple[str, int, str]:
-    """By problem, then by the number of the instance."""
+    """Sorts by problem, then by the number of the instance."""
     problem, _, instance = label.rpartition(" ")
     return problem, int(instance) if instance.isdecimal() else 0, instance

@@ -138,7 +138,7 @@ def compare_bit_for_bit(
 
 
 def chosen_cases(options) -> list[Case]:
-    """With the options with which each is compiled."""
+    """Yields each with the options with which it is compiled."""
     if options.without_each:
         rddlc = options.rddl.with_name("rddlc")
         return cases_without_each(rddlc, named_cases(options), options.cases_each)

@@ -1,4 +1,4 @@
-// Batches of a simulator that take the same random actions, and what they tell.
+// Batches of a simulator that take the same random actions, and their results.
 #pragma once
 
 #include <rddl/simulator.h>
@@ -22,7 +22,7 @@ using Bytes = std::vector<std::uint8_t>;
     std::exit(2);
 }
 
-// What a step tells, and the state after it.
+// The results of a step, and the state after it.
 struct Told {
     Bytes observations, final_observations, states, terminated, truncated, causes;
     std::vector<double> rewards;
@@ -49,9 +49,9 @@ inline const char* difference(const Told& one, const Told& other) {
     return std::memcmp(one.rewards.data(), other.rewards.data(), size) == 0 ? nullptr : "rewards";
 }
 
-class Batch {
+class ObservedBatch {
   public:
-    Batch(const rddl_simulator& simulator, std::int64_t count, int lanes, int threads)
+    ObservedBatch(const rddl_simulator& simulator, std::int64_t count, int lanes, int threads)
         : told(*simulator.problem, static_cast<std::size_t>(count)),
           simulator_(simulator),
           count_(count) {
@@ -65,9 +65,9 @@ class Batch {
         batch_ = simulator.create(&simulator, &options);
         if (!batch_) give_up("no batch");
     }
-    Batch(const Batch&) = delete;
-    Batch& operator=(const Batch&) = delete;
-    ~Batch() { simulator_.destroy(batch_); }
+    ObservedBatch(const ObservedBatch&) = delete;
+    ObservedBatch& operator=(const ObservedBatch&) = delete;
+    ~ObservedBatch() { simulator_.destroy(batch_); }
 
     rddl_batch* get() { return batch_; }
     const rddl_simulator& simulator() const { return simulator_; }
@@ -141,7 +141,7 @@ class Records {
         }
     }
 
-    // Where nothing bounds a number, from -10 to 10.
+    // A number without bounds is drawn from -10 to 10.
     void draw_value(const rddl_fluent& fluent, std::int64_t i, std::uint8_t* at) {
         const double lower = fluent.lower ? std::max(fluent.lower[i], -10.0) : -10.0;
         const double upper = fluent.upper ? std::min(fluent.upper[i], 10.0) : 10.0;

@@ -42,7 +42,7 @@ class CompareTest(unittest.TestCase):
         self.assertGreater(findings.exact_values + len(findings.tests), 30)
 
     def assert_disagrees(self, name: str, old: str, new: str, where: str):
-        """After `old` is replaced by `new` in the domain, `where` is in what is found."""
+        """Replaces `old` by `new` in the domain; then `where` is in the findings."""
         case = example(name)
         text = case.domain_path.read_text()
         self.assertIn(old, text)

@@ -1,4 +1,4 @@
-"""The statistical tests themselves: they let equal distributions pass and tell unequal ones."""
+"""Tests of the statistical tests: they let equal distributions pass and find unequal ones."""
 
 import math
 import unittest

@@ -21,7 +21,7 @@ from problems import ROOT, Case, cases_of
 
 ENGINES = ("compiled", "interpreter")
 
-# Problems whose own text leads to a fault, whatever is done. pyRDDLGym stops there, too (run.py).
+# Problems whose own text leads to a fault under any action. pyRDDLGym also stops there (run.py).
 FAULTY = {"ComplexSysAdmin_rddlsim": "Discrete's weights must not be negative"}
 
 

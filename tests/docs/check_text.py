@@ -1,6 +1,6 @@
-"""What can be seen in the documentation without running it: fails for
+"""Checks the documentation without running it: fails for
 
-* a block without a language, or with one that nobody knows (CONTRIBUTING.md lists them); pages of
+* a block without a language, or with an unknown one (CONTRIBUTING.md lists them); pages of
   diagnostics may hold pieces of RDDL without one, but no commands, which would not be run;
 * a command of rddl, or an option of rddlc or rddl, that does not exist, in blocks and in `code`;
 * a link to a file, or to a heading, that is not there.
@@ -41,7 +41,7 @@ def complaints_about_hidden_commands(page: Path) -> list[str]:
 
 
 class Programs:
-    """What --help tells of rddlc and rddl."""
+    """Returns the --help of rddlc and rddl."""
 
     def __init__(self, folder: Path):
         self.folder = folder
@@ -62,7 +62,7 @@ class Programs:
         return {*listed, "--version", "--help"}
 
     def complaint(self, call: str) -> str | None:
-        """What is wrong with the call of a program, if it is one of ours."""
+        """Returns the error in the call of a program, if it is one of ours."""
         match = PROGRAM.match(call.strip())
         if not match:
             return None

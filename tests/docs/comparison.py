@@ -2,7 +2,7 @@
 
 import re
 
-# What no two machines have in common: times and rates, numbers of threads, vector registers.
+# Output that differs between machines: times and rates, numbers of threads, vector registers.
 TIME = r"(?<![\w.])\d[\d.,]* (?:ns|µs|us|ms|s|min)\b"
 RATE = r"(?<![\w.])\d[\d.,]*(?: [kMG])? steps/s"
 THREADS = r"with \d+ threads?\b"

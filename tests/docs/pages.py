@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 DIAGNOSTICS = ROOT / "docs/diagnostics"
 
-# What a reader runs, what he types into a file, and what programs print. Other languages are quoted.
+# The languages of commands and of their output. Other languages are quoted.
 RUN, PRINTED = "console", "text"
 MARKS = ("file", "files of", "not run", "loosely")
 
@@ -90,7 +90,8 @@ def blocks(page: Path) -> list[Block]:
 
 
 def exchanges(block: Block) -> list[Exchange]:
-    """The commands of a session, each with its output. Lines that end in a backslash go on."""
+    """Returns the commands of a session, each with its output. Lines that end in a backslash
+    continue."""
     found: list[Exchange] = []
     at = 0
     while at < len(block.lines):

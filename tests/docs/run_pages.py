@@ -3,7 +3,7 @@
     run_pages.py --bin build/bin [--build build] [--cache FOLDER] [--python PYTHON] [PAGE...]
 
 Each page is a session in a folder of its own, in which examples/ lies and what the page writes; for the
-page of a diagnostic, the files of a problem, too. With RDDLC_UPDATE=1 in the environment, outputs that
+page of a diagnostic, also the files of a problem. With RDDLC_UPDATE=1 in the environment, outputs that
 differ are written into the page: read the difference.
 """
 
@@ -20,8 +20,8 @@ from comparison import agree
 from pages import DIAGNOSTICS, PRINTED, ROOT, RUN, Block, blocks, exchanges, files, pages, pages_of_diagnostics
 
 SECONDS = 600  # Far beyond what any command takes on a busy machine: only what hangs fails.
-INSTALLED = "~/rddlc"  # Where docs/getting-started.md lets its reader install rddlc.
-CLONED = "$REPOSITORY"  # What readers clone: this tree with all changes, whether it is under git or not.
+INSTALLED = "~/rddlc"  # The folder in which docs/getting-started.md installs rddlc.
+CLONED = "$REPOSITORY"  # The repository that readers clone: this tree with all changes, whether it is under git or not.
 REPOSITORY = "repository.git"
 
 
@@ -114,7 +114,7 @@ def make_repository(folder: Path) -> None:
 
 
 def prepare(page: Path, folder: Path, options: argparse.Namespace, variables: dict[str, str]) -> None:
-    """What must be there before the page begins."""
+    """Creates what the page needs before it begins."""
     shutil.copytree(ROOT / "examples", folder / "examples")
     if page.parent == DIAGNOSTICS:
         shutil.copytree(ROOT / "examples/mountain_car", folder, dirs_exist_ok=True)

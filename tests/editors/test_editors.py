@@ -1,4 +1,4 @@
-"""What editors are given: the words of the TextMate grammar are the language's, and the extension works.
+"""The files for editors: the words of the TextMate grammar are the language's, and the extension works.
 
     RDDLC_BIN=build/bin test_editors.py
 """
@@ -56,9 +56,10 @@ def reserved_words() -> set[str]:
 
 def vocabulary() -> set[str]:
     """Functions, aggregations and distributions, of which not all are reserved."""
-    text = (ROOT / "compiler/model/vocabulary.cpp").read_text()
-    functions = re.findall(r'\{Operator::\w+, "\w+", "(\w+)", \d+, true\}', text)
-    others = re.findall(r'\{(?:Reduction|Distribution)::\w+, "(\w+)"', text)
+    folder = ROOT / "compiler/vocabulary"
+    functions = re.findall(r'\.source = "(\w+)", \.form = Form::(?:Function|Extension)', (folder / "operators.cpp").read_text())
+    others = re.findall(r'\{Reduction::\w+, "(\w+)"', (folder / "vocabulary.cpp").read_text())
+    others += re.findall(r'Distribution::\w+, \.name = "(\w+)"', (folder / "distributions.cpp").read_text())
     assert len(functions) > 25 and len(others) > 25
     return {*functions, *others}
 

@@ -1,4 +1,4 @@
-#include "emit/identifiers.hpp"
+#include "emit/names/identifiers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "emit/line_directives.hpp"
+#include "emit/cpp/line_directives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace {
 TEST(LineDirectives, NameThePlaceInTheSource) {
     Sources sources;
     const FileId file = sources.add("a \"b\".rddl", "one\ntwo\n");
-    EXPECT_EQ(line_directive(sources, {file, 4, 7}), "#line 2 \"a \\\"b\\\".rddl\"\n");
+    EXPECT_EQ(line_directive(sources, {file, 4, 7}), "#line 2 \"a \\\"b\\\".rddl\"");
 }
 
 TEST(LineDirectives, GoBackToTheLineThatFollows) {

@@ -1,4 +1,4 @@
-#include "emit/literals.hpp"
+#include "emit/cpp/literals.hpp"
 
 #include <gtest/gtest.h>
 

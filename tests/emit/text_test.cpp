@@ -121,7 +121,7 @@ TEST(EmittedText, LeavesLargeRecordsToTheStartOfThePrograms) {
     EXPECT_EQ(count(many, "default_action = rddl::made_at_start([] {"), 1u);
 }
 
-// Of 0.5, 1.5, ... divided by 10.
+// The probabilities are 0.5, 1.5, ... divided by 10.
 TEST(EmittedText, ChecksOnlyProbabilitiesThatMayBeNone) {
     const auto with_chances = [](int count) {
         std::string text = problem(count);
@@ -210,7 +210,7 @@ TEST(EmittedText, ManagesLongAndDeepExpressions) {
     EXPECT_LT(result.size(), 1'000'000u);
 }
 
-// Packs compute an argmin in each lane, even if only constants decide it: it is no index in
+// Packs compute an argmin in each lane, even if only constants decide it: it cannot be an index in
 // brackets.
 TEST(EmittedText, IndexesByLanesWhatAnAggregationChooses) {
     std::string text = problem(9);

@@ -41,8 +41,8 @@ inline std::vector<std::string> words(const std::string& text) {
     return words;
 }
 
-// What holds of every text; returns the formatted one. (format_file itself throws if the syntax
-// tree is another.)
+// Checks the properties of every text; returns the formatted one. (format_file itself throws if the
+// syntax tree is another.)
 inline std::string expect_sound(const std::string& text) {
     const std::string once = formatted(text);
     EXPECT_EQ(formatted(once), once) << "formatting again changes the text:\n" << text;

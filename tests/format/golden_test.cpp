@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Format, FormatGolden,
                                            "tables"),
                          [](const auto& name) { return std::string(name.param); });
 
-// What the examples look like is what this layout is measured by.
+// The layout of the examples is the measure of this layout.
 TEST(FormatExamples, AreLaidOutWell) {
     std::size_t files = 0;
     for (const auto& entry :

@@ -1,5 +1,5 @@
-"""What lies at the edge of what passes take for granted: places that a step changes, coefficients
-that round, objects that a draw binds, terms that fault or draw for some objects only."""
+"""Edge cases of the assumptions of passes: places that a step changes, coefficients that round,
+objects that a draw binds, terms that fault or draw for some objects only."""
 
 from rddl_problem import UNSURE, Expr, Fluent
 
@@ -9,7 +9,8 @@ LARGE_FACTORS = ("10000000000.0", "0.0000000001", "4503599627370496.0", "0.00000
 
 
 class Assumptions:
-    """Of a generator (generate.py). Each gives None where the problem lacks what it needs."""
+    """A part of a generator (generate.py). Each method gives None if the problem lacks what it
+    needs."""
 
     # ---------------------------------------------------- bounds at places that a step changes
 
@@ -50,7 +51,7 @@ class Assumptions:
             fluent.values[(name,)] = following if fluent.name == "NEXT" else str(self.rng.randint(-8, 8))
 
     def place(self, own: str | None) -> str:
-        """Which object it is: the same for most expressions of a problem."""
+        """Chooses the object of an expression: the same for most expressions of a problem."""
         chosen = self.usual_place if self.chance(0.85) else self.pick(["own", "turn", "HOME", "NEXT(own)", "NEXT(turn)"])
         return chosen.replace("own", own or "turn")
 
@@ -82,7 +83,7 @@ class Assumptions:
         return Expr(fluent.range, bounded, parts, **about)
 
     def bounds_at_places(self) -> list[Expr]:
-        """As invariants: at one place, or at all of them."""
+        """Returns bounds as invariants: at one place, or at all of them."""
         place = self.problem.types[0].name
         op = self.pick(["<="] * 5 + ["<"]) if self.is_upper else self.pick([">="] * 5 + [">"])
         own = self.fresh_variable()
@@ -97,7 +98,8 @@ class Assumptions:
         return [Expr("bool", f"({body})")]
 
     def clamped_by_table(self, fluent: Fluent) -> Expr | None:
-        """As bounds_of_state demands: by the entry of the object itself, or of one that changes."""
+        """Clamps as bounds_of_state demands: by the entry of the object itself, or of one that
+        changes."""
         names = {name for name, f in self.visible if f.parameters or name == "at"}
         if fluent.name not in ("stock", "cap") or not fluent.parameters or fluent.is_exact() or "COST" not in names:
             return None
@@ -112,7 +114,8 @@ class Assumptions:
         return Expr("real", form.format(whose), (value,), 10, UNSURE)
 
     def bounds_of_state(self) -> list[Expr]:
-        """That a clamp keeps, by constants or by what a table or a state chooses."""
+        """Returns bounds that a clamp keeps, by constants or by an entry that a table or a state
+        chooses."""
         names = {name for name, f in self.visible if f.parameters or name == "at"}
         type_name = self.problem.types[0].name
         if {"stock", "COST"} <= names and self.chance(0.6):
@@ -147,7 +150,7 @@ class Assumptions:
         return Expr("real", f"(sum_{binder} [%s])", (inside,), 40, UNSURE)
 
     def rounded_threshold(self, depth: int) -> Expr | None:
-        """Where one unit in the last place decides."""
+        """A comparison in which one unit in the last place decides."""
         total = self.sum_of_rounded_terms(depth) if self.flavour.wild else None
         if total is None:
             return None

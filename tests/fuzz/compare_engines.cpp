@@ -46,8 +46,8 @@ Simulator interpreted(const json& request) {
     if (!compilation.program) throw std::runtime_error("rejected");
     const double most_operations = rddlc::fuzzing::Exercise{}.most_operations;
     if (rddlc::fuzzing::step_cost(*compilation.program) > most_operations) return nullptr;
-    return rddlc::cli::interpreted_simulator(*std::move(compilation.program),
-                                             std::move(compilation.sources));
+    return rddlc::workbench::interpreted_simulator(*std::move(compilation.program),
+                                                   std::move(compilation.sources));
 }
 
 const rddl_simulator& compiled(void* object, const std::string& name) {
@@ -84,7 +84,7 @@ void make_nan_unique(Told& told, const rddl_problem& problem) {
 
 struct Engine {
     std::string name;
-    std::unique_ptr<Batch> batch;
+    std::unique_ptr<ObservedBatch> batch;
     std::vector<std::int32_t> violated = {};
     Bytes actions = {};
 
@@ -112,10 +112,10 @@ json compare(void* object, const json& request) {
     const rddl_simulator& simulator = compiled(object, request.at("entry").get<std::string>());
     const int lanes = simulator.lane_count, count = lanes + 5, steps = request.value("steps", 12);
     std::vector<Engine> engines;
-    engines.push_back({"interpreter", std::make_unique<Batch>(*oracle, count, 1, 1)});
-    engines.push_back({"single", std::make_unique<Batch>(simulator, count, 1, 1)});
+    engines.push_back({"interpreter", std::make_unique<ObservedBatch>(*oracle, count, 1, 1)});
+    engines.push_back({"single", std::make_unique<ObservedBatch>(simulator, count, 1, 1)});
     if (lanes > 1)
-        engines.push_back({"packs", std::make_unique<Batch>(simulator, count, lanes, 1)});
+        engines.push_back({"packs", std::make_unique<ObservedBatch>(simulator, count, lanes, 1)});
     Records actions(simulator, static_cast<std::size_t>(count), RDDL_ACTION);
     Records states(simulator, static_cast<std::size_t>(count), RDDL_STATE);
     json answer = {{"lanes", lanes},

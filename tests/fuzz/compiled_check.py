@@ -32,7 +32,7 @@ class CompiledChecker:
         self.optimise = "-O0" if seed // 12 // len(levels) % 2 else "-O1"
 
     def check(self, problems: dict[int, Problem], counts: Counter) -> dict[int, Finding]:
-        """What is wrong, by seed."""
+        """The differences, by seed."""
         with tempfile.TemporaryDirectory(prefix="fuzz-") as name:
             folder, found, good = Path(name), {}, []
             for seed, problem in problems.items():

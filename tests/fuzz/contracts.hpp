@@ -14,7 +14,7 @@
 
 namespace rddlc::fuzzing {
 
-// What the header of a pass lets it change.
+// The changes of values that the header of a pass allows.
 Tolerance tolerance_of(std::string_view pass);
 
 // A pass that broke its contract, and how.
@@ -29,9 +29,9 @@ struct Contracts {
     std::vector<Breach> breaches;
 };
 
-// Optimises a valid program, and looks at it after each pass. The contracts are tested one by one:
-// each pass beside the one before it, for that many steps at most; none if that is 0. Throws what
-// the passes throw.
+// Optimises a valid program, and checks it after each pass. The contracts are tested one by one:
+// each pass beside the one before it, for that many steps at most; not at all if that is 0. Throws
+// what the passes throw.
 Contracts check_contracts(const ir::Program& program, const PassOptions& options, Values values,
                           std::uint64_t seed, int steps);
 

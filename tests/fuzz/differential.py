@@ -1,4 +1,4 @@
-"""What one problem does in pyRDDLGym and in rddlc: the same, or where they differ."""
+"""Compares one problem in pyRDDLGym and in rddlc: the same, or the first difference."""
 
 import contextlib
 import io
@@ -25,7 +25,8 @@ REFUSED = (ValueError, ArithmeticError, TypeError, IndexError, SyntaxError, Runt
 
 @dataclass
 class Verdict:
-    """What was compared, and the first difference: its kind, stable while reduced, and its text."""
+    """The comparison's extent, and the first difference: its kind, stable while reduced, and its
+    text."""
 
     values: int = 0
     steps: int = 0
@@ -109,7 +110,7 @@ def random_state(reference: Reference, random) -> dict:
 
 
 def random_action(reference: Reference, random) -> dict:
-    """At most max-nondef-actions values that are not the default."""
+    """Keeps to at most max-nondef-actions values that are not the default."""
     default = reference.default_action()
     wild = {f.name: random_values(f, random) for f in reference.problem.actions}
     return thin(reference, wild, default, random)

@@ -4,7 +4,7 @@ from rddl_problem import UNSURE, Expr, Type
 
 
 class Distributions:
-    """Of a generator (generate.py)."""
+    """A part of a generator (generate.py)."""
 
     def probability(self, depth: int) -> Expr:
         if self.chance(0.5):

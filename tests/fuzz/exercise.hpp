@@ -37,9 +37,9 @@ struct Exercised {
     std::vector<Breach> breaches = {};
 };
 
-// Parses, checks, grounds, optimises and emits; holds every pass to its contract. Expects also that
-// printed syntax reads back as the same tree. Throws Contradiction; what else it throws or stops at
-// is a bug, too. Problems that call external functions are compiled and not run; those with tables
+// Parses, checks, grounds, optimises and emits; holds every pass to its contract. Also expects that
+// printed syntax reads back as the same tree. Throws Contradiction; every other exception or crash
+// is also a bug. Problems that call external functions are compiled and not run; those with tables
 // too large for a file are only grounded.
 Exercised exercise(std::string_view text, const Exercise& how);
 

@@ -112,15 +112,15 @@ struct FileReaders::State {
         fs::create_directories(folder);
     }
 
-    static cli::LoadOptions interpreted() {
-        cli::LoadOptions options;
-        options.engine = cli::Engine::Interpreter;
+    static workbench::LoadOptions interpreted() {
+        workbench::LoadOptions options;
+        options.engine = workbench::Engine::Interpreter;
         options.quiet = true;
         return options;
     }
-    static cli::LoadedProblem load(const fs::path& problem) {
-        return cli::load_problem(cli::find_files(problem.string(), is_folder(problem) ? "1" : ""),
-                                 interpreted());
+    static workbench::LoadedProblem load(const fs::path& problem) {
+        return workbench::load_problem(
+            workbench::find_files(problem.string(), is_folder(problem) ? "1" : ""), interpreted());
     }
 
     fs::path file(const char* name, std::string_view bytes) const {
@@ -137,12 +137,12 @@ struct FileReaders::State {
         solvers::run_episodes(simulator, policy, options, {});
     }
 
-    // As `rddl run --policy` and `rddl export`.
+    // Reads it as `rddl run --policy` and `rddl export` do.
     void read_policy(std::string_view bytes) const {
         const std::string text(bytes);
         const rddl_simulator& of = solvers::is_skdecide_genome(text) ? *plain.simulator : simulator;
         for (const bool random : {false, true})
-            play(of, cli::policy_of_text(of, text, random, 1, "policy"));
+            play(of, workbench::policy_of_text(of, text, random, 1, "policy"));
         if (!solvers::is_program(text)) {
             const auto model = solvers::read_ppo_policy(of, text);
             const std::string again = solvers::ppo_policy_text(of, *model);
@@ -176,7 +176,7 @@ struct FileReaders::State {
         options.quiet = true;
         return options;
     }
-    // As `rddl train --resume`. What was read is not sealed: a fuzzer finds no checksum.
+    // Reads it as `rddl train --resume` does. The bytes are not sealed: a fuzzer finds no checksum.
     void read_checkpoint(bool ppo, std::string_view bytes) const {
         const fs::path run = folder / "run";
         fs::create_directories(run);
@@ -193,26 +193,27 @@ struct FileReaders::State {
     }
 
     void draw(const render::Visualizer& visualizer, std::string_view trace) const {
-        cli::PictureOptions options;
+        workbench::PictureOptions options;
         options.width = 200;
         options.height = 120;
         options.quiet = true;
         options.most_frames = 4;
-        cli::Output output;
-        output.begin = [](const cli::Show&) {
+        workbench::Output output;
+        output.begin = [](const workbench::Show&) {
         };
-        output.add = [](const cli::Drawn& drawn) {
+        output.add = [](const workbench::Drawn& drawn) {
             if (drawn.in_movie) drawn.film.svg();
             return drawn.in_movie;
         };
         output.finish = [] {
         };
-        cli::Reel reel(world, visualizer, options, {output}, {}, "trace");
+        workbench::Reel reel(world, visualizer, options, {output}, {}, "trace");
         each_line(trace, [&](std::string_view line) { reel.add_line(line); });
         reel.finish();
     }
 
-    // As `rddl replay`, `rddl run --policy TRACE`, `rddl verify --states` and `rddl render`.
+    // Reads it as `rddl replay`, `rddl run --policy TRACE`, `rddl verify --states` and `rddl
+    // render` do.
     void read_trace(std::string_view bytes) {
         constexpr std::size_t longest = 100'000;
         std::optional<Failure> refusal;
@@ -224,7 +225,7 @@ struct FileReaders::State {
             }
         };
         attempt([&] {
-            cli::ReplaySession session(simulator, {});
+            workbench::ReplaySession session(simulator, {});
             std::size_t written = 0;
             each_line(bytes, [&](std::string_view line) {
                 // A line may ask for any number of samples.
@@ -233,27 +234,27 @@ struct FileReaders::State {
             });
         });
         const fs::path path = file("trace.jsonl", bytes);
-        attempt([&] { play(simulator, cli::learned_policy(simulator, path, false, 1)); });
+        attempt([&] { play(simulator, workbench::learned_policy(simulator, path, false, 1)); });
         attempt([&] {
-            cli::Record initial(static_cast<std::size_t>(simulator.problem->state_size));
+            workbench::Record initial(static_cast<std::size_t>(simulator.problem->state_size));
             simulator.initial_state(&simulator, initial.data());
-            cli::read_states(path, *simulator.problem, initial);
+            workbench::read_states(path, *simulator.problem, initial);
         });
         attempt([&] { draw(*render::find_visualizer("auto"), bytes); });
         if (refusal) throw Failure(*refusal);
     }
     void read_scene(std::string_view bytes) const {
         const render::Visualizer visualizer =
-            cli::scene_visualizer(loaded.files, file("scene.json", bytes));
+            workbench::scene_visualizer(loaded.files, file("scene.json", bytes));
         draw(
             visualizer,
             R"({"action":{"pour___left":1.0},"next_state":{"depth___left":2.5,"lit___right":true}})");
     }
 
     fs::path folder;
-    cli::LoadedProblem loaded;
+    workbench::LoadedProblem loaded;
     const rddl_simulator& simulator;
-    cli::LoadedProblem plain;
+    workbench::LoadedProblem plain;
     render::World world;
 };
 
@@ -280,12 +281,12 @@ bool FileReaders::read(FileKind kind, std::string_view bytes) {
                 break;
             case FileKind::Run:
                 state_->file("run.json", bytes);
-                cli::description_of(state_->folder);
+                workbench::description_of(state_->folder);
                 break;
             case FileKind::Curves: {
                 state_->file("progress.csv", bytes);
-                const cli::RunProgress run = cli::read_progress(state_->folder);
-                cli::curve_of("run", {run, run}, run.columns.front(), run.columns.back());
+                const workbench::RunProgress run = workbench::read_progress(state_->folder);
+                workbench::curve_of("run", {run, run}, run.columns.front(), run.columns.back());
                 break;
             }
         }

@@ -23,9 +23,9 @@ class FileReaders {
     FileReaders(const FileReaders&) = delete;
     FileReaders& operator=(const FileReaders&) = delete;
 
-    // Reads the file, and does with what was read what the commands do with it: plays, exports,
-    // draws, goes on. True if it was accepted, false if a Failure with a sentence refused it;
-    // everything else that is thrown, a lack of memory too, is a mistake in the reader.
+    // Reads the file, and does with it what the commands do: plays, exports, draws, resumes. True
+    // if it was accepted, false if a Failure with a sentence refused it; every other exception,
+    // also a lack of memory, is a bug of the reader.
     bool read(FileKind kind, std::string_view bytes);
 
     // Files of the kind that are accepted.

@@ -1,4 +1,7 @@
-"""Expressions of each kind, nested to any depth, and what is known about their values."""
+"""Expressions of each kind, nested to any depth, and what is known about their values.
+
+Over 400 lines: a function for each shape.
+"""
 
 import math
 
@@ -25,7 +28,7 @@ LARGEST_WORK = 3000  # of one element
 
 
 class Expressions:
-    """Of a generator (generate.py)."""
+    """A part of a generator (generate.py)."""
 
     # ------------------------------------------------------------------------------- leaves
 
@@ -42,7 +45,7 @@ class Expressions:
         return self.applied(name, fluent, depth)
 
     def applied(self, name: str, fluent, depth: int) -> Expr | None:
-        """With arguments."""
+        """Applies the fluent to arguments."""
         kind = fluent.range
         about = dict(magnitude=fluent.magnitude, fraction=fluent.fraction, finite=fluent.finite)
         if not fluent.parameters:
@@ -87,7 +90,7 @@ class Expressions:
         return Expr("real", self.pick(texts), (), 3, 2)
 
     def said_before(self, kind: str, exact: bool = True) -> Expr | None:
-        """Once more, for what several CPFs compute."""
+        """Repeats an expression, so that several CPFs compute the same."""
         variables = {variable for variable, _ in self.scope}
         names = {name for name, _ in self.visible}
         fluents = {f.name for f in self.problem.fluents} | {f.name + "'" for f in self.problem.fluents}
@@ -135,7 +138,7 @@ class Expressions:
         return self.pick_weighted(options)(depth - 1) or self.leaf("bool")
 
     def number_comparison(self, depth: int) -> Expr:
-        """Of two of the same few values, so that they are equal now and then."""
+        """Compares two of the same few values, so that they are equal now and then."""
         first, second = self.leaf(kind := self.pick(["int", "bool"]), depth), self.leaf(kind, depth)
         return Expr("bool", f"(%s {self.pick(['==', '~=', '<=', '>'])} %s)", (first, second))
 

@@ -1,4 +1,4 @@
-"""What a random problem is for: docs/fuzzing.md."""
+"""The purposes of random problems: docs/fuzzing.md."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ FLAVOURS = {
 
 
 def flavour_of(name: str, seed: int) -> Flavour:
-    """Of wild and finite problems, half draw."""
+    """Half of the wild and finite problems draw."""
     flavour = FLAVOURS[name]
     if flavour.wild or flavour.finite:
         return Flavour(seed % 2 == 0, flavour.wild, flavour.finite)

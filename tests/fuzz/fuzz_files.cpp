@@ -1,5 +1,5 @@
-// The target of libFuzzer for files beside RDDL. The first byte of an input tells of which kind
-// the others are.
+// The target of libFuzzer for files beside RDDL. The first byte of an input says of which kind the
+// others are.
 #include "exercise_file.hpp"
 
 #include <unistd.h>

@@ -1,7 +1,7 @@
 """Random problems, the same in every engine and before and after every pass: docs/fuzzing.md.
 
     .venv/bin/python tests/fuzz/fuzz_models.py passes --models 100000 --state build/fuzz-state
-        every pass held to its contract, by the plain interpreter; goes on where it was stopped
+        every pass held to its contract, by the plain interpreter; continues where it was stopped
     .venv/bin/python tests/fuzz/fuzz_models.py compiled --models 3000
         compiled simulators, single and in packs, against the interpreter
     .venv/bin/python tests/fuzz/fuzz_models.py reference --models 5000

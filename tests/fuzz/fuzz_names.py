@@ -62,19 +62,19 @@ TAKEN = taken_by_rddl()
 
 
 def collect(compilers: list[str]) -> dict[str, list[str]]:
-    """Where a name comes from -> the names, as far as RDDL can spell them."""
-    skeleton = in_files("templates/*", "runtime/rddl/compiled.hpp", "runtime/rddl/simulator*")
-    for emitter in ("names", "functions", "about", "tables", "emit"):
+    """Maps the origins of names to the names, as far as RDDL can spell them."""
+    skeleton = in_files("templates/*", "runtime/rddl/step/compiled.hpp", "runtime/rddl/simulator*")
+    for emitter in ("names/names", "lower/functions", "lower/about", "lower/tables", "emit"):
         strings = re.findall(r'"([^"\n]*)"', (ROOT / f"compiler/emit/{emitter}.cpp").read_text())
         skeleton |= identifiers(" ".join(strings))
-    ours = in_files("runtime/rddl/**/*.h*", "compiler/emit/*.cpp", "generated/*.cpp")
+    ours = in_files("runtime/rddl/**/*.h*", "compiler/emit/**/*.cpp", "generated/*.cpp")
     libraries, macros = set(), set()
     for compiler in compilers:
         for standard in ("-std=c++20", "-std=gnu++20"):
             libraries |= identifiers(preprocessed(compiler, standard, "-P"))
             for line in preprocessed(compiler, standard, "-dM").splitlines():
                 macros |= set(re.findall(r"^#define (\w+)", line))
-    words = identifiers((ROOT / "compiler/emit/reserved_words.cpp").read_text())
+    words = identifiers((ROOT / "compiler/emit/names/reserved_words.cpp").read_text())
     sources = {"skeleton": skeleton, "ours": ours, "macros": macros, "words": words, "libraries": libraries}
     result = {}
     for source, names in sources.items():
@@ -111,7 +111,7 @@ class Names:
         return self.random.choice(self.pool[source])
 
     def varied(self, name: str) -> str:
-        """Such that a name that is made of it is that of something else."""
+        """Varies the name so that a name derived from it is that of something else."""
         choice = self.random.randrange(12)
         if choice == 0:
             name = name.replace("_", "-")

@@ -101,7 +101,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return len(self.problem.type(type_name).members)
 
     def elements(self) -> int:
-        """Of the scope."""
+        """The number of elements of the scope."""
         return math.prod(self.size(of) for _, of in self.scope)
 
     def affordable(self, make, depth: int) -> Expr:
@@ -254,7 +254,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return parameters, body
 
     def remember(self, body: Expr, parameters: tuple[str, ...]) -> None:
-        """For later CPFs of the same parameters, which may say it again."""
+        """Keeps it for later CPFs of the same parameters, which may repeat it."""
         parts = [part for part in body.all() if part.parts and is_closed(part)]
         for part in self.rng.sample(parts, min(3, len(parts))):
             self.said.append((part, part.free_variables(), part.names()))
@@ -270,7 +270,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return Expr("int", form, (value,), 10)
 
     def tame_real(self, fluent: Fluent, depth: int) -> Expr:
-        """A number for a real fluent. What may not be finite gets an interm-fluent of its own."""
+        """A number for a real fluent. A value that may not be finite gets an interm-fluent of its
+        own."""
         exact = fluent.is_exact()
         value = self.as_real(self.affordable(lambda d: self.number(d, rough=not exact), depth))
         if value.finite and value.magnitude <= 10 and (value.fraction <= 2 or not exact):
@@ -298,8 +299,8 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         return Expr("real", "(%s + 0.0)", (value,), value.magnitude + 1, value.fraction, value.finite)
 
     def wild_real(self, fluent: Fluent, value: Expr) -> Expr:
-        """Within bounds, or nan; or infinite: what grows over steps would overflow. Actions are
-        taken to be finite, those of policies, too."""
+        """Bounds the value, or lets it be nan; or infinite: sums over steps would overflow. Actions
+        are assumed finite, also those of policies."""
         if fluent.role == "action-fluent":
             value = self.finite_number(1, True, always=True)
         bounded = Expr("real", "max[-500.0, min[500.0, %s]]", (value,), 10, UNSURE, value.finite)
@@ -344,7 +345,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
         first = self.problem.types[0].name
         own.append(self.declared("memos", "state-fluent", self.pick(["bool", "int"]), (first,)))
         for fluent in own:
-            fluent.values.clear()  # the instance gives none
+            fluent.values.clear()  # the instance gives no values
         derived = self.declared("hint", "derived-fluent", self.pick(["bool", "real"]), (first,))
         seen = self.of("observ-fluent") or self.of("state-fluent")
         memory = [(f.name, f) for f in own]
@@ -372,7 +373,7 @@ class Generator(Tables, Expressions, Distributions, Shapes, Assumptions, Signs, 
 
 
 def is_closed(expr: Expr) -> bool:
-    """It stands in any place without brackets: no chain goes on in it."""
+    """Whether it stands in any place without brackets: no chain continues in it."""
     return expr.form.startswith("(") or re.match(r"[A-Za-z-]+[\[(]", expr.form) is not None
 
 

@@ -7,7 +7,8 @@ TINY = "0." + "0" * 309 + "1"
 
 
 class Matrices:
-    """Of a generator (generate.py). For our own engines alone: numpy eliminates in another order."""
+    """A part of a generator (generate.py). For our own engines alone: numpy eliminates in another
+    order."""
 
     def fluents_of_matrices(self) -> list[Fluent]:
         """Terms of a matrix, its inverse, and random parts of 1."""

@@ -11,10 +11,10 @@
 // itself or takes longer than 20 seconds of the processor.
 #include "exercise.hpp"
 #include "mutator.hpp"
+#include "under_way.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/time.h>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* input_under_way = "fuzz-input.rddl";
-constexpr time_t longest_run = 20;            // seconds of the processor
 constexpr std::size_t longest_seed = 20'000;  // bytes; the time for longer ones is better spent
 
 struct Options {
@@ -84,21 +83,8 @@ std::vector<std::string> words_in(const std::string& file) {
     return words;
 }
 
-// Ends the program when this time is over; 0: never. The time that other programs take is not
-// counted.
-void limit_processor_time(time_t seconds) {
-    const itimerval limit{.it_interval = {}, .it_value = {.tv_sec = seconds, .tv_usec = 0}};
-    setitimer(ITIMER_PROF, &limit, nullptr);
-}
-
-// Leaves the text behind where it does not come back.
-Outcome guarded(const std::string& text, std::uint64_t seed, int steps) {
-    write(input_under_way, text);
-    limit_processor_time(longest_run);
-    const Outcome outcome = exercise(text, seed, steps);
-    limit_processor_time(0);
-    fs::remove(input_under_way);
-    return outcome;
+Outcome outcome_of(const std::string& text, std::uint64_t seed, int steps) {
+    return guarded(input_under_way, text, [&] { return exercise(text, seed, steps); });
 }
 
 void report(const std::array<int, 3>& outcomes) {
@@ -112,9 +98,9 @@ void mutate(const Options& options, const std::vector<std::string>& seeds) {
     const auto count = [&](Outcome outcome) {
         ++outcomes[static_cast<std::size_t>(outcome)];
     };
-    for (const std::string& seed : seeds) count(guarded(seed, 1, options.steps));
+    for (const std::string& seed : seeds) count(outcome_of(seed, 1, options.steps));
     for (int i = 0; i < options.count; ++i) {
-        count(guarded(mutator.next(), static_cast<std::uint64_t>(i), options.steps));
+        count(outcome_of(mutator.next(), static_cast<std::uint64_t>(i), options.steps));
     }
     report(outcomes);
 }

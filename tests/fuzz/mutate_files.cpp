@@ -11,10 +11,10 @@
 // must not or takes longer than 20 seconds of the processor.
 #include "exercise_file.hpp"
 #include "mutator.hpp"
+#include "under_way.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <sys/time.h>
 
 #include <array>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Options {
     std::vector<fs::path> inputs;
 };
 
-// What readers of JSON, of numbers and of lines stumble over.
+// Words that readers of JSON, of numbers and of lines stumble over.
 std::vector<std::string> words() {
     return {"1e400",
             "-1e400",
@@ -82,24 +82,13 @@ std::vector<std::string> words() {
             std::string(300, '9')};
 }
 
-void limit_processor_time(time_t seconds) {
-    const itimerval limit{.it_interval = {}, .it_value = {.tv_sec = seconds, .tv_usec = 0}};
-    setitimer(ITIMER_PROF, &limit, nullptr);
-}
-
 std::string with_kind(FileKind kind, const std::string& bytes) {
     return static_cast<char>('a' + static_cast<int>(kind)) + bytes;
 }
 
-// Leaves the input behind where it does not come back.
-bool guarded(FileReaders& readers, FileKind kind, const std::string& bytes) {
-    constexpr time_t longest = 20;  // seconds of the processor
-    std::ofstream(input_under_way, std::ios::binary) << with_kind(kind, bytes);
-    limit_processor_time(longest);
-    const bool accepted = readers.read(kind, bytes);
-    limit_processor_time(0);
-    fs::remove(input_under_way);
-    return accepted;
+bool is_accepted(FileReaders& readers, FileKind kind, const std::string& bytes) {
+    return guarded(input_under_way, with_kind(kind, bytes),
+                   [&] { return readers.read(kind, bytes); });
 }
 
 // Counts and sizes of a binary file are words of eight bytes.
@@ -134,7 +123,7 @@ std::string with_other_bytes(std::string bytes, std::mt19937_64& random) {
 void damage(FileReaders& readers, FileKind kind, const Options& options) {
     const std::vector<std::string> examples = readers.examples(kind);
     for (const std::string& example : examples)
-        if (!guarded(readers, kind, example))
+        if (!is_accepted(readers, kind, example))
             throw std::runtime_error(
                 fmt::format("a whole file of kind {} is refused", with_kind(kind, "")));
     Mutator mutator(examples, words(), options.seed);
@@ -143,9 +132,9 @@ void damage(FileReaders& readers, FileKind kind, const Options& options) {
     int accepted = 0;
     for (int i = 0; i < options.count; ++i)
         accepted +=
-            guarded(readers, kind,
-                    is_binary ? with_other_bytes(examples[random() % examples.size()], random)
-                              : mutator.next());
+            is_accepted(readers, kind,
+                        is_binary ? with_other_bytes(examples[random() % examples.size()], random)
+                                  : mutator.next());
     fmt::print("kind {}: {} of {} accepted\n", with_kind(kind, ""), accepted, options.count);
 }
 

@@ -24,7 +24,7 @@ class Mutator {
     using Tokens = std::vector<std::string>;
 
     std::size_t below(std::size_t bound) { return random_() % bound; }
-    // Of a token, blanks excepted.
+    // The place of a token, blanks excepted.
     std::size_t place_in(const Tokens& tokens);
     const Tokens& any_seed() { return seeds_[below(seeds_.size())]; }
     std::string any_token(const Tokens& tokens);

@@ -9,10 +9,10 @@ UNSURE = 999  # fraction bits of a real whose last digits depend on rounding
 
 @dataclass(frozen=True)
 class Expr:
-    """An expression, and what is known about its value.
+    """An expression, and facts about its value.
 
     Reals of which few bits are in use are computed without rounding, so that they must be equal
-    everywhere; magnitude and fraction tell how many.
+    everywhere; magnitude and fraction say how many.
     """
 
     kind: str  # bool, int, real or the name of a type
@@ -35,7 +35,7 @@ class Expr:
             yield from part.all()
 
     def bound_variables(self) -> frozenset[str]:
-        """By the expression itself: the binder is a part of its form."""
+        """Variables that the expression itself binds: the binder is a part of its form."""
         return frozenset(variables_in(self.form)) if "_{" in self.form else frozenset()
 
     def free_variables(self) -> frozenset[str]:
@@ -45,7 +45,7 @@ class Expr:
         return inside | frozenset(variables_in(self.form))
 
     def names(self) -> set[str]:
-        """Fluents, with their primes; other words, too."""
+        """Fluents, with their primes; also other words."""
         return set(re.findall(r"(?<![?@\w])[A-Za-z](?:[\w-]*[A-Za-z0-9])?'?", str(self)))
 
 
@@ -67,7 +67,7 @@ class Fluent:
     parameters: tuple[str, ...] = ()
     default: str | None = None
     values: dict[tuple[str, ...], str] = field(default_factory=dict)  # in the instance
-    # Of all its values, at all times.
+    # Properties of all its values, at all times.
     magnitude: int = 6
     fraction: int = 2
     finite: bool = True

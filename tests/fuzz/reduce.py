@@ -1,4 +1,4 @@
-"""Makes a failing problem smaller while it goes on failing in the same way."""
+"""Makes a failing problem smaller while it still fails in the same way."""
 
 import copy
 import time
@@ -61,7 +61,7 @@ def without_conditions(problem: Problem) -> Iterator[Problem]:
 
 
 def without_fluents(problem: Problem) -> Iterator[Problem]:
-    """Those that nobody but themselves mentions."""
+    """Removes fluents that only their own CPFs mention."""
     for fluent in problem.fluents:
         own = {fluent.name, fluent.name + "'"}
         others = [str(body) for name, (_, body) in problem.cpfs.items() if name not in own]
@@ -86,7 +86,7 @@ def without_initial_values(problem: Problem) -> Iterator[Problem]:
 
 
 def with_smaller_types(problem: Problem) -> Iterator[Problem]:
-    """Without its last members, half of them or one, unless the text names one."""
+    """Removes its last members, half of them or one, unless the text names one."""
     used = " ".join(str(e) for e in problem.expressions())
     for type_ in problem.types:
         for count in sorted({len(type_.members) // 2, 1}, reverse=True):
@@ -120,7 +120,7 @@ def with_smaller_expressions(problem: Problem) -> Iterator[Problem]:
 
 
 def smaller_expressions(expr: Expr, scope: frozenset) -> Iterator[Expr]:
-    """With one node replaced by a constant or by a part of itself of the same kind."""
+    """Replaces one node by a constant or by a part of itself of the same kind."""
     if expr.parts:
         for constant in CONSTANTS.get(expr.kind, []):
             yield constant

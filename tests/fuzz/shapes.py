@@ -1,4 +1,7 @@
-"""What passes look for: counts of neighbours, pieces by intervals, masks, thresholds, ..."""
+"""Patterns that passes look for: counts of neighbours, pieces by intervals, masks, thresholds, ...
+
+Over 400 lines: a function for each shape.
+"""
 
 import math
 
@@ -9,7 +12,8 @@ LIMITS = ("-2.4", "0.5", "1.0", "2.25", "10.0")
 
 
 class Shapes:
-    """Of a generator (generate.py). Each gives None where the problem lacks what it needs."""
+    """A part of a generator (generate.py). Each method gives None if the problem lacks what it
+    needs."""
 
     def tables_that_shapes_need(self) -> list[Fluent]:
         """Relations, the ends of intervals, and what they choose from."""
@@ -80,7 +84,7 @@ class Shapes:
         return Expr(kind, head, parts, fluent.magnitude, fluent.fraction, fluent.finite)
 
     def types_of_relations(self) -> list[str]:
-        """Of the parameters of bool tables."""
+        """The types of the parameters of bool tables."""
         return [p for _, f in self.visible if f.range == "bool" for p in f.parameters if self.size(p)]
 
     def masked(self, variables, depth: int) -> Expr:
@@ -197,7 +201,7 @@ class Shapes:
         )
 
     def is_inside(self) -> Expr | None:
-        """Of an interval of the innermost variable."""
+        """Whether a number is in an interval of the innermost variable."""
         variable, type_name = self.scope[-1]
         number = self.number_that_changes()
         ladder = any(name == "LOW" and f.parameters == (type_name,) for name, f in self.visible)
@@ -262,7 +266,7 @@ class Shapes:
         ])(depth)  # fmt: skip
 
     def count_of_factors(self, depth: int) -> Expr | None:
-        """Of pairs, where each bool knows but one of the two."""
+        """Counts pairs, where each bool knows but one of the two."""
         types = self.types_of_relations()
         if not types:
             return None
@@ -299,7 +303,7 @@ class Shapes:
         return self.switch("int", lambda d: self.count(d) or self.constant("int"), min(depth, 1))
 
     def steps_of_count(self, depth: int, kind: str) -> Expr | None:
-        """if none ... else if one ... else ..."""
+        """The value for a count of 0, of 1, and of more."""
         count = self.count(depth)
         if count is None:
             return None
@@ -327,7 +331,7 @@ class Shapes:
         return self.pick_weighted(options)(depth)
 
     def pieces(self, depth: int) -> Expr | None:
-        """Of the interval in which a number lies: a constant, or what the object has."""
+        """The value of the interval in which a number lies: a constant, or a value of the object."""
 
         def body():
             variable = self.scope[-1][0]
@@ -399,7 +403,7 @@ class Shapes:
         return Expr("real", "pow[%s, 2.0]", (number,), 2 * number.magnitude, UNSURE, number.finite)
 
     def sum_of_row(self) -> Expr | None:
-        """Of numbers, over a row of a relation that the scope chooses."""
+        """The sum of numbers over a row of a relation that the scope chooses."""
         relations = [
             f for _, f in self.visible if f.range == "bool" and f.role == "non-fluent" and len(f.parameters) == 2
         ]
@@ -442,8 +446,8 @@ class Shapes:
         return value and Expr(type_name, f"(argmax_{{{variable} : {type_name}}} [%s])", (value,))
 
     def shaped_definition(self, fluent: Fluent) -> Expr | None:
-        """Of a fluent whose every object sums over a row, or knows a line by a count; or of one that
-        is the best object."""
+        """The CPF of a fluent whose every object sums over a row, or knows a line by a count; or of
+        one that is the best object."""
         if fluent.name == "at":
             return self.best_by_state(fluent.range)
         if clamp := self.clamped_by_table(fluent):
@@ -589,7 +593,7 @@ class Shapes:
         return Expr("bool", "(%s == %s)", (draw, other))
 
     def draw_times_constant(self, depth: int) -> Expr:
-        """Whose other factor turns out to be simple."""
+        """A draw times a factor that turns out to be simple."""
         draw = self.pick([
             self.continuous_draw(0), self.counting_draw(0), Expr("real", "Normal(0.0, 1.0)"), self.bernoulli(0),
         ])  # fmt: skip

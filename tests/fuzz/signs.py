@@ -1,14 +1,15 @@
-"""Which sign a zero has: sums to which few or no objects contribute, and what tells their zeros apart."""
+"""Signs of zeros: sums to which few or no objects contribute, and expressions that show their
+zeros' signs."""
 
 from rddl_problem import UNSURE, Expr
 
-# Of one number. What is told by a bool, and by a real.
+# Forms of one number that show the sign of zero: as a bool, and as a real.
 TOLD_BY_BOOL = ("(1.0 / %s > 0.0)", "(1.0 / %s < 0.0)", "(1.0 / %s == -1.0 / 0.0)", "(atan[1.0 / %s] >= 0.0)")
 TOLD_BY_REAL = (
     "max[-9.0, min[9.0, 1.0 / %s]]", "(1.0 / %s)", "atan[2.5 / %s]", "tanh[-1.0 / %s]",
     "(if (1.0 / %s < 0.0) then 3.0 else 4.0)",
 )  # fmt: skip
-# Which zero they give depends on the number.
+# Forms of one number; the sign of their zero depends on the number.
 OF_ONE = (
     "(0.0 - %s)", "(%s - 0.0)", "(%s + 0.0)", "(0.0 + %s)", "(%s + -0.0)", "(-0.0 - %s)", "-(%s)", "-(-(%s))",
     "(0.0 * %s)", "(-0.0 * %s)", "(%s * 1.0)", "(-1.0 * %s)", "(%s / 4.0)", "(%s / -1.0)", "(0.0 / (%s + 2.5))",
@@ -16,7 +17,7 @@ OF_ONE = (
     "pow[%s, 2.0]", "pow[%s, 3.0]", "sqrt[max[%s, -0.0]]", "fmod[%s, 2.5]", "sin[%s]", "(1.0 * round[0.1 * %s])",
     "(if (%s == 0.0) then %s else 1.5)", "(%s - %s)", "(%s + %s)", "(%s * %s)", "tanh[0.5 * %s]",
 )  # fmt: skip
-# Of a bool and a number.
+# Forms of a bool and a number.
 TERMS = (
     "(%s * %s)", "(%s * %s)", "(%s * %s)", "(%s * -(%s))", "(0.0 - %s * %s)", "(if (%s) then %s else 0.0)",
     "(if (%s) then %s else -0.0)", "(%s * (0.0 * %s))", "(-1.0 * %s * %s)", "(%s * %s / 4.0)", "(%s * sqrt[abs[%s]] * -2.5)",
@@ -24,7 +25,8 @@ TERMS = (
 
 
 class Signs:
-    """Of a generator (generate.py): of wild problems only, where zeros and infinities go anywhere."""
+    """A part of a generator (generate.py), for wild problems only, where zeros and infinities go
+    anywhere."""
 
     def bool_by_sign(self, depth: int) -> Expr | None:
         return self.told(TOLD_BY_BOOL, "bool") if self.flavour.wild else None
@@ -54,7 +56,7 @@ class Signs:
         return Expr("real", form, (value,) * form.count("%s"), 20, UNSURE, False)
 
     def term(self, variables) -> Expr:
-        """Of these objects: a zero of either sign for most."""
+        """A term of these objects: for most a zero of either sign."""
         number = self.over("real", variables, None, exact=False) or self.constant("real")
         if self.chance(0.3):
             number = self.with_form(self.pick(OF_ONE), number)
@@ -62,7 +64,8 @@ class Signs:
         return Expr("real", self.pick(TERMS), (counts, number), 20, UNSURE, False)
 
     def sum_of_few(self) -> Expr | None:
-        """Over the objects that a table or an equality chooses, which is often none or one."""
+        """A sum over the objects that a table or an equality chooses, which is often no object or
+        one."""
         types = [of for _, f in self.visible for of in (f.range, *f.parameters) if self.problem.type(of)]
         types = [of for of in types if self.size(of)]
         if not types:

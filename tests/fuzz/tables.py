@@ -18,12 +18,12 @@ LARGE_INTS = (9007199254740993, -9007199254740993, 4611686018427387904, 92233720
 
 
 class Tables:
-    """Of a generator (generate.py)."""
+    """A part of a generator (generate.py)."""
 
     problem: Problem
 
     def sizes(self) -> tuple[int, int]:
-        """Of the two object types: most problems are small enough to be quick."""
+        """The sizes of the two object types: most problems are small enough to be quick."""
         scale = self.rng.choices((FEW, SOME, MANY, VERY_MANY), (30, 50, 15, 5))[0]
         first, second = self.pick(scale), self.pick(FEW + SOME if scale is SOME else FEW)
         if self.chance(0.1):
@@ -44,7 +44,7 @@ class Tables:
             self.give_numbers(fluent)
 
     def give_pattern(self, fluent: Fluent) -> None:
-        """Which elements are not the default."""
+        """Chooses the elements that differ from the default."""
         sizes = [self.size(parameter) for parameter in fluent.parameters]
         if not sizes:
             return
@@ -75,7 +75,7 @@ class Tables:
         return lambda index: len(index) < 2 or abs(index[0] - index[1]) == width
 
     def function_of_row(self, sizes):
-        """At most one in each row, or in each column."""
+        """A pattern with at most one in each row, or in each column."""
         axis = self.pick([0, -1])
         chosen = {}
 

@@ -1,4 +1,5 @@
-"""Tests of the fuzzer itself: that it is repeatable, notices, reduces, goes on, and draws enough."""
+"""Tests of the fuzzer itself: it is repeatable, notices differences, reduces, resumes, and draws
+enough."""
 
 import argparse
 import itertools
@@ -106,7 +107,8 @@ class OfPasses(unittest.TestCase):
             self.assertEqual(self.checker.ask({"text": text.replace("MOST", most)}).outcome, outcome)
 
     def test_each_pass_changes_something_in_a_model_of_a_hundred(self):
-        """Of those in which it runs, with slack: in one of 200 at least. Of both generators."""
+        """The number of problems in which it runs, with slack: in one of 200 at least, of both
+        generators."""
         for generator in GENERATORS:
             changed, models = Counter(), Counter()
             for seed in range(600):

@@ -4,7 +4,7 @@
 #include "ir/interpreter.hpp"
 #include "ir/layout.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ T read(const std::byte* at) {
     return value;
 }
 
-ir::Context context_of(std::uint64_t seed, std::uint32_t step) {
+Context context_of(std::uint64_t seed, std::uint32_t step) {
     return {.key = rddl::stream_key(seed, 0, 0), .step = step, .fault = {}};
 }
 
@@ -114,18 +114,18 @@ Shown shown(const ir::Interpreter& engine, const Situation& at, Record& scratch,
     result.action.resize(engine.action_size());
     result.memory.resize(engine.memory_size());
     if (engine.has_policy()) {
-        ir::Context context = context_of(seed, at.step);
+        Context context = context_of(seed, at.step);
         engine.act(observed(engine, at).data(), at.memory.data(), scratch.data(),
                    result.action.data(), result.memory.data(), context);
         result.of_policy = context.fault;
     }
-    ir::Context conditions = context_of(seed, at.step);
+    Context conditions = context_of(seed, at.step);
     const std::byte* state = at.state.data();
     result.violated_precondition =
         engine.violated_precondition(state, at.action.data(), conditions);
     result.violates_invariant = engine.violates_invariant(state, conditions);
     result.terminal = engine.terminal(state, conditions);
-    ir::Context context = context_of(seed, at.step);
+    Context context = context_of(seed, at.step);
     result.reward = engine.step(state, at.action.data(), scratch.data(), result.next.data(),
                                 result.observation.data(), context);
     result.of_step = context.fault;
@@ -253,7 +253,7 @@ std::vector<Situation> situations(const ir::Program& program, Values values, boo
                   .memory = Record(engine.memory_size()),
                   .action = Record(engine.action_size()),
                   .step = 0};
-    ir::Context reset = context_of(seed, 0);
+    Context reset = context_of(seed, 0);
     engine.reset(now.state.data(), reset);
     if (engine.has_policy()) engine.reset_policy(now.memory.data());
     std::vector<Situation> result;
@@ -284,7 +284,7 @@ Story story(const ir::Program& program, const std::vector<Situation>& situations
     const ir::Interpreter engine(program);
     Story result;
     result.initial.resize(engine.state_size());
-    ir::Context reset = context_of(seed, 0);
+    Context reset = context_of(seed, 0);
     engine.reset(result.initial.data(), reset);
     result.of_reset = reset.fault;
     Record scratch(engine.scratch_size());

@@ -3,7 +3,7 @@
 
 #include "ir/ir.hpp"
 
-#include <rddl/context.hpp>
+#include <rddl/values/context.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace rddlc::fuzzing {
 
 using Record = std::vector<std::byte>;
 
-// What one step starts from.
+// The start of one step.
 struct Situation {
     Record state, observation, memory, action;
     std::uint32_t step;  // decides the draws
 };
 
-// What a program makes of a situation.
+// The results of a program in a situation.
 struct Shown {
     Record next, observation, action, memory;  // the last two by the policy block
     double reward = 0;
     int violated_precondition = -1;
-    // Of the state, and of the next one.
+    // Conditions of the state, and of the next one.
     bool terminal = false, violates_invariant = false;
     bool next_terminal = false, next_violates_invariant = false;
     rddl::FaultRecord of_step, of_conditions, of_policy;
@@ -39,7 +39,7 @@ struct Story {
     std::vector<Shown> steps;
 };
 
-// Which values states and actions have that no step computed.
+// The kinds of values of states and actions that no step computed.
 enum class Values : std::uint8_t {
     Tame,  // small ints, and reals of few bits, so that sums are not rounded
     Wild,  // also ints beyond 2^53, tenths, -0, and, unless the reals have to be moderate, numbers
@@ -55,13 +55,13 @@ std::vector<Situation> situations(const ir::Program& program, Values values, boo
 Story story(const ir::Program& program, const std::vector<Situation>& situations,
             std::uint64_t seed);
 
-// In how far two stories may differ. Bools, ints and objects must be equal in any case.
+// The allowed difference of two stories. Bools, ints and objects must be equal in any case.
 struct Tolerance {
     double relative = 0;      // of reals, or absolute of those below 1; 0: bit for bit
     bool not_finite = false;  // what is nan or infinite in either may be anything
 };
 
-// What differs first, in words. Any nan is like another.
+// The first difference, in words. All nans are equal.
 std::optional<std::string> difference(const ir::Program& program, const Story& expected,
                                       const Story& found, const Tolerance& tolerance);
 

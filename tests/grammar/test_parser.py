@@ -35,7 +35,7 @@ class Parser(unittest.TestCase):
         return " ".join(said.split())  # CMake breaks lines as it likes
 
     def parser(self) -> Path:
-        """That of the build that is tested."""
+        """Returns the version of the build that is tested."""
         made = next(path for name in ("generated", "ready") if (path := options.build / "grammar" / name / "grammar").exists())
         folder = self.folder / "parser"
         folder.mkdir()

@@ -1,4 +1,4 @@
-// Which faults are told before a run, and which are not.
+// Faults that are reported before a run, and those that are not.
 #include "problem.hpp"
 
 #include <vector>

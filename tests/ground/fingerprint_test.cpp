@@ -1,4 +1,4 @@
-// The number by which learners know that a run goes on with the dynamics that it began with.
+// The fingerprint by which learners check that a resumed run has the dynamics that it began with.
 #include "problem.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(DynamicsFingerprint, ChangesWithAllThatATrajectoryDependsOn) {
             << from << " -> " << to;
 }
 
-// Not only with the first values and objects, which are all that --print=model shows.
+// Later values and objects also count, though --print=model shows only the first ones.
 TEST(DynamicsFingerprint, ChangesWithTheLastValueOfALargeTable) {
     std::string objects = "b1";
     for (int i = 2; i <= 40; ++i) objects += ", b" + std::to_string(i);
@@ -75,7 +75,9 @@ TEST(DynamicsFingerprint, DoesNotChangeWithCommentsAndLayout) {
     EXPECT_NE(whole, 0u);
     EXPECT_EQ(fingerprint_of(text), whole);
     EXPECT_EQ(fingerprint_of("// a comment\n" + text), whole);
-    EXPECT_EQ(fingerprint_of(replaced(text, "x + (sum_{?o : obj} R(?o)) * 0.25", "x\n  + (sum_{?o: obj} [R(?o)]) *0.250")), whole);
+    EXPECT_EQ(fingerprint_of(replaced(text, "x + (sum_{?o : obj} R(?o)) * 0.25",
+                                      "x\n  + (sum_{?o: obj} [R(?o)]) *0.250")),
+              whole);
     EXPECT_EQ(fingerprint_of(replaced(text, "R(b2) = 2.5; B(b1, a2);", "B(b1, a2); R(b2) = 2.5;")),
               whole);
 }

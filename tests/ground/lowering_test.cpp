@@ -179,7 +179,7 @@ TEST(Lowering, GivesDiscreteItsWeightsInMemberOrder) {
 }
 
 TEST(Lowering, EvaluatesTheSimpleOperandFirst) {
-    // With the fallible draw on the left, the plain fluent on the right decides.
+    // The fallible draw is on the left; the plain fluent on the right decides.
     EXPECT_EQ(lowered("exists_{?o : obj} [Bernoulli(v(?o)) ^ p(?o)]"),
               "real(exists[o in obj](select(state.p[o], sample bernoulli@0[o](state.v[o]), "
               "false)))");

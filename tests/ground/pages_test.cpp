@@ -1,5 +1,5 @@
-// The pages of docs/diagnostics keep their word: the first example gets the page's diagnostic and
-// no other, the corrected one gets none.
+// Checks the pages of docs/diagnostics: the first example gets the page's diagnostic and no other,
+// the corrected one gets no diagnostic.
 #include "ground/codes.hpp"
 #include "problem.hpp"
 
@@ -48,8 +48,7 @@ TEST_P(PageTest, ShowsWhatTriggersTheCodeAndWhatDoesNot) {
 INSTANTIATE_TEST_SUITE_P(Diagnostics, PageTest,
                          testing::Values(grounding::not_supported_yet,
                                          grounding::contradictory_bounds,
-                                         grounding::too_many_groundings,
-                                         grounding::certain_fault),
+                                         grounding::too_many_groundings, grounding::certain_fault),
                          [](const auto& code) { return to_string(code.param); });
 
 }  // namespace

@@ -71,7 +71,7 @@ inline Grounded ground_text(const std::string& text) {
     return result;
 }
 
-// Of a problem that has no errors.
+// Grounds a problem that has no errors.
 inline ir::Program grounded(const Problem& problem) {
     Grounded result = ground_text(problem.text());
     if (!result.program) throw std::runtime_error(result.messages);

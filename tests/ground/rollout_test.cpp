@@ -4,7 +4,7 @@
 #include "passes/passes.hpp"
 #include "problem.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Rollout {
           action_(engine_.action_size()),
           scratch_(engine_.scratch_size()),
           observation_(engine_.observation_size()) {
-        ir::Context context{.key = rddl::stream_key(1, 0, 0), .step = 0, .fault = {}};
+        Context context{.key = rddl::stream_key(1, 0, 0), .step = 0, .fault = {}};
         engine_.reset(state_.data(), context);
         engine_.default_action(action_.data());
     }
@@ -76,7 +76,7 @@ class Rollout {
   private:
     ir::Interpreter engine_;
     std::vector<std::byte> state_, next_, action_, scratch_, observation_;
-    ir::Context context_{.key = rddl::stream_key(11, 0, 0), .step = 0, .fault = {}};
+    Context context_{.key = rddl::stream_key(11, 0, 0), .step = 0, .fault = {}};
 };
 
 TEST(Rollout, ComputesWhatRddlMeans) {

@@ -3,7 +3,7 @@
 #include "passes/passes.hpp"
 #include "problem.hpp"
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ rddl::FaultRecord fault_of(const ir::Program& program) {
         const ir::Interpreter engine(std::move(which));
         std::vector<std::byte> state(engine.state_size()), next(engine.state_size());
         std::vector<std::byte> action(engine.action_size()), scratch(engine.scratch_size());
-        ir::Context context{.key = rddl::stream_key(1, 0, 0), .step = 1, .fault = {}};
+        Context context{.key = rddl::stream_key(1, 0, 0), .step = 1, .fault = {}};
         engine.reset(state.data(), context);
         engine.step(state.data(), action.data(), scratch.data(), next.data(), nullptr, context);
         return context.fault;
@@ -77,7 +77,7 @@ TEST(Tables, MatricesWithoutAResultFaultWhereTheyAreUsed) {
     const rddl::FaultRecord fault = fault_of(program);
     EXPECT_EQ(fault.kind, rddl::FaultKind::Undefined);
     EXPECT_EQ(program.sites[fault.place.site].what,
-              "the matrix of 'inverse' is singular, or has elements that are no numbers");
+              "the matrix of 'inverse' is singular, or has elements that are not numbers");
     EXPECT_FALSE(fault_of(grounded(matrix_problem("if (x > 9) then " + singular + " else 1"))));
     EXPECT_TRUE(fault_of(grounded(matrix_problem("if (x < 9) then " + singular + " else 1"))));
     EXPECT_FALSE(fault_of(grounded(matrix_problem("det_{?a : obj, ?b : obj} (x - 2)"))));
@@ -90,7 +90,7 @@ TEST(Tables, ServeConditionsToo) {
                        "state-invariants { [det_{?a : obj, ?b : obj} [A(?a, ?b) * x]] < 512; };"));
     const ir::Interpreter engine(optimise(program));
     std::vector<std::byte> state(engine.state_size());
-    ir::Context context;
+    Context context;
     engine.reset(state.data(), context);
     EXPECT_TRUE(engine.terminal(state.data(), context));            // 64 > 62
     EXPECT_TRUE(engine.violates_invariant(state.data(), context));  // 512 < 512
@@ -165,7 +165,7 @@ TEST(Vectors, FaultsNameTheirPlace) {
     EXPECT_EQ(weight.place, (rddl::Place{0, 0}));
 }
 
-// What may fault is not dropped, though nobody reads it.
+// An expression that may fault stays, even if its value is not read.
 TEST(Vectors, StayWhereNobodyReadsThem) {
     Problem problem = vector_problem("0");
     problem.pvariables += "\nw(obj) : { interm-fluent, real };";

@@ -22,7 +22,7 @@ quietly "$cmake" -G Ninja -S "$source/runtime_only" -B "$work/fetched" -DTANK="$
 quietly "$cmake" --build "$work/fetched"
 "$work/fetched/linked" | diff "$expected" -
 
-# Who asks for the compiler where only the runtime is gets a sentence.
+# Asking for the compiler gives a sentence if only the runtime is installed.
 sed 's/COMPONENTS runtime/COMPONENTS compiler/' "$source/runtime_only/CMakeLists.txt" > "$work/CMakeLists.txt"
 if "$cmake" -G Ninja -S "$work" -B "$work/refused" -DTANK=x -DCMAKE_PREFIX_PATH="$work/installed" \
     > "$work/log" 2>&1; then exit 1; fi

@@ -1,4 +1,4 @@
-// Two simulators of the same problem in one program, told apart by their entries.
+// Two simulators of the same problem in one program, distinguished by their entries.
 #include "integration_filled_tank.h"
 #include "tank.h"
 

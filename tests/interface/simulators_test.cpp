@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace rddlc::cli {
+namespace rddlc::workbench {
 namespace {
 
 Simulator load(const std::string& name, Engine engine, bool details = true) {
@@ -71,7 +71,7 @@ TEST(Conditions, AreToldOnOneLine) {
 }
 
 TEST(TreeSearch, GrowsTheSameTreeOnEverySimulator) {
-    // In the middle of an episode, half of the network is down.
+    // Half of the network is down in the middle of an episode.
     const rddl_problem& problem = *networks().at("linked")->problem;
     std::vector<std::byte> root(static_cast<std::size_t>(problem.state_size));
     for (std::size_t i = 0; i < root.size(); i += 2) root[i] = std::byte{1};
@@ -119,7 +119,7 @@ TEST(Constants, AreThoseOfTheInstance) {
 
 TEST(InitialState, IsThatOfAReset) {
     for (const auto& [kind, simulator] : reservoirs()) {
-        const solvers::Batch batch = solvers::create_batch(*simulator, {});
+        const solvers::BatchHandle batch = solvers::create_batch(*simulator, {});
         const auto size = static_cast<std::size_t>(simulator->problem->state_size);
         std::vector<std::byte> reset(size), initial(size);
         simulator->get_state(batch.get(), 0, 1, reset.data());
@@ -139,7 +139,7 @@ TEST(Interm, IsWhatTheLastStepComputed) {
         options.keeps_steps = 1;
         options.autoreset = RDDL_AUTORESET_SAME_STEP;
         options.horizon = 7;
-        const solvers::Batch batch = solvers::create_batch(*simulator, options);
+        const solvers::BatchHandle batch = solvers::create_batch(*simulator, options);
         const auto size = static_cast<std::size_t>(problem.interm_size);
         std::vector<std::byte> interm(size);
         EXPECT_EQ(simulator->get_interm(batch.get(), 17, 1, interm.data()), RDDL_BAD_ARGUMENT);
@@ -178,8 +178,8 @@ TEST(Interm, GoesAlongWithCopies) {
         rddl_batch_options options{};
         options.environment_count = 2;
         options.keeps_steps = 1;
-        const solvers::Batch from = solvers::create_batch(*simulator, options),
-                             to = solvers::create_batch(*simulator, options);
+        const solvers::BatchHandle from = solvers::create_batch(*simulator, options),
+                                   to = solvers::create_batch(*simulator, options);
         const std::vector<double> actions(2 * 4, 1.0);
         const rddl_transition nothing{};
         ASSERT_EQ(simulator->step(from.get(), actions.data(), &nothing), RDDL_OK);
@@ -198,12 +198,12 @@ TEST(Interm, NeedsABatchThatKeepsStepsAndASimulatorWithDetails) {
     const Simulator plain = load("reservoir", Engine::Interpreter, false);
     EXPECT_EQ(plain->problem->interm_size, 0);
     EXPECT_EQ(plain->problem->fluents[fluent_named(*plain, "rain")].offset, -1);
-    const solvers::Batch batch = solvers::create_batch(*plain, {});
+    const solvers::BatchHandle batch = solvers::create_batch(*plain, {});
     double record[16];
     EXPECT_EQ(plain->get_interm(batch.get(), 0, 1, record), RDDL_UNSUPPORTED);
     EXPECT_STREQ(plain->last_error(plain.get()), "the simulator was made without rddlc --details");
     const Simulator& detailed = reservoirs().at("interpreted");
-    const solvers::Batch forgetful = solvers::create_batch(*detailed, {});
+    const solvers::BatchHandle forgetful = solvers::create_batch(*detailed, {});
     EXPECT_EQ(detailed->get_interm(forgetful.get(), 0, 1, record), RDDL_UNSUPPORTED);
     EXPECT_STREQ(detailed->last_error(detailed.get()), "the batch was created without keeps_steps");
 }
@@ -212,7 +212,7 @@ TEST(Violations, NameTheObjects) {
     for (const auto& [kind, simulator] : reservoirs()) {
         rddl_batch_options options{};
         options.environment_count = 3;
-        const solvers::Batch batch = solvers::create_batch(*simulator, options);
+        const solvers::BatchHandle batch = solvers::create_batch(*simulator, options);
         std::vector<double> action = {0, 0, 1e6, 0};
         rddl_violation violation{};
         ASSERT_EQ(simulator->explain_violation(batch.get(), 2, action.data(), &violation), RDDL_OK);
@@ -233,4 +233,4 @@ TEST(Violations, NameTheObjects) {
 }
 
 }  // namespace
-}  // namespace rddlc::cli
+}  // namespace rddlc::workbench

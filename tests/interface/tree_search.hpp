@@ -1,7 +1,7 @@
-// Monte-Carlo tree search against the C interface alone: what a solver's author writes.
+// Monte-Carlo tree search against the C interface alone, as a solver's author writes it.
 //
-// The tree branches over choices of single action values. A node is what has been decided since the
-// root; its state is sampled anew each time, so that one tree serves all outcomes (open-loop
+// The tree branches over choices of single action values. A node is the sequence of decisions since
+// the root; its state is sampled again each time, so that one tree serves all outcomes (open-loop
 // search; L. Kocsis and C. Szepesvári, "Bandit based Monte-Carlo Planning", ECML 2006, with the
 // random numbers of a rollout as its luck).
 #pragma once
@@ -57,7 +57,7 @@ class TreeSearch {
         explicit Node(std::size_t choices) : visits(choices), values(choices), children(choices) {}
         std::vector<std::int64_t> visits;
         std::vector<double> values;
-        std::vector<std::size_t> children;  // 0: none yet
+        std::vector<std::size_t> children;  // 0: no child yet
     };
 
     rddl_batch* create() const {

@@ -3,7 +3,7 @@
 #include "ir/print.hpp"
 #include "programs.hpp"
 
-#include <rddl/ops.hpp>
+#include <rddl/values/ops.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 #include "ir/verify.hpp"
 #include "programs.hpp"
 
-#include <rddl/distributions.hpp>
-#include <rddl/engine.hpp>
-#include <rddl/random.hpp>
+#include <rddl/random/distributions.hpp>
+#include <rddl/random/random.hpp>
+#include <rddl/step/engine.hpp>
 
 #include <gtest/gtest.h>
 

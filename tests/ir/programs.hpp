@@ -11,7 +11,7 @@
 
 namespace rddlc::ir {
 
-// What the state of the workbench looks like as a C struct.
+// The state of the workbench as a C struct.
 struct WorkbenchState {
     bool running[3];
     double level;

@@ -1,4 +1,4 @@
-#include "ir/range.hpp"
+#include "vocabulary/range.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,19 @@ TEST(Range, IsUnknownWhereNanIsPossible) {
     EXPECT_EQ(range_of(Operator::Divide, Ranges{Range{0, 1}, Range{0, 1}}), std::nullopt);
     EXPECT_EQ(range_of(Operator::Ln, Ranges{Range{-1, 2}}), std::nullopt);
     EXPECT_EQ(range_of(Operator::Add, Ranges{Range{0, 1}, std::nullopt}), std::nullopt);
+}
+
+// 1e-50 is 0 as a float.
+TEST(Range, OfNumbersBelowAllFloatsHoldsZero) {
+    const Range tiny{1e-50, 1e-50}, small{1e-30, 1};
+    EXPECT_TRUE(excludes_zero(small));
+    EXPECT_TRUE(excludes_zero(Range{-1, -1e-44}));
+    EXPECT_FALSE(excludes_zero(tiny));
+    EXPECT_FALSE(excludes_zero(Range{-1, -1e-46}));
+    EXPECT_FALSE(excludes_zero(range_of(Operator::Multiply, Ranges{small, small})));
+    EXPECT_EQ(range_of(Operator::Divide, Ranges{Range{1e-20, 1e-20}, tiny}), std::nullopt);
+    EXPECT_FALSE(always_in_domain(Distribution::Exponential, Ranges{tiny}));
+    EXPECT_TRUE(always_in_domain(Distribution::Exponential, Ranges{small}));
 }
 
 bool is_known_finite(const std::optional<Range>& range) {

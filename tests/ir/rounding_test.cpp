@@ -36,7 +36,7 @@ TEST(Rounding, LeavesWhatIsExact) {
     EXPECT_EQ(rounding.product(HUGE_VAL, 2), HUGE_VAL);
 }
 
-// What is left of larger numbers is as uncertain as they are.
+// A small difference of larger numbers is as uncertain as they are.
 TEST(Rounding, ChangesSumsByTheirTerms) {
     const double distance =
         farthest(0.1 + 0.7 - 0.8, [](Rounding& r) { return r.sum(r.sum(0.1, 0.7), -0.8); });

@@ -1,4 +1,4 @@
-// What the user is told: one message an error, with the cause where it can be guessed.
+// Messages for the user: one message an error, with the cause where it can be guessed.
 #include "parsed.hpp"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 namespace rddlc {
 namespace {
 
-// "(a + (b * c))"; what is no operator is printed as it was written.
+// "(a + (b * c))"; expressions other than operators are printed as they were written.
 std::string shape(const ast::Expr& expr) {
     return match(
         expr.node,

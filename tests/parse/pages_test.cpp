@@ -1,5 +1,5 @@
-// The pages of docs/diagnostics keep their word: the first example gets the page's diagnostic,
-// the corrected one gets none.
+// Checks the pages of docs/diagnostics: the first example gets the page's diagnostic, the corrected
+// one gets no diagnostic.
 #include "parse/codes.hpp"
 #include "parsed.hpp"
 
@@ -47,7 +47,7 @@ TEST_P(Page, HasATitle) {
 
 TEST_P(Page, ShowsWhatTriggersTheCodeAndWhatDoesNot) {
     const std::vector<std::string> examples = examples_in(page_of(GetParam()));
-    // What cannot be shown on a page: bytes that are no text, and texts beyond the limits.
+    // Some errors cannot be shown on a page: bytes that are not text, and texts beyond the limits.
     if (examples.empty()) {
         const bool unprintable = GetParam() == not_utf8_text || GetParam() == nested_too_deeply ||
                                  GetParam() == expression_too_long || GetParam() == file_too_large;

@@ -1,4 +1,4 @@
-// Where tests that read all of rddlrepository find it.
+// The place of rddlrepository for tests that read all of it.
 #pragma once
 
 #include <cstdio>

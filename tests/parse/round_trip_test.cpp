@@ -7,7 +7,7 @@
 namespace rddlc {
 namespace {
 
-// What the printed text says, parsed again.
+// Parses the printed text again and compares.
 void expect_round_trip(const Parsed& parsed, Standard standard = Standard::PyRddlGym) {
     ASSERT_FALSE(parsed.diagnostics.has_errors()) << parsed.report();
     const std::string text = ast::print(parsed.program);

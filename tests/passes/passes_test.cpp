@@ -2,10 +2,10 @@
 #include "passes/passes.hpp"
 
 #include "ir/print.hpp"
-#include "passes/fold_constant_expressions.hpp"
-#include "passes/fold_uniform_tables.hpp"
-#include "passes/hoist_aggregations.hpp"
-#include "passes/remove_unused_buffers.hpp"
+#include "passes/aggregations/hoist_aggregations.hpp"
+#include "passes/constants/fold_constant_expressions.hpp"
+#include "passes/constants/fold_uniform_tables.hpp"
+#include "passes/sharing/remove_unused_buffers.hpp"
 #include "texts.hpp"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ TEST(RemoveUnusedBuffers, DropsIntermFluentsThatNobodyReads) {
               "next.x = scratch.used\n");
 }
 
-// Such as what hoist_aggregations puts before the first of two CPFs that need it.
+// hoist_aggregations puts such a buffer before the first of two CPFs that need it.
 TEST(RemoveUnusedBuffers, KeepsTablesOfDefinitionsThatNobodyReads) {
     const std::string sum = "(sum_{?u : obj} [exp[v(?u)] * near(?o, ?u)])";
     ir::Program program =
@@ -131,7 +131,7 @@ TEST(Externals, AreNotCalledForWhatNobodyReads) {
     EXPECT_EQ(names(program, ir::Storage::Constant), "");
 }
 
-// Who observes is told of each run with the program that it left; the last is the result.
+// The observer gets each run with the program that it left; the last is the result.
 TEST(Optimise, TellsWhatEachPassHasMade) {
     std::vector<std::string> told, texts, ran;
     PassOptions options{.without = {"count_bits"}};
@@ -143,7 +143,7 @@ TEST(Optimise, TellsWhatEachPassHasMade) {
     const ir::Program program = grounded(with_tables("sum_{?o : obj} [v(?o) * SAME(?o)]"));
     const ir::Program last = optimise(program, options, &runs);
     for (const PassRun& run : runs) ran.emplace_back(run.name);
-    // Those of the program for moderate values, which has no advantage here, come behind them.
+    // The runs of the program for moderate values, which has no advantage here, follow them.
     ASSERT_EQ(told.size(), 2 * ran.size());
     told.resize(ran.size());
     texts.resize(ran.size());

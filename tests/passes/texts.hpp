@@ -1,4 +1,4 @@
-// What the tests of the passes share: small problems, and the text before and after.
+// Shared parts of the tests of the passes: small problems, and the text before and after.
 #pragma once
 
 #include "passes/report.hpp"
@@ -20,7 +20,7 @@ inline std::string names(const ir::Program& program, ir::Storage storage) {
     return text;
 }
 
-// The line of a table whose name, as it is printed, begins with this; empty if there is none.
+// The line of a table whose printed name begins with this; empty if there is no such table.
 inline std::string table_text(const ir::Program& program, const std::string& name) {
     const std::string text = ir::print(program);
     const std::size_t begin = text.find("    " + name);
@@ -32,7 +32,7 @@ inline ir::Program valid(ir::Program program) {
     return program;
 }
 
-// With objects b1 to b3 of type "obj".
+// A problem with objects b1 to b3 of type "obj".
 inline Problem with_tables(const std::string& cpf_of_x) {
     return {.pvariables =
                 "SAME(obj) : { non-fluent, real, default = 1.5 };\n"

@@ -20,7 +20,8 @@ TEST(Rollouts, ValueActionsByThePolicyThatPlaysOn) {
     EXPECT_EQ(thoughts.depth, 4);
 }
 
-// No-op earns 1 in each of 4 steps; a step of improvement is better by what the last steps gain.
+// No-op has a reward of 1 in each of 4 steps; a step of improvement is better by what the last
+// steps gain.
 TEST(Rollouts, ImproveAPolicy) {
     const double noop = run(reservoir(), "plan:rollout,policy=noop,steps=1", 10).mean();
     const double better = run(reservoir(), "plan:rollout,policy=noop,steps=20000", 10).mean();

@@ -37,7 +37,7 @@ TEST(Uct, BacksUpMeansIfTold) {
     EXPECT_GT(mean, 4);
 }
 
-// Optimal play from rung 1 earns 4.75 on average; a mean of 400 episodes has an error of 0.18.
+// Optimal play from rung 1 has a mean return of 4.75; a mean of 400 episodes has an error of 0.18.
 TEST(Uct, PlaysOptimally) {
     const Played course = run(ladder(), "plan:uct,iterations=3000", 400);
     EXPECT_NEAR(course.mean(), 4.75, 0.55);
@@ -58,7 +58,7 @@ TEST(Uct, SeesWhereNothingChanges) {
     EXPECT_GT(over, 0);
 }
 
-// With few outcomes that are told apart trials go on from those that were seen.
+// With few outcomes that are distinguished, trials go on from those that were seen.
 TEST(Uct, WidensOutcomes) {
     const Played narrow = run(network(), "plan:uct,steps=20000,outcomes=0.5");
     EXPECT_EQ(narrow.summary.illegal_actions, 0);

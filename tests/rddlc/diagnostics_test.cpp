@@ -40,7 +40,7 @@ TEST_F(DiagnosticsOptions, SilenceWarningsOrMakeThemErrors) {
     EXPECT_EQ(rddlc(with({"-Werror"})).status, 1);
     EXPECT_EQ(rddlc(with({"-Werror=" + code})).status, 1);
     EXPECT_TRUE(rddlc(with({"-Werror"}))
-                    .output.ends_with("\n1 error\n'rddlc --explain " + code + "' tells more\n"));
+                    .output.ends_with("\n1 error\n'rddlc --explain " + code + "' explains it\n"));
     EXPECT_EQ(rddlc(with({"-Werror", "-Wno-" + code})).status, 0);
 }
 

@@ -22,7 +22,7 @@ class RddlcTest : public ::testing::Test {
     ~RddlcTest() override;
 
     Result rddlc(const std::vector<std::string>& arguments) const;
-    // With environment variables, "CXX=none", before the program.
+    // Runs it with environment variables, such as "CXX=none", before the program.
     Result rddlc_with(const std::vector<std::string>& environment,
                       const std::vector<std::string>& arguments) const;
 

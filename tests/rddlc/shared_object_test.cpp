@@ -5,7 +5,7 @@
 #include "driver/process.hpp"
 #include "support/diagnostic.hpp"
 
-#include <rddl/processor.hpp>
+#include <rddl/lanes/processor.hpp>
 #include <rddl/simulator.h>
 
 #include <dlfcn.h>
@@ -137,7 +137,7 @@ TEST_F(SharedObject, for_any_processor_gives_the_same_bytes_on_each_instruction_
     }
 }
 
-// Lines of what a program prints; none if it fails.
+// The lines that a program prints; empty if it fails.
 std::vector<std::string> lines_of(const std::vector<std::string>& command) {
     const auto result = run_process(command);
     std::vector<std::string> lines;

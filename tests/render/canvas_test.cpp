@@ -68,7 +68,7 @@ TEST(Canvas, AveragesCellsOfWhichThereAreMoreThanPixels) {
     EXPECT_EQ(at(picture, 119, 100), 0x800080u);
     EXPECT_EQ(at(picture, 120, 100), 0x000000u);
     EXPECT_EQ(at(picture, 119, 101), 0x00ff00u);
-    // As many columns: 3,000 cells of which each third is white.
+    // The same with many columns: 3,000 cells of which each third is white.
     std::vector<std::uint32_t> many(3000);
     for (std::size_t i = 0; i < many.size(); i += 3) many[i] = 0xffffff;
     canvas.cells({0, 200, 500, 1}, 3000, 1, many);
@@ -98,7 +98,7 @@ TEST(Canvas, GoesOnAfterWhatIsNoNumberAndWhatIsFarOff) {
         canvas.read(picture);
         EXPECT_EQ(at(picture, 120, 110), 0xd55e00u) << odd;
     }
-    // A line with an end that nobody knows is not drawn at all, nor is what stands there.
+    // A line with an end that is nan is not drawn, and changes nothing on the canvas.
     canvas.clear(colors::white);
     canvas.line({100, 100}, {std::nan(""), 100}, colors::ink, 9);
     canvas.disc({100, std::nan("")}, 50, colors::ink);

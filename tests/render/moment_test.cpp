@@ -1,4 +1,4 @@
-// What visualizers see of a simulator: of the problem of tests/runtime, which has every kind of
+// The view of visualizers on a simulator: on the problem of tests/runtime, which has every kind of
 // fluent.
 #include "../comma_locale.hpp"
 #include "../runtime/tiny_batch.hpp"
@@ -162,7 +162,7 @@ TEST(Visualizers, ForAnyProblemDrawEveryKindOfFluent) {
 
 class PicturesInCommaLocale : public CommaLocale {
   protected:
-    // Pages, which hold the pictures, too.
+    // The page, which also holds the pictures.
     static std::string drawn() {
         const World world(*tiny::simulator());
         std::string all;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sheets for people to look at: a state as rddl draws it, and beside it as pyRDDLGym does.
+"""Sheets for visual comparison: a state as rddl draws it, and beside it as pyRDDLGym does.
 
     .venv/bin/python tests/render/side_by_side.py FOLDER [--rddl build/bin/rddl] [PROBLEM...]
 
@@ -30,7 +30,7 @@ GAP = 10
 
 
 def trace_of(problem: str, instance: str, rddl: str, folder: Path) -> list[dict]:
-    """The steps of an episode of random actions, which are kept in the folder, too."""
+    """Returns the steps of an episode of random actions, which are also kept in the folder."""
     environment = {"RDDL_REPOSITORY": gallery.repository(), **os.environ}
     trace = folder / "trace.jsonl"
     subprocess.run([rddl, "run", problem, instance, "--engine=interpreter", "--quiet", f"--horizon={STEP}",

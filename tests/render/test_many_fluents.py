@@ -1,6 +1,7 @@
-"""States of 500 values can be read: pictures of the general visualizers, compared with those in many_fluents/.
+"""Pictures of the general visualizers stay readable with 500 values; they are compared with those
+in many_fluents/.
 
-RDDLC_UPDATE=1 writes them anew; look at them then.
+RDDLC_UPDATE=1 writes them again; inspect them then.
 """
 
 import os
@@ -22,7 +23,7 @@ FLUENTS = ("".join(f"level-{k}(tank) : {{ state-fluent, real, default = {k}.0 }}
                    f"is-open-{k}(tank) : {{ state-fluent, bool, default = false }};" for k in range(25)),
            "".join(f"level-{k}'(?t) = level-{k}(?t) + Normal(0, 1); is-open-{k}'(?t) = Bernoulli(0.5);"
                    for k in range(25)), {"tank": 10})
-# Of all kinds, alone and in rows and grids.
+# Fluents of all kinds, alone and in rows and grids.
 MIXED = ("alive(cell) : { state-fluent, bool, default = false }; mode(machine) : { state-fluent, colour, default = @red };"
          "queue(machine) : { state-fluent, int, default = 0 }; height(tank) : { state-fluent, real, default = 0.0 };"
          "ground(x, y) : { state-fluent, bool, default = false }; heat(x, y) : { state-fluent, real, default = 0.0 };"

@@ -83,7 +83,7 @@ class Page(PictureTest):
         self.assertIn("ended: horizon", self.text("figcaption"))
         self.browser.press("Home")
         self.assert_shows(0, steps)
-        # By the tabulator to each control, and on by the keys of a slider.
+        # The tabulator reaches each control, and the keys of a slider move on.
         found = set()
         for _ in range(12):
             self.browser.press("Tab")
@@ -179,7 +179,7 @@ class Page(PictureTest):
         self.rddl("render", "car.jsonl", "--html=page.html", "--beside=<b>&.jsonl")
         self.browser.open(self.folder / "page.html")
         self.assertIn("<b>&.jsonl", self.text(".run-1 .name"))
-        # Of the header of a trace, too, which any program may have written.
+        # The header of a trace is also escaped; any program may have written it.
         header, *steps = (self.folder / "car.jsonl").read_text().splitlines()
         policy = "</script><script>window.hacked = 1</script>\"'&<img src=x onerror='hacked=1'>"
         changed = json.dumps({**json.loads(header), "policy": policy})

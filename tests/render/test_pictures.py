@@ -2,6 +2,8 @@
 
     test_pictures.py [CLASS]       some of the public problems
     test_pictures.py --all         every problem of rddlrepository: PNG and GIF decode, with their sizes
+
+Over 400 lines: a test for each thing that can be seen.
 """
 
 import base64
@@ -111,7 +113,7 @@ class Files(PictureTest):
                          (self.folder / "all/000030.png").read_bytes())
 
     def test_standard_output(self):
-        """For other programs; nothing else stands there, and no file is written."""
+        """Output for other programs: nothing else is printed, and no file is written."""
         self.run_car("--trace=t.jsonl", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html")
         before = self.left_behind()
         for kind in "gif", "png", "svg", "html":
@@ -144,7 +146,7 @@ class Files(PictureTest):
         self.assertNotEqual((self.folder / "other.gif").read_bytes(), picture)
 
     def test_traces_of_other_programs(self):
-        """States alone, without a header: as who steps pyRDDLGym would write them."""
+        """States alone, without a header, as a user of pyRDDLGym would write them."""
         states = [{"state": {"position": -0.5 + 0.01 * k, "velocity": 0.01}} for k in range(5)]
         (self.folder / "t.jsonl").write_text("\n".join(map(json.dumps, states)))
         self.rddl("render", "t.jsonl", EXAMPLE / "domain.rddl", EXAMPLE / "instance.rddl",
@@ -228,7 +230,7 @@ class Movies(PictureTest):
         # A step of 0.05 s takes 0.1 s.
         self.assertEqual(set(self.durations("a.gif")[:-1]), {100})
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", status=USAGE)
-        self.assertIn("does not tell how long a step is", refused.stderr)
+        self.assertIn("does not say how long a step is", refused.stderr)
         refused = self.run_car("--gif=b.gif", "--real-time-factor=1", "--fps=3", status=USAGE)
         self.assertIn("--fps and --real-time-factor both", refused.stderr)
         self.assertEqual(self.left_behind(), ["a.gif"])
@@ -322,7 +324,7 @@ class Errors(PictureTest):
                                 ('{"state": {}, "step": -1}', "'step' is an int from 0 on, not -1"),
                                 ('{"state": {}, "episode": 1.5}', "'episode' is an int from 0 on, not 1.5"),
                                 ('{"state": {}, "episode": 18446744073709551615}', "'episode' is an int from 0 on"),
-                                ('{"state": {}, "step": 9007199254740993}', "'step' is no more than 9007199254740992"),
+                                ('{"state": {}, "step": 9007199254740993}', "'step' is at most 9007199254740992"),
                                 ('{"state": {}, "step": 3}\n{"state": {}, "step": 2}', "comes after")):
             (self.folder / "t.jsonl").write_text(line)
             text = self.refuse("render", "t.jsonl", EXAMPLE / "domain.rddl",
@@ -362,9 +364,9 @@ class Errors(PictureTest):
 
     def test_what_is_no_trace(self):
         (self.folder / "t.bin").write_bytes(bytes(range(256)) * 10)
-        self.assertIn("'t.bin' is no trace: its first line is no JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
+        self.assertIn("'t.bin' is not a trace: its first line is not JSON", self.refuse("render", "t.bin", "--gif=a.gif"))
         text = self.refuse("render", EXAMPLE, "1", "--gif=a.gif")
-        self.assertIn("is a folder, and no trace", text)
+        self.assertIn("is a folder, not a trace", text)
         self.assertIn("rddl run --gif", text)
 
     def test_links_that_lead_nowhere(self):
@@ -376,7 +378,7 @@ class Errors(PictureTest):
         self.assertIn("is empty", self.refuse("render", "t.jsonl", "--gif=a.gif"))
         self.assertIn("cannot read", self.refuse("render", "missing.jsonl", "--gif=a.gif"))
         (self.folder / "t.jsonl").write_text('{"state": {}}\n')
-        self.assertIn("does not tell which problem", self.refuse("render", "t.jsonl", "--gif=a.gif"))
+        self.assertIn("does not say which problem", self.refuse("render", "t.jsonl", "--gif=a.gif"))
         self.trace()
         self.assertIn("has no step of episode 5",
                       self.refuse("render", "t.jsonl", "--gif=a.gif", "--environment=5"))
@@ -418,7 +420,7 @@ class Errors(PictureTest):
 
     def test_a_visualizer_of_another_domain(self):
         done = self.run_car("--png=a.png", "--visualizer=network")
-        self.assertIn("draws a fluent 'running', which this problem has not", done.stderr)
+        self.assertIn("draws a fluent 'running', which this problem lacks", done.stderr)
         self.run_car("--png=b.png", "--visualizer=auto")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
@@ -450,20 +452,21 @@ class Terminal(PictureTest):
         try:
             while chunk := os.read(screen, 1 << 16):
                 text += chunk
-        except OSError:  # how Linux tells that the other end is closed
+        except OSError:  # Linux reports in this way that the other end is closed
             pass
         os.close(screen)
         return text.decode().replace("\r\n", "\n")
 
     def watch(self, *words, **options) -> str:
-        """What the terminal gets of three steps."""
+        """Returns the terminal output of three steps."""
         process, screen = self.start(*words, "--horizon=3", **options)
         text = self.rest_of(screen)
         self.assertEqual(process.wait(), SUCCESS, text)
         return text
 
     def test_progress(self):
-        """While files are drawn, a bar on the terminal that is gone in the end; none with --quiet."""
+        """A bar on the terminal shows that files are drawn, and is wiped at the end; --quiet hides
+        it."""
         self.run_car("--trace=t.jsonl", "--policy=noop", horizon=900)
         for option, bars in ([], True), (["--quiet"], False):
             ours, theirs = pty.openpty()
@@ -531,7 +534,8 @@ class Terminal(PictureTest):
         text = self.run_car("--watch").stdout
         self.assertNotIn("\x1b", text)
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 0  step \d+ / 30", text, re.M)), 31)
-        # With files of one episode all are shown, too, and a trace is the same as ever.
+        # The options for files of one episode do not change that all are shown, and a trace is the
+        # same as ever.
         both = self.run_car("--watch", "--episodes=2", "--gif=a.gif", "--trace=a.jsonl").stdout
         self.assertTrue(both.startswith(text))
         self.assertEqual(len(re.findall(r"^mountain_car_1  episode 1  step \d+ / 30", both, re.M)), 31)
@@ -601,7 +605,7 @@ def draw_every_problem() -> None:
                          "--preconditions=ignore", f"--gif={folder}/a.gif", f"--png={folder}/a.png",
                          "--size=480x320"] + ([f"--visualizer={visualizer}"] if visualizer else [])
                 done = subprocess.run(words, text=True, capture_output=True, env=environment())
-                # Random actions make some problems fault; what came before is drawn.
+                # Random actions make some problems fault; the steps before the fault are drawn.
                 is_fault = done.returncode == DIAGNOSED and "faulted" in done.stderr
                 assert done.returncode == SUCCESS or is_fault, f"{words}\n{done.stderr}"
                 with Image.open(f"{folder}/a.png") as picture:

@@ -20,7 +20,7 @@ class Scenes(PictureTest):
     def test_scenes_that_are_shipped(self):
         for name, (problem, instance, step) in self.DRAWN.items():
             self.rddl("run", problem, instance, "--engine=interpreter", "--quiet", "--png=a.png",
-                      f"--step={step}", f"--scene={ROOT}/runtime/render/scenes/{name}.json",
+                      f"--step={step}", f"--scene={ROOT}/render/scenes/{name}.json",
                       f"--size={gallery.SIZE[0]}x{gallery.SIZE[1]}")
             with Image.open(self.folder / "a.png") as picture:
                 now = numpy.asarray(picture.convert("RGB"), dtype=int)
@@ -104,13 +104,13 @@ class Scenes(PictureTest):
         text = self.draw({"shapes": [{"shape": "circle", "for": {"?w": "wheel"}, "x": "index-wheel(?w)",
                                       "y": "index-wheel(?w)", "radius": 1}]}, status=DIAGNOSED)
         self.assertEqual(text.count("wheel"), 1)
-        # The other expressions are no mistakes, and nothing is told of them.
+        # The other expressions are correct, and nothing is reported about them.
         text = self.draw({"shapes": [{**circle, "x": "positoin", "y": "velocity", "radius": "1 + 1"}]}, status=DIAGNOSED)
         self.assertIn("1 error\n", text)
         self.assertNotIn("warning", text)
 
     def test_mistakes_without_an_expression(self):
-        """What only constants stand beside is looked at, too."""
+        """Members that stand beside constants only are also checked."""
         def told(**members) -> str:
             return self.draw({"world": {"right": 2, "top": 1}, "shapes": [
                 {"shape": "circle", "x": 1, "y": 1, "radius": 1, **members}]}, status=DIAGNOSED)
@@ -125,7 +125,7 @@ class Scenes(PictureTest):
         self.assertIn("more than 256 brackets", told)
 
     def test_too_much(self):
-        """What would take minutes is refused at once."""
+        """A scene that would take minutes is refused at once."""
         circle = {"shape": "circle", "x": "position", "y": 0, "radius": 1}
         self.assertIn("no more than 1000 expressions", self.draw({"shapes": [circle] * 1001}, status=DIAGNOSED))
         many = {**circle, "for": {f"?s{k}": "segment" for k in range(30)}}
@@ -141,7 +141,7 @@ class Scenes(PictureTest):
         self.assertIn("more than 256 brackets", self.draw(text, status=DIAGNOSED))
 
     def test_world_without_limits(self):
-        """It is from 0 to 1, whatever of that is told."""
+        """A world without limits is from 0 to 1, whichever of these are given."""
         shape = {"shape": "circle", "x": 0.5, "y": 0.5, "radius": 0.5}
         pictures = []
         for world in {}, {"world": {}}, {"world": {"right": 1}}, {"world": {"left": 0, "bottom": 0, "right": 1, "top": 1}}:
@@ -179,9 +179,9 @@ class Scenes(PictureTest):
     def test_mistakes_in_the_file(self):
         circle = {"shape": "circle", "x": 0, "y": 0, "radius": 1}
         for scene, complaint in (
-                ("{", "this is no JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
+                ("{", "this is not JSON"), ("[]", "a scene is a JSON object"), ("{}", "an array 'shapes'"),
                 ('{"shapes": [], "shapes": []}', "given twice"), ('{"world": {"left": 1e400}, "shapes": []}', "1e400"),
-                ('{"shapes": [], "about": "\\ud800"}', "this is no JSON"),
+                ('{"shapes": [], "about": "\\ud800"}', "this is not JSON"),
                 ({"shapes": [{}]}, "'shape' of the shape is missing"),
                 ({"shapes": [{"shape": "cirle"}]}, "did you mean 'circle'?"),
                 ({"shapes": [{"shape": "circle"}]}, "'x' of the circle is missing"),

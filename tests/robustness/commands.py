@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted(folder for folder in (ROOT / "examples").iterdir() if folder.is_dir())
 RDDLC = os.environ.get("RDDLC", ROOT / "build/bin/rddlc")
 RDDL = os.environ.get("RDDL", ROOT / "build/bin/rddl")
-# What each of the two makes of a problem without running it.
+# Commands of both programs that check a problem without running it.
 LOOKING = [[RDDLC, "--stop-after=emit"], [RDDL, "check"]]
 
 SUCCESS, DIAGNOSED, USAGE = 0, 1, 2
@@ -51,7 +51,7 @@ class CommandTest(unittest.TestCase):
         return path
 
     def as_nobody(self) -> dict:
-        """For run_command: as somebody who may not read or write everything."""
+        """An argument of run_command: run as a user who may not read or write everything."""
         if os.geteuid() != 0:
             return {}
         os.chown(self.folder, NOBODY, NOBODY)

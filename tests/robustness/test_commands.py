@@ -39,7 +39,7 @@ class Output(CommandTest):
         self.assertEqual(self.names(), [])
 
     def test_write_protected(self):
-        """Not even by a new file of the same name."""
+        """A new file of the same name does not replace it."""
         nobody = self.as_nobody()
         self.write("sim.cpp", "mine").chmod(0o444)
         result = self.run_command(RDDLC, *PROBLEM, "-o", "sim.cpp", **nobody)
@@ -105,12 +105,12 @@ class Output(CommandTest):
 
 
 class Blame(CommandTest):
-    """What the machine or the user's settings do wrong is told as that, not as a mistake of ours."""
+    """Faults of the machine or the user's settings are reported as such, not as our mistakes."""
 
     MISTAKE = "echo 'simulator.cpp:3:4: error: nonsense'; exit 1"
 
     def compile_with(self, compiler: str) -> list:
-        """By a compiler of this name, or one that is a script."""
+        """Compiles with a compiler of this name, or one that is a script."""
         if "\n" in compiler:
             self.write("compiler.sh", compiler)
             compiler = "sh compiler.sh"
@@ -127,7 +127,7 @@ class Blame(CommandTest):
             ("\necho 'x.cpp:9:1: fatal error: error writing to /tmp/c.s: No space left on device'; "
              "exit 1", "make room"),
             ("\necho '/usr/bin/ld: final link failed: Disk quota exceeded'; exit 1", "make room"),
-            (f"\n{self.MISTAKE}", "set CXX to g++ 12"),  # The runtime's headers, too: too old.
+            (f"\n{self.MISTAKE}", "set CXX to g++ 12"),  # The runtime's headers also fail: the compiler is too old.
             (f"\ncase $* in *headers.cpp*) exit 0; esac; echo 'virtual memory exhausted'; "
              f"{self.MISTAKE}", "more memory"),
         ):

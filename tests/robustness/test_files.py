@@ -113,10 +113,10 @@ class Replacing(CommandTest):
         result = self.run_command(RDDL, "fmt", "pipe.rddl")
         writer.join()
         self.assertEqual(result.status, DIAGNOSED, result)
-        self.assertIn("'pipe.rddl' is no regular file", result.errors)
+        self.assertIn("'pipe.rddl' is not a regular file", result.errors)
 
     def test_descriptors_are_written_to(self):
-        """What stands before in the same file stays."""
+        """Earlier text in the same file stays."""
         self.run_command("sh", "-c", f'(echo before; "{RDDL}" fmt instance.rddl -o /dev/stdout; '
                          "echo after) >all")
         lines = (self.folder / "all").read_text().splitlines()
@@ -199,7 +199,7 @@ class Reading(CommandTest):
 
 
 class LittleMemory(CommandTest):
-    """What has no end is not taken in. Not for the sanitizers, which ask for terabytes of addresses."""
+    """Endless files are not read. Not for the sanitizers, which ask for terabytes of addresses."""
 
     def test_a_line_without_end(self):
         self.write("domain.rddl", DOMAIN)

@@ -1,6 +1,6 @@
-"""A disk that fills up at any moment: each call that needs room fails in turn, and all later ones.
+"""A disk that fills up at any moment: each call that needs space fails in turn, and all later ones.
 
-Whatever is asked for is there as a whole, or as it was before; a sentence says why; and nobody is told
+Every output is there as a whole, or as it was before; a sentence says why; and no message says
 that rddlc or rddl were wrong.
 """
 
@@ -122,7 +122,7 @@ class FullDisk(CommandTest):
             "--size=60x40", "--gif=a.gif", "--png=a.png", "--svg=a.svg", "--html=a.html"), 10)
 
     def test_folders_of_pictures(self):
-        """Those that were drawn before stay; each is complete."""
+        """Files that were drawn before stay; each is complete."""
         problem = "domain.rddl", "instance.rddl", INTERPRET
         for kind in "png", "svg":
             (self.folder / kind).mkdir()
@@ -138,7 +138,8 @@ class FullDisk(CommandTest):
                 "--quiet", "--size=60x40", "--video=a.mp4", of=of), 2)
 
     def test_checkpoints(self):
-        """What a run had before is whole at any time, and it goes on when there is room again."""
+        """The earlier files of a run are whole at any time, and it resumes when there is space
+        again."""
         ppo = "train", "ppo", "--steps=3000", "--envs=4", "--rollout=50", "--minibatch=100", "--hidden=8", "--evaluations=2"
         cgp = "train", "cgp", "--gens=40", "--lambda=2", "--cols=10", "--evaluations=2"
         for policy, words in (("last.json", ppo), ("last.cgp", cgp)):

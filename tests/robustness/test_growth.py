@@ -17,7 +17,7 @@ from shapes import lines, objects_of, problem  # noqa: E402
 # over 0.2 s then.
 LINES = 500
 ATTEMPTS = 3  # what is slow by chance is not slow three times
-# What may take a fixed number of operations or bytes still grows towards that limit.
+# Cases that may take a fixed number of operations or bytes still grow towards that limit.
 WITH_LIMITS = {"member_conditions", "non_fluent_values"}
 # Each took a cost by the square once; they are fast enough to be tested always.
 FORMER_SQUARES = {"aggregations", "switch_cases", "unknown_names", "chain_read_once"}
@@ -64,7 +64,7 @@ def a_gigabyte() -> None:
 
 
 class Room(CommandTest):
-    """What follows took 12 to 16 GB."""
+    """These inputs once took 12 to 16 GB."""
 
     def run_small(self, *words):
         return self.run_command(*words, "problem.rddl", preexec_fn=a_gigabyte)
@@ -72,7 +72,7 @@ class Room(CommandTest):
     def test_one_value_among_a_trillion(self):
         for variables in "?w, ?x, ?y, ?z", "?z, ?y, ?x, ?w":
             self.write("problem.rddl", problem(
-                "K(o, o, o, o) : { non-fluent, bool, default = false };", reward=f"sum_{{?w : o, ?x : o, ?y : o, ?z : o}} [K({variables}) * (s > 0.0)]",
+                "K(o, o, o, o) : { non-fluent, bool, default = false };", reward=f"sum_{{?w : o, ?x : o, ?y : o, ?z : o}} [K({variables}) * s]",
                 types="o : object;", objects=objects_of(1000), values="K(o1, o2, o3, o4);"))
             for words in [RDDLC, "--stop-after=emit"], [RDDL, "info"], [RDDL, "run", "--engine=interpreter"]:
                 self.assertEqual(self.run_small(*words).status, SUCCESS)

@@ -22,7 +22,8 @@ echo $$ $! >> processes
 wait
 """
 
-# Takes its time for what all simulators share, and none for a simulator, which was compiled before.
+# A compiler that takes its time for the shared code, and no time for a simulator, which was
+# compiled before.
 COMPILER = """
 case "$*" in *--version*|*-fsyntax-only*) exit 0 ;; *batches.cpp*) echo batches >> log; sleep 0.3 ;; esac
 while [ $# -gt 0 ]; do
@@ -175,7 +176,7 @@ class Stampede(ProcessTest):
         for process in all_of_them:
             errors = process.communicate(timeout=SECONDS)[1]
             self.assertIn(process.returncode, [0, -signal.SIGKILL], f"seed {seed}: {errors}")
-        # What the killed have left goes with the next compilation.
+        # The next compilation removes what killed processes have left.
         self.assertEqual(self.run_command(
             *self.RUN, "--no-cache", environment=self.environment).status, SUCCESS)
         self.assert_cache_is_right()

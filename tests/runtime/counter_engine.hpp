@@ -2,9 +2,9 @@
 // with noise. The tests choose when its episodes end.
 #pragma once
 
-#include <rddl/batch.hpp>
-#include <rddl/distributions.hpp>
-#include <rddl/engine.hpp>
+#include <rddl/batch/batch.hpp>
+#include <rddl/random/distributions.hpp>
+#include <rddl/step/engine.hpp>
 
 #include <cstddef>
 #include <cstdint>

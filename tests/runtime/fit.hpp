@@ -2,7 +2,7 @@
 // fresh seed; the seeds are fixed, so that a test that passes once passes always.
 #pragma once
 
-#include <rddl/random.hpp>
+#include <rddl/random/random.hpp>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <gtest/gtest.h>

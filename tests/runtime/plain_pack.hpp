@@ -1,4 +1,4 @@
-// A pack of reals as arrays and loops: the least that rddl/real.hpp asks of one.
+// A pack of reals as arrays and loops: the least that rddl/lanes/real.hpp asks of one.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ namespace tiny {
 using StateRecord = State<Scalar>;
 using ActionRecord = Action<Scalar>;
 
-// Records whose padding is zero, too, to be compared byte by byte.
+// Records whose padding is also zero, to be compared byte by byte.
 inline std::vector<StateRecord> blank_states(std::size_t count) {
     std::vector<StateRecord> states(count);
     std::memset(static_cast<void*>(states.data()), 0, count * sizeof(StateRecord));
@@ -59,7 +59,7 @@ class TinyBatch {
     rddl_batch* get() { return batch_; }
     std::size_t size() const { return actions.size(); }
 
-    // With the actions in `actions`.
+    // Steps with the actions in `actions`.
     void step() {
         const rddl_transition out{.struct_size = sizeof(rddl_transition),
                                   .observations = observations.data(),

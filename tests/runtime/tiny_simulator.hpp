@@ -42,7 +42,7 @@ struct Scratch {
 template <class L>
 struct Observation {};
 
-// Of a bool or an int.
+// Converts a bool or an int.
 template <class L, class Value>
 typename L::Real to_real_of(const Value& value) {
     if constexpr (std::is_same_v<typename L::Element, float>)
@@ -121,7 +121,7 @@ struct Simulator {
                 machines, [&](Index m) { return state.wear[m] < 13.0; }));
         return conditions.violated();
     }
-    // At most one repair at a time.
+    // The precondition: at most one repair at a time.
     template <class L>
     static typename L::Int violated_precondition(const State<L>&, const Action<L>& action,
                                                  Context<L>& context) {

@@ -1,5 +1,4 @@
-// Everything that a batch of the hand-written simulator tells, step by step, to be compared byte
-// for byte.
+// All outputs of a batch of the hand-written simulator, step by step, to be compared byte for byte.
 #pragma once
 
 #include "tiny_batch.hpp"
@@ -13,7 +12,7 @@ namespace tiny {
 inline constexpr std::int64_t all_environments = 1000;
 inline constexpr int step_count = 120;  // more than two horizons
 
-// Everything that a step tells of one environment.
+// All outputs of a step for one environment.
 struct Told {
     unsigned char observation[sizeof(StateRecord)];
     unsigned char final_observation[sizeof(StateRecord)];

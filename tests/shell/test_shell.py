@@ -1,8 +1,8 @@
-"""Completions of shells and manual pages: what is installed, and what users get from it.
+"""Completions of shells and manual pages: their installation, and their use.
 
     RDDLC_BIN=build/bin RDDLC_BUILD=build test_shell.py
 
-Shells and formatters that are not installed are left out, but for bash.
+Shells and formatters that are not installed are left out, except bash.
 """
 
 import os
@@ -41,7 +41,7 @@ def commands() -> list[str]:
 
 
 def inner_commands(command: str) -> list[str]:
-    """Of a command that has some itself: ppo and cgp of train."""
+    """The commands of a command: ppo and cgp of train."""
     parts = output(BIN / "rddl", command, "--help").split("\nCommands:\n")[1:]
     return [line.split()[0] for part in parts for line in part.split("\n\n")[0].splitlines()]
 
@@ -68,7 +68,7 @@ class Shell(unittest.TestCase):
         return self.write(f"{program}.{shell}", output(BIN / program, "--completions", shell))
 
     def complete(self, *words: str) -> list[str]:
-        """What bash offers for the last word."""
+        """The offers of bash for the last word."""
         script = self.completions(words[0], "bash")
         offered = output("bash", "--norc", "-c", COMPLETE, "bash", script, *words, cwd=self.folder)
         return offered.split()

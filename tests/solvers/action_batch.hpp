@@ -1,4 +1,4 @@
-// Actions of a batch, which are mended.
+// Actions of a batch, which are repaired.
 #pragma once
 
 #include "solvers/batches/batch.hpp"
@@ -42,7 +42,7 @@ struct ActionBatch {
     const rddl_simulator& simulator;
     ActionSpace space;
     ActionRecords records;
-    Batch batch;
+    BatchHandle batch;
     std::size_t columns;
     std::vector<float> values;  // rows of columns
     std::vector<std::byte> bytes;

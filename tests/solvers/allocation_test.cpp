@@ -1,4 +1,4 @@
-// What learners do again and again allocates nothing.
+// The repeated work of learners allocates nothing.
 #include "../counted_allocations.hpp"
 #include "simulators.hpp"
 #include "solvers/cgp/evaluator.hpp"
@@ -28,7 +28,7 @@ TEST(Allocations, NoneInUpdatesOfPpo) {
             options.threads = threads;
             options.recurrent = recurrent;
             PpoTrainer trainer(*simulator, options);
-            trainer.update();  // warms up, too
+            trainer.update();  // also warms up
             const std::int64_t before = allocations;
             std::int64_t episodes = 0;
             for (int i = 0; i < 5; ++i) {
@@ -40,7 +40,7 @@ TEST(Allocations, NoneInUpdatesOfPpo) {
         }
 }
 
-// What is refused for its size is known before it is taken: each part of it in turn.
+// A size that is refused is known before anything is allocated: each part of it in turn.
 TEST(Allocations, OfPpoAreKnownBefore) {
     PpoOptions small;
     small.environments = 16;

@@ -1,5 +1,7 @@
 // CGP: programs, their formulas in all forms, and searches that depend on nothing but their
 // options.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "simulators.hpp"
 #include "solvers/batches/batch.hpp"
 #include "solvers/cgp/evaluator.hpp"
@@ -8,6 +10,7 @@
 #include "solvers/cgp/search.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/files/archive.hpp"
+#include "solvers/training/run_log.hpp"
 #include "support/failure.hpp"
 
 #include <fmt/format.h>
@@ -67,6 +70,27 @@ TEST(Archive, RefusesWhatIsNoBoolAndOtherSizes) {
     std::vector<float> four(4);
     LoadingArchive other(longer.bytes());
     EXPECT_THROW(other.fixed(four), Failure);
+}
+
+TEST(RunLog, RefusesWhatIsNoLog) {
+    const auto refused = [](const std::string& columns, const std::vector<double>& numbers) {
+        SavingArchive saved;
+        saved(columns);
+        saved(numbers);
+        LoadingArchive archive(saved.bytes());
+        RunLog log;
+        try {
+            log.archive(archive);
+        } catch (const Failure&) {
+            return true;
+        }
+        return false;
+    };
+    EXPECT_FALSE(refused("loss\n", {1.5, 2000, 0.5, -3}));
+    EXPECT_TRUE(refused("loss\n", {1.5, 2000, 0.5})) << "a row without its loss";
+    EXPECT_TRUE(refused("loss", {1.5, 2000, 0.5})) << "a column whose name has no end";
+    for (const double steps : {8e264, -1.0, 0.5, std::nan("")})
+        EXPECT_TRUE(refused("loss\n", {1.5, steps, 0.5, -3})) << steps;
 }
 
 std::vector<double> run(const Program& program, const std::vector<double>& inputs,
@@ -135,7 +159,7 @@ TEST(Cgp, SimplifiedFormulasHaveTheSameValues) {
     EXPECT_GT(smaller, 300);
 }
 
-// A half of a choice is no choice of halves.
+// Half of a choice is not the same as a choice of halves.
 TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
     using Term = Formula::Term;
     const ProgramScope scope =
@@ -150,7 +174,7 @@ TEST(Cgp, FormulasHaveBracketsWhereAChoiceIsAnArgument) {
               std::string::npos);
 }
 
-// Reads what people read: its value, and a text that tells how it was understood.
+// Reads formulas as people do: the value, and a text that shows how it was understood.
 class FormulaReader {
   public:
     struct Part {
@@ -160,7 +184,7 @@ class FormulaReader {
     FormulaReader(std::string text, std::map<std::string, double> names)
         : text_(std::move(text)), names_(std::move(names)) {}
 
-    // Nothing where it is no formula.
+    // Nothing if it is not a formula.
     std::optional<Part> read() {
         at_ = 0;
         good_ = true;
@@ -260,7 +284,8 @@ class FormulaReader {
     bool good_ = true;
 };
 
-// Without one pair of brackets, those of a function's arguments left out, it is another formula.
+// The formula is another one without one pair of brackets, those of a function's arguments left
+// out.
 void expect_no_bracket_too_many(const std::string& text,
                                 const std::map<std::string, double>& names) {
     const std::string tree = FormulaReader(text, names).read()->tree;
@@ -334,7 +359,7 @@ TEST(Cgp, ScalesInputsByTheStatesOfRandomSteps) {
     EXPECT_GT(scaled, 0);
 }
 
-// What rddl export writes, by the C++ compiler.
+// The C++ of rddl export is compiled.
 TEST(Cgp, CompiledFormulasHaveTheSameValues) {
     const ProgramScope scope =
         program_scope(*rddl_simulator_mountain_car_mountain_car_1(), Lifting::Auto, false, 0);
@@ -471,7 +496,7 @@ TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
     simulator.reset = [](rddl_batch* batch, const std::uint8_t* mask, void* observations) {
         const auto reset = rddl_simulator_mountain_car_mountain_car_1()->reset;
         if (std::this_thread::get_id() == caller) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others work, too
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));  // others also work
             return reset(batch, mask, observations);
         }
         return rddl_error{RDDL_BAD_ARGUMENT};
@@ -487,7 +512,8 @@ TEST(Cgp, TellsWhichCallTheSimulatorRefuses) {
     }
 }
 
-// By steps of our own, with the first output of the program: full throttle to the right, or none.
+// The test steps by itself, with the first output of the program: full throttle to the right, or no
+// throttle.
 TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
     const ProgramScope scope = program_scope(simulator, Lifting::Auto, false, 0);
@@ -503,7 +529,7 @@ TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     for (const int p : {0, 1}) {
         rddl_batch_options options{};
         options.environment_count = 1;
-        const Batch batch = create_batch(simulator, options);
+        const BatchHandle batch = create_batch(simulator, options);
         require_done(simulator, simulator.reset(batch.get(), nullptr, nullptr));
         double first[2], least[2], most[2], values[2];
         require_done(simulator, simulator.get_observation_values(batch.get(), RDDL_DOUBLE, values));
@@ -529,7 +555,7 @@ TEST(Cgp, MeasuresHowWidelyObservationsVary) {
     EXPECT_GT(reach[0], reach[1]);
 }
 
-// Where every program earns the same, those stay that see more.
+// Programs that see more stay while all have the same return.
 TEST(Cgp, LooksAroundWhereNothingIsEarned) {
     rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
     simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,

@@ -233,7 +233,7 @@ TEST(Choosing, ProbabilitiesOfAllChoicesAddUpToOne) {
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_NEAR(entropy, last.entropy, 1e-12);
 
-    // A real's density, with noise that goes on, by the trapezoidal rule.
+    // A real's density, with noise that is correlated in time, by the trapezoidal rule.
     const ActionSpace real = space_of(1, {});
     const double mean = 0.4, log_deviation = -0.3, shift = 0.25;
     sum = entropy = 0;
@@ -277,7 +277,7 @@ TEST(Choosing, DrawsAsItSays) {
     Chooser chooser(simulator, space, Noise::Ar1, 0.9, environments);
     rddl_batch_options options{};
     options.environment_count = environments;
-    const Batch batch = create_batch(simulator, options);
+    const BatchHandle batch = create_batch(simulator, options);
     std::vector<float> outputs(environments, 0.5f), numbers(environments), shifts(environments),
         spreads(environments), log_probabilities(environments), actions(environments);
     const float log_deviation = std::log(0.7f);
@@ -306,8 +306,8 @@ TEST(Choosing, DrawsAsItSays) {
     EXPECT_NEAR(products / squares, 0.9, 0.01);
 }
 
-// What is mended is legal wherever doing nothing is, and what is legal stays as it is.
-// Simulators refuse a step of which one action is no number.
+// A repaired action is legal wherever doing nothing is, and a legal one stays as it is. Simulators
+// refuse a step with an action that is nan.
 TEST(Actions, AreTheDefaultWhereAPolicyHasNoNumber) {
     const float infinite = std::numeric_limits<float>::infinity();
     for (const rddl_simulator* const simulator : simulators()) {

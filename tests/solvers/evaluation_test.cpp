@@ -1,4 +1,4 @@
-// Policies of all kinds by one interface, and what is told of their episodes.
+// Policies of all kinds by one interface, and the reports of their episodes.
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/spaces/actions.hpp"
@@ -10,7 +10,7 @@
 namespace rddlc::solvers {
 namespace {
 
-// Of tables of Student's distribution.
+// The values are from tables of Student's distribution.
 TEST(Evaluation, KnowsStudentsQuantiles) {
     const std::pair<std::int64_t, double> table[] = {{1, 12.7062},    {2, 4.3027},  {5, 2.5706},
                                                      {9, 2.2622},     {29, 2.0452}, {100, 1.9840},

@@ -66,7 +66,7 @@ TEST(Groups, AtMostOneOfThoseOfAnObject) {
     EXPECT_EQ(action_of(space, {0, 1, 4}), expected);
 }
 
-// Of several fluents; lamps are chosen by themselves.
+// The group consists of several fluents; lamps are chosen by themselves.
 TEST(Groups, ExactlyOneOfThoseOfAnObject) {
     const ActionSpace space = action_space(museum());
     EXPECT_EQ(space.picks, 0);
@@ -155,14 +155,14 @@ TEST(Groups, AnyActionIsMendedWhereTheDefaultIsIllegal) {
     }
 }
 
-// Where preconditions say something else, one change is picked after the other, as before.
+// If preconditions say something else, one change is picked after the other, as before.
 TEST(Groups, AreNotSeenWhereThereAreNone) {
     for (const rddl_simulator* const simulator : simulators())
         for (const CategoryHead& head : action_space(*simulator).categories)
             EXPECT_TRUE(head.group.empty()) << simulator->problem->instance;
 }
 
-// Random choices satisfy the preconditions, so nothing has to be mended.
+// Random choices satisfy the preconditions, so nothing has to be repaired.
 TEST(Groups, MakeLegalActions) {
     for (const rddl_simulator* const simulator : {&shop(), &museum()}) {
         const ActionSpace space = action_space(*simulator);
@@ -170,7 +170,7 @@ TEST(Groups, MakeLegalActions) {
         rddl_batch_options options{};
         options.environment_count = environments;
         options.autoreset = RDDL_AUTORESET_SAME_STEP;
-        const Batch batch = create_batch(*simulator, options);
+        const BatchHandle batch = create_batch(*simulator, options);
         Chooser chooser(*simulator, space, Noise::White, 0, environments);
         const auto logits = static_cast<std::size_t>(space.logit_count);
         const auto columns = static_cast<std::size_t>(space.column_count);
@@ -216,7 +216,7 @@ TEST(Groups, ProgramsChooseTheGreatest) {
                (logits.begin() + 5 * head);
     };
     EXPECT_EQ(greatest(0), 3);
-    EXPECT_EQ(greatest(1), 0);  // none
+    EXPECT_EQ(greatest(1), 0);  // no change
     EXPECT_EQ(greatest(2), 1);
 }
 
@@ -225,8 +225,8 @@ TEST(Groups, AreNotForProgramsOfScikitDecide) {
     EXPECT_THROW(skdecide_scope(shop()), Failure);
 }
 
-// Random actions that know the groups are legal at once, and each of a group's changes, or none, is
-// as likely as another.
+// Random actions that know the groups are legal at once, and each of a group's changes, and no
+// change, is equally likely.
 TEST(Groups, RandomActionsAreLegalAtOnce) {
     for (const rddl_simulator* const simulator : {&shop(), &museum()}) {
         SCOPED_TRACE(simulator->problem->domain);

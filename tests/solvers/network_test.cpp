@@ -1,5 +1,5 @@
-// The networks' functions: in double, where derivatives can be told by finite differences, and in
-// float against a plain loop.
+// The networks' functions: in double, where finite differences give derivatives, and in float
+// against a plain loop.
 #include "solvers/network/network.hpp"
 
 #include "solvers/network/gru.hpp"
@@ -16,7 +16,7 @@
 
 namespace rddlc::solvers {
 
-// As network.cpp does it, for doubles.
+// Includes the variants as network.cpp does, for doubles.
 namespace doubles {
 #define RDDL_VECTOR_BYTES 16
 #define RDDL_WIDE_BYTES 16
@@ -36,7 +36,7 @@ std::vector<Real> numbers(std::size_t count, unsigned seed, double scale = 1) {
     return all;
 }
 
-// What one derivative is, by what a small change to both sides does.
+// A derivative by finite differences, from a small change to both sides.
 double derivative(double& number, const auto& loss) {
     const double before = number, step = 1e-6;
     number = before + step;
@@ -47,7 +47,7 @@ double derivative(double& number, const auto& loss) {
     return (more - less) / (2 * step);
 }
 
-// Where the weights and the bias are in the array of parameters.
+// The places of the weights and the bias in the array of parameters.
 std::vector<std::size_t> places_of(const Network& network, const Layer& layer) {
     std::vector<std::size_t> all(network.parameters), places;
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -159,7 +159,7 @@ TEST(Network, TanhIsPreciseEverywhere) {
     }
 }
 
-// So that descent, which tells numbers that are none, sees them.
+// Descent detects nan, so networks must not hide it.
 TEST(Network, HidesNoNumberThatIsNone) {
     for (const Network& network : networks_of(1, {{9}}, 1)) {
         const auto parameters = parameters_of<float>(network, 10);
@@ -201,7 +201,7 @@ TEST(Network, GradientAgreesWithFiniteDifferences) {
     }
 }
 
-// By the last inputs, which another network has made.
+// The gradient by the last inputs, which another network has made.
 TEST(Network, TellsTheGradientByItsInnerInputs) {
     constexpr int count = 5, inputs = 7, inner = 3;
     for (const Network& network : networks_of(inputs, {{}, {9}, {4, 6}}, 2, inner)) {

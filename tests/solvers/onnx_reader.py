@@ -71,7 +71,7 @@ class Graph:
 
     @staticmethod
     def rows(function, a, b):
-        """Of rows and rows, or of rows and one row for all of them."""
+        """Combines rows with rows, or rows with one row for all of them."""
         return [[function(x, y) for x, y in zip(row, b[i] if isinstance(b[0], list) else b)] for i, row in enumerate(a)]
 
     def sub(self, a, b):

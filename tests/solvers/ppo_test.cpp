@@ -1,10 +1,13 @@
 // PPO as a whole: advantages, one update as Stable-Baselines3 makes it, and bytes that depend on
 // nothing but the options.
+//
+// Over 400 lines: a test for each thing that can be seen.
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/advantages.hpp"
 #include "solvers/ppo/curiosity.hpp"
 #include "solvers/ppo/learner.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/state_noise.hpp"
 #include "solvers/ppo/trainee.hpp"
@@ -206,7 +209,7 @@ std::string complaint(const auto& work) {
     return "";
 }
 
-// Of logarithms of deviations that depend on the state, against finite differences.
+// Gradients of logarithms of deviations that depend on the state, against finite differences.
 TEST(StateNoise, GradientAgreesWithFiniteDifferences) {
     constexpr int units = 5, reals = 2;
     std::mt19937 random(3);
@@ -359,8 +362,8 @@ TEST(Ppo, PoliciesAreReadAsTheyWereWritten) {
     const auto read = [&](const std::string& other) {
         return complaint([&] { read_ppo_policy(car, other); });
     };
-    EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is not complete, or no JSON");
-    EXPECT_EQ(read("{}"), "it is no policy of PPO");
+    EXPECT_EQ(read(text.substr(0, text.size() / 2)), "it is incomplete, or not JSON");
+    EXPECT_EQ(read("{}"), "it is not a PPO policy");
     std::string newer = text;
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":9");
     EXPECT_EQ(read(newer), "it is of version 9, and this program reads versions up to 4");
@@ -381,7 +384,7 @@ TEST(Ppo, ReluNetworksAreReadAsTheyWereWritten) {
     EXPECT_NE(text.find(R"("version":3,)"), std::string::npos);
     EXPECT_NE(text.find(R"("activation":"relu",)"), std::string::npos);
     EXPECT_EQ(ppo_policy_text(car, *read_ppo_policy(car, text)), text);
-    // What says nothing of it is of tanh, as all older files are.
+    // A file without an activation means tanh, as all older files do.
     EXPECT_EQ(ppo_policy_text(car, tanh.model()).find("activation"), std::string::npos);
     std::string other = text;
     other.replace(other.find("\"relu\""), 6, "\"gelu\"");
@@ -458,14 +461,14 @@ TEST(Ppo, ARefusedCallLeavesTheCheckpoint) {
 TEST(Curiosity, FadesAsReturnsDiffer) {
     std::vector<double> returns(100, -200.0);
     EXPECT_EQ(curiosity(returns), 1);
-    EXPECT_EQ(curiosity(std::span(returns).first(5)), 0);  // too few to tell
+    EXPECT_EQ(curiosity(std::span(returns).first(5)), 0);  // too few to decide
     for (int e = 0; e < 5; ++e) returns[static_cast<std::size_t>(e)] = -90 - e;
     EXPECT_NEAR(curiosity(returns), 0.5, 1e-12);
     for (int e = 0; e < 20; ++e) returns[static_cast<std::size_t>(e)] = -90 - e;
     EXPECT_EQ(curiosity(returns), 0);
 }
 
-// All that an episode is told adds up to its ranges, whatever the order.
+// All rewards of an episode for its observations add up to its ranges, whatever the order.
 TEST(Curiosity, AddsUpToTheRanges) {
     const rddl_simulator& simulator = *rddl_simulator_reservoir_reservoir_1();
     PpoOptions options = small_training();
@@ -502,7 +505,7 @@ TEST(Curiosity, AddsUpToTheRanges) {
     }
 }
 
-// Nothing is earned before the flag, and noise alone comes there in no episode.
+// Before the flag the reward is never positive, and noise alone reaches it in no episode.
 TEST(Curiosity, FindsWhatPaysAtTheGoalAlone) {
     rddl_simulator simulator = *rddl_simulator_mountain_car_mountain_car_1();
     simulator.step_values = [](rddl_batch* batch, rddl_number number, const void* actions,
@@ -533,7 +536,7 @@ TEST(Curiosity, FindsWhatPaysAtTheGoalAlone) {
     EXPECT_GT(reached[1], 0.05);
 }
 
-// Beside what no-op and random actions earn.
+// The returns of no-op and random actions are the comparison.
 TEST(Ppo, LearnsToDriveUphill) {
     const rddl_simulator& simulator = *rddl_simulator_mountain_car_mountain_car_1();
     PpoOptions options;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Both programs of rddl_add_solver: train, evaluate, go on, and refuse.
+# Both programs of rddl_add_solver: train, evaluate, resume, and refuse.
 #   program.sh PPO_PROGRAM CGP_PROGRAM
 set -e
 folder=$(mktemp -d)

@@ -66,7 +66,7 @@ def update(action_space, reals, categories):
     with torch.no_grad():
         values, log_probabilities, _ = model.policy.evaluate_actions(
             torch.tensor(observations), torch.tensor(actions))
-    # Of a policy that is a little different, so that some ratios are clipped.
+    # Log-probabilities of a policy that is a little different, so that some ratios are clipped.
     log_probabilities = log_probabilities.numpy() + random.normal(0, 0.2, SAMPLES).astype(np.float32)
     values = values.numpy().ravel()
     advantages = random.normal(size=SAMPLES).astype(np.float32)

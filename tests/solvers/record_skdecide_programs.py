@@ -45,8 +45,9 @@ def recorded(library):
 
 
 def traits_of(program):
-    """What a test of this program tests: which functions read what (an input, a node before, itself or one behind), at
-    which edges of [-1, 1], in which shape of program, and whether its answers change."""
+    """The traits that a test of this program covers: which functions read what (an input, a node
+    before, itself or one behind), at which edges of [-1, 1], in which shape of program, and
+    whether its answers change."""
     inputs, outputs, columns, rows = map(int, program["lines"][0].split())
     genes = list(map(int, program["lines"][1].split()))
     nodes = [genes[3 * n:3 * n + 3] for n in range(columns * rows)]
@@ -89,7 +90,8 @@ def representative(programs):
 
 
 def mappings():
-    """Of observations by spaces with and without bounds, and of outputs by spaces of actions."""
+    """Mappings of observations by spaces with and without bounds, and of outputs by spaces of
+    actions."""
     observed = gym.spaces.Tuple([
         gym.spaces.Box(np.array([-2.5]), np.array([4.0]), dtype=np.float64), gym.spaces.Discrete(2),
         gym.spaces.Discrete(5), gym.spaces.Box(-np.inf, np.inf, (1,), np.float64),

@@ -2,6 +2,7 @@
 #include "simulators.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "solvers/ppo/collector.hpp"
+#include "solvers/ppo/policy.hpp"
 #include "solvers/ppo/policy_file.hpp"
 #include "solvers/ppo/trainer.hpp"
 #include "solvers/ppo/unrolled.hpp"
@@ -74,7 +75,7 @@ TEST(Segments, HoldEachSampleOnce) {
 }
 
 // As long as the parameters are the same, a segment remembers what the rollout remembered, to the
-// bit: through ends of episodes, in any order of segments, from the second rollout on, too.
+// bit: through ends of episodes, in any order of segments, also from the second rollout on.
 TEST(Unrolled, RemembersWhatTheRolloutDid) {
     PpoOptions options = with_memory();
     options.rollout = 67;  // parts of 11 and 12 steps
@@ -144,7 +145,7 @@ TEST(Recurrent, PoliciesAreReadAsTheyWereWritten) {
 TEST(Recurrent, PoliciesOfWrongSizesAreRefused) {
     using nlohmann::json;
     PpoTrainer trainer(maze(), with_memory());
-    // In the order of the file, since spaces are compared as text.
+    // The members keep the order of the file, since spaces are compared as text.
     const auto text = nlohmann::ordered_json::parse(ppo_policy_text(maze(), trainer.model()));
     EXPECT_EQ(text["version"], 2);
     const auto refuses = [&](const char* pointer, const json& value,
@@ -173,7 +174,7 @@ TEST(Recurrent, PoliciesOfWrongSizesAreRefused) {
     without = text;
     without["recurrent"].erase("reset");
     EXPECT_EQ(sentence_of([&] { read_ppo_policy(maze(), without.dump()); }),
-              "it is no policy of PPO, or something in it is missing");
+              "it is not a PPO policy, or something in it is missing");
 }
 
 TEST(Recurrent, RefusesWhatCannotBe) {
@@ -193,7 +194,7 @@ TEST(Recurrent, RefusesWhatCannotBe) {
               "--rollout and --minibatch of at least 2");
 }
 
-// What the sign says at the entrance is needed at the junction, eleven steps later.
+// The sign at the entrance is needed at the junction, eleven steps later.
 double learned_in_the_maze(const PpoOptions& options) {
     PpoTrainer trainer(maze(), options);
     while (!trainer.done()) trainer.update();

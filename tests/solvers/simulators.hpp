@@ -9,7 +9,7 @@
 
 #include <vector>
 
-// Observed in part: a policy that forgets earns at most 1.95 of 4.
+// Partially observed: a policy that forgets has a return of at most 1.95 of 4.
 inline const rddl_simulator& maze() {
     return *rddl_simulator_t_maze_t_maze_1();
 }

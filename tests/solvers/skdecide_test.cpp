@@ -22,7 +22,7 @@
 namespace rddlc::solvers {
 namespace {
 
-// What record_skdecide_programs.py has written.
+// The file that record_skdecide_programs.py has written.
 nlohmann::json recording() {
     return nlohmann::json::parse(std::ifstream(SKDECIDE_PROGRAMS));
 }
@@ -143,7 +143,8 @@ CgpOptions skdecide_search() {
 
 TEST(Skdecide, SearchesDriveUphillAndGoOn) {
     const rddl_simulator& car = *rddl_simulator_mountain_car_mountain_car_1();
-    CgpSearch whole(car, skdecide_search()), first(car, skdecide_search()), second(car, skdecide_search());
+    CgpSearch whole(car, skdecide_search()), first(car, skdecide_search()),
+        second(car, skdecide_search());
     whole.run(60);
     first.run(25);
     second.load(first.save());

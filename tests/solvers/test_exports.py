@@ -52,7 +52,7 @@ def trained(rddl, folder, *words):
 
 
 def check_formula(rddl, folder):
-    """Of CGP. Returns the number of steps in which it and rddl agree."""
+    """Checks formulas of CGP. Returns the number of steps in which the export and rddl agree."""
     steps = trained(rddl, folder, "cgp", "--gens", "40")
     rddl("export", "--policy", str(folder / "run"), "--as", "py", "-o", str(folder / "formula.py"))
     formula = load("formula", folder / "formula.py")
@@ -65,7 +65,8 @@ def check_formula(rddl, folder):
 
 
 def check_network(rddl, folder, cxx, *options):
-    """Of PPO, trained with these options. Returns the number of steps in which it and rddl agree."""
+    """Checks networks of PPO, trained with these options. Returns the number of steps in which the
+    export and rddl agree."""
     steps = trained(rddl, folder, "ppo", "--steps", "20000", "--envs", "16", "--rollout", "64", "--minibatch", "256",
                     *options)
     network = load("policy", ROOT / "solvers/python/policy.py").Policy(folder / "run/policy.json")
@@ -104,7 +105,8 @@ def check_network(rddl, folder, cxx, *options):
 
 
 def check_choices(rddl, folder):
-    """Of PPO where one bool of a group changes at a time. Returns the number of steps that agree with the reader."""
+    """Checks PPO where one bool of a group changes at a time. Returns the number of steps that
+    agree with the reader."""
     rddl("train", "ppo", "--engine", "interpreter", "--steps", "4000", "--envs", "16", "--rollout", "32", "--minibatch",
          "128", "--quiet", "--out", str(folder / "run"))
     rddl("run", "--engine", "interpreter", "--policy", str(folder / "run"), "--trace", str(folder / "trace.jsonl"),

@@ -75,7 +75,7 @@ class Ranks(unittest.TestCase):
             out = f"ranks{ranks}"
             done = self.train("cgp", out, [*CGP, "--time", "0.01"], ranks)
             self.assertEqual(done.returncode, 0, done.stderr)
-            # A run of one number of ranks goes on with another.
+            # A run of one number of ranks resumes with another.
             self.assertEqual(self.train("cgp", out, [*CGP, "--resume"], 5 - ranks).returncode, 0)
             for name in "policy.cgp", "last.cgp":
                 self.assertEqual(self.file(out, name), self.file("one", name), ranks)
@@ -112,7 +112,7 @@ exec "{OPTIONS.rddl}" "$@"
         os.kill(self.last_rank(run.pid), signal.SIGKILL)
         told = run.communicate(timeout=60)[0]
         self.assertNotEqual(run.returncode, 0)
-        self.assertIn("waits in vain for another one, which has ended", told)
+        self.assertIn("lost contact with another rank, which has ended", told)
         self.assertIn("the last checkpoint is whole", told)
         self.assertEqual(self.file("killed", "checkpoint"), before)
         self.assertEqual(self.train("ppo", "killed", [*options, "--resume", "--time", "1"], 2).returncode, 0)
@@ -143,7 +143,7 @@ if __name__ == "__main__":
     OPTIONS, rest = parser.parse_known_args()
     PROBLEM = [str(OPTIONS.examples / "mountain_car" / f"{name}.rddl") for name in ("domain", "instance")]
     PROBLEM += ["--engine", "interpreter"]
-    # Tests may be run by root, in containers; mpirun wants to be told.
+    # Tests may be run by root, in containers; mpirun requires these variables.
     ENVIRONMENT = {**os.environ, "XDG_CACHE_HOME": OPTIONS.cache, "OMPI_ALLOW_RUN_AS_ROOT": "1",
                    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     unittest.main(argv=[sys.argv[0], *rest])

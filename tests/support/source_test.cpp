@@ -9,7 +9,7 @@
 namespace rddlc {
 namespace {
 
-// Of this process alone: tests of several builds may run at once.
+// A file of this process alone: tests of several builds may run at once.
 std::filesystem::path temporary_file() {
     return std::filesystem::temp_directory_path() /
            ("rddlc_source_test_" + std::to_string(getpid()));

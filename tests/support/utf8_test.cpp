@@ -40,7 +40,7 @@ TEST(Utf8, WhatIsPrintedDrivesNoTerminal) {
     EXPECT_EQ(printable(std::string_view("\0", 1)), "\xEF\xBF\xBD");
 }
 
-// As terminals show them: accents take no column, Chinese characters and emoji two.
+// Widths on terminals: accents take no column, Chinese characters and emoji two.
 TEST(Utf8, WidthsAreThoseOfTerminalsInAnyLocale) {
     for (const char* locale : {"C", "C.UTF-8"}) {
         std::setlocale(LC_ALL, locale);

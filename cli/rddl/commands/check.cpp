@@ -3,8 +3,8 @@
 #include "commands/options.hpp"
 #include "engines/external_library.hpp"
 #include "formats/table.hpp"
+#include "problems/check_many.hpp"
 #include "problems/front_end.hpp"
-#include "rollouts/parallel.hpp"
 #include "support/files.hpp"
 #include "support/program.hpp"
 #include "support/render.hpp"
@@ -15,9 +15,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <set>
 #include <span>
-#include <string_view>
 
 namespace rddlc::cli {
 
@@ -42,7 +40,7 @@ std::string verdict(const Compilation& compilation) {
                        compilation.is_domain_alone ? fmt::format("\n{}", no_instance_given) : "");
 }
 
-// External functions are only checked where somebody defines them.
+// External functions are only checked if files define them.
 ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
     const bool has_externs = !options.externs.empty();
     CompileOptions front_end = check_options(files, has_externs ? Stage::Verify : Stage::Ground);
@@ -57,72 +55,23 @@ ExitStatus check_one(const ProblemFiles& files, const LoadOptions& options) {
 
 // ------------------------------------------------------------------ many problems at once
 
-struct Outcome {
-    bool done = false;
-    std::vector<RenderedDiagnostic> diagnostics;
-
-    bool has_errors() const {
-        return std::ranges::any_of(diagnostics, &RenderedDiagnostic::is_error);
-    }
-};
-
-Outcome check_quietly(const ProblemFiles& files) {
-    const Compilation compilation = compile(check_options(files, Stage::Ground));
-    return {true, render_each(compilation.diagnostics, compilation.sources)};
+std::vector<std::string> cells(std::string name, const CheckedInstances& row) {
+    return {std::move(name), std::to_string(row.instances), std::to_string(row.without_errors),
+            std::to_string(row.errors), std::to_string(row.warnings)};
 }
-
-// In parallel; outcomes in the order of the files. Stops early on an interrupt.
-std::vector<Outcome> check_many(const std::vector<ProblemFiles>& files) {
-    std::vector<Outcome> outcomes(files.size());
-    for_each_in_parallel("checking", files.size(),
-                         [&](std::size_t i) { outcomes[i] = check_quietly(files[i]); });
-    return outcomes;
-}
-
-// What several instances share, such as an error in the domain, is told and counted once.
-struct ProblemRow {
-    std::size_t instances = 0, without_errors = 0, errors = 0, warnings = 0;
-    std::vector<const RenderedDiagnostic*> different;
-
-    ProblemRow() = default;
-    explicit ProblemRow(std::span<const Outcome> outcomes) {
-        std::set<std::string_view> seen;
-        for (const Outcome& outcome : outcomes) {
-            instances += outcome.done;
-            without_errors += outcome.done && !outcome.has_errors();
-            for (const RenderedDiagnostic& each : outcome.diagnostics) {
-                if (!seen.insert(each.text).second) continue;
-                (each.is_error ? errors : warnings) += 1;
-                different.push_back(&each);
-            }
-        }
-    }
-
-    void add(const ProblemRow& row) {
-        instances += row.instances;
-        without_errors += row.without_errors;
-        errors += row.errors;
-        warnings += row.warnings;
-        different.insert(different.end(), row.different.begin(), row.different.end());
-    }
-    std::vector<std::string> cells(std::string name) const {
-        return {std::move(name), std::to_string(instances), std::to_string(without_errors),
-                std::to_string(errors), std::to_string(warnings)};
-    }
-};
 
 void print_table(const std::vector<RepositoryProblem>& problems,
-                 const std::vector<ProblemRow>& rows) {
-    Table table({{"problem"},
-                 {"instances", Align::Right},
-                 {"without errors", Align::Right},
-                 {"errors", Align::Right},
-                 {"warnings", Align::Right}});
-    for (std::size_t i = 0; i < rows.size(); ++i) table.add_row(rows[i].cells(problems[i].name));
+                 const std::vector<CheckedInstances>& rows) {
+    TextTable table({{"problem"},
+                     {"instances", Align::Right},
+                     {"without errors", Align::Right},
+                     {"errors", Align::Right},
+                     {"warnings", Align::Right}});
+    for (std::size_t i = 0; i < rows.size(); ++i) table.add_row(cells(problems[i].name, rows[i]));
     print("{}\n", table.text());
 }
 
-ExitStatus summarise(const ProblemRow& total, bool shows_warnings) {
+ExitStatus summarise(const CheckedInstances& total, bool shows_warnings) {
     const bool hides_some = total.warnings > 0 && !shows_warnings;
     print("{} of {} without errors, {}, {}{}\n", total.without_errors,
           counted(total.instances, "instance"), counted(total.errors, "error"),
@@ -144,11 +93,11 @@ ExitStatus check_problems(const std::vector<RepositoryProblem>& problems,
     for (const RepositoryProblem& problem : problems)
         for (const std::string& instance : problem.instances)
             files.push_back(options.problem.with_options(find_instance(problem, instance)));
-    const std::vector<Outcome> outcomes = check_many(files);
+    const std::vector<CheckOutcome> outcomes = check_many(files);
 
-    std::vector<ProblemRow> rows;
-    ProblemRow total;
-    std::span<const Outcome> left(outcomes);
+    std::vector<CheckedInstances> rows;
+    CheckedInstances total;
+    std::span<const CheckOutcome> left(outcomes);
     for (const RepositoryProblem& problem : problems) {
         rows.emplace_back(left.first(problem.instances.size()));
         left = left.subspan(problem.instances.size());
@@ -202,7 +151,7 @@ Command check_command() {
     add_extern_option(command, options->load,
                       "Also check the external functions of FILE, a C++ header or .so");
     add_flag(command, "--all", "Check every instance of rddlrepository", options->all);
-    add_flag(command, "-v,--verbose", "Show warnings, too, where many instances are checked",
+    add_flag(command, "-v,--verbose", "Also show warnings when many instances are checked",
              options->verbose);
     command.run = [options] {
         return check(*options);

@@ -3,7 +3,12 @@
 
 #include "command_line/command_line.hpp"
 
+// The parts of commands are in workbench/.
+namespace rddlc::workbench {}
+
 namespace rddlc::cli {
+
+using namespace workbench;
 
 Command list_command();
 Command info_command();

@@ -1,17 +1,15 @@
-// rddl evaluate and rddl compare: what policies earn, with confidence intervals, on the same seeds.
+// rddl evaluate and rddl compare: returns of policies, with confidence intervals, on the same
+// seeds.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/number_text.hpp"
 #include "formats/records_json.hpp"
 #include "formats/table.hpp"
-#include "learning/learned_policy.hpp"
-#include "learning/learning_curves.hpp"
 #include "pictures/charts.hpp"
-#include "solvers/evaluation/summary.hpp"
+#include "rollouts/evaluation.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/progress.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,27 +34,6 @@ struct EvaluationOptions {
     ChartFiles chart;
 };
 
-struct Evaluation {
-    std::string policy;
-    solvers::Summary summary;
-    double seconds = 0;
-    std::int64_t steps = 0;
-};
-
-Evaluation evaluate(const rddl_simulator& simulator, const std::string& name,
-                    const EvaluationOptions& options) {
-    const solvers::Policy policy =
-        policy_named(simulator, name, options.random, options.episodes.seed,
-                     options.episodes.memory_limit, options.planning);
-    if (!options.json) note_plans(policy, options.episodes.episodes);
-    const std::int64_t steps = solvers::steps_at_most(simulator, options.episodes);
-    Progress bar(name, options.episodes.episodes * std::max<std::int64_t>(steps, 1), !options.json);
-    const solvers::Watch watch{is_interrupted, [&](std::int64_t done) { bar.advance(done); }, {}};
-    const solvers::Rollouts rollouts =
-        solvers::run_episodes(simulator, policy, options.episodes, watch);
-    return {name, solvers::summary_of(rollouts), rollouts.seconds, rollouts.steps};
-}
-
 std::string interval_text(const solvers::Estimate& estimate) {
     const std::string mean = number_text(estimate.mean);
     return estimate.half_width > 0 ? fmt::format("{} ± {:.3g}", mean, estimate.half_width) : mean;
@@ -72,17 +49,17 @@ void print_table(const rddl_problem& problem, const std::vector<Evaluation>& all
                  const EvaluationOptions& options) {
     print("{} ({}): {} episodes, seed {}\n\n", problem.instance, problem.domain,
           options.episodes.episodes, options.episodes.seed);
-    Table table({{"policy"},
-                 {"return", Align::Right},
-                 {"discounted", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right},
-                 {"length", Align::Right},
-                 {"ended", Align::Right},
-                 {"illegal", Align::Right},
-                 {"faults", Align::Right},
-                 {"steps/s", Align::Right}});
+    TextTable table({{"policy"},
+                     {"return", Align::Right},
+                     {"discounted", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right},
+                     {"length", Align::Right},
+                     {"ended", Align::Right},
+                     {"illegal", Align::Right},
+                     {"faults", Align::Right},
+                     {"steps/s", Align::Right}});
     for (const Evaluation& one : all) {
         const solvers::Summary& s = one.summary;
         table.add_row(
@@ -143,19 +120,7 @@ void draw(const rddl_problem& problem, const std::vector<Evaluation>& all,
     write_chart(chart, options.chart);
 }
 
-// What the last episodes earned while PPO learned, which acts at random then; nothing where the
-// policy is no run that tells it.
-std::optional<double> learned_return(const std::string& policy) {
-    try {
-        const RunProgress run = read_progress(policy);
-        const std::vector<double>& returns = column_of(run, "rollout/ep_rew_mean");
-        if (!returns.empty() && std::isfinite(returns.back())) return returns.back();
-    } catch (const Failure&) {
-    }
-    return std::nullopt;
-}
-
-// Where the likeliest actions earn much less than chance did.
+// Prints a note if the likeliest actions have a much lower return than random ones had.
 void hint_at_chance(const Evaluation& one) {
     const std::optional<double> learned = learned_return(one.policy);
     if (!learned) return;
@@ -163,7 +128,8 @@ void hint_at_chance(const Evaluation& one) {
     const double size = std::max(std::abs(*learned), std::abs(earned.mean));
     if (*learned - earned.mean > std::max(size / 2, 3 * earned.half_width))
         tell(
-            "rddl: note: while '{}' learned, its last episodes earned {} by actions at random, as "
+            "rddl: note: while '{}' learned, the mean return of its last episodes was {} with "
+            "random actions, as "
             "--stochastic takes them\n",
             one.policy, number_text(*learned));
 }
@@ -183,7 +149,8 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
     std::vector<Evaluation> all;
     for (const std::string& name : options.policies) {
         if (is_interrupted()) break;
-        all.push_back(evaluate(simulator, name, chosen));
+        all.push_back(evaluate(simulator, name, chosen.episodes, options.random, options.json,
+                               chosen.planning));
         explanations.write(name);
     }
     explanations.finish();
@@ -198,16 +165,17 @@ ExitStatus evaluate_all(const EvaluationOptions& options) {
 
 void add_common_options(Command& command, EvaluationOptions& options) {
     options.episodes.episodes = 100;
-    add_number_option<std::int64_t>(command, "--episodes", "N", "How many of each (100)",
+    add_number_option<std::int64_t>(command, "--episodes", "N", "Episodes of each policy (100)",
                                     options.episodes.episodes, 1, 100'000'000);
     add_seed_option(command, options.episodes.seed, "Seed of all random numbers (0)");
     add_horizon_option(command, options.episodes.horizon,
                        "Steps an episode; 0: no horizon (the instance's)");
     add_number_option(command, "--threads", "T", "Threads (one per core)", options.episodes.threads,
                       1, most_threads);
-    add_option(command, "--policy-block", "FILE", "File with the policy block that 'rddl' means",
+    add_option(command, "--policy-block", "FILE",
+               "File with the policy block for the policy 'rddl'",
                [&options](const std::string& file) { options.policy_block = file; });
-    add_flag(command, "--stochastic", "Learned policies act at random, as while they learned",
+    add_flag(command, "--stochastic", "Learned policies sample their actions, as during training",
              options.random);
     add_planner_options(command, options.planning);
     add_engine_options(command, options.load);
@@ -231,7 +199,7 @@ Command evaluate_command() {
     const auto options = std::make_shared<EvaluationOptions>();
     Command command;
     command.name = "evaluate";
-    command.summary = "Run episodes of a policy and tell what it earns";
+    command.summary = "Run episodes of a policy and report its mean return";
     command.details =
         "Examples:\n"
         "  rddl evaluate MountainCar_ippc2023 1 --policy runs/a\n"

@@ -35,8 +35,8 @@ void require_consistent(const FormatOptions& options) {
     const int ways = options.check + options.diff + options.to_stdout + !options.output.empty();
     const bool is_check_with_diff = options.check && options.diff && ways == 2;
     if (ways > 1 && !is_check_with_diff)
-        throw Failure("of --check, --diff, --stdout and -o, only --check and --diff go together",
-                      "", usage_error);
+        throw Failure("only --check and --diff can be combined; --stdout and -o stand alone", "",
+                      usage_error);
     if (!options.output.empty() && options.files.size() != 1)
         throw Failure("-o takes the text of one file", "", usage_error);
 }
@@ -50,8 +50,8 @@ std::optional<FileId> read(const std::string& path, Sources& sources) {
 void rewrite(const std::string& path, const std::string& text) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored))
-        throw Failure(fmt::format("'{}' is no regular file, so it cannot be rewritten", path),
-                      "--stdout or -o FILE says where the text shall go");
+        throw Failure(fmt::format("'{}' is not a regular file, so it cannot be rewritten", path),
+                      "--stdout or -o FILE says where to write the text");
     UsedFiles none;
     write_file(path, text, none);
 }
@@ -70,7 +70,7 @@ struct Formatted {
     bool changes() const { return before != after; }
 };
 
-// What the options ask for, with one file.
+// Writes one file as the options say.
 void deliver(const FormatOptions& options, const Formatted& file) {
     if (options.diff)
         print_data(unified_diff(printable_line(file.path), file.before, file.after));
@@ -120,8 +120,8 @@ Command fmt_command() {
     command.name = "fmt";
     command.summary = "Lay out RDDL files, with all their comments";
     command.details =
-        "Files are rewritten in place; those that are laid out well are not touched. Nothing but\n"
-        "blanks and line breaks changes.\n\n"
+        "Files are rewritten in place; those that are laid out well are not touched. Only\n"
+        "blanks and line breaks change.\n\n"
         "Examples:\n"
         "  rddl fmt domain.rddl instance.rddl\n"
         "  rddl fmt --check *.rddl               list files that would change\n"

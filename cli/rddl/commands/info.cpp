@@ -1,13 +1,9 @@
-// rddl info: what a problem is made of, as someone who picks a solver asks.
+// rddl info: the characteristics of a problem that matter for the choice of a solver.
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "engines/interpreted_simulator.hpp"
-#include "problems/description.hpp"
-#include "problems/front_end.hpp"
+#include "formats/description.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
-
-#include <fmt/format.h>
 
 namespace rddlc::cli {
 
@@ -20,16 +16,9 @@ struct InfoOptions {
 };
 
 ExitStatus info(const InfoOptions& options) {
-    ProblemDescription description;
-    description.files = options.problem.files();
-    if (!options.policy_file.empty()) description.files.policy = options.policy_file;
-    Compilation compilation =
-        compile_or_give_up(compile_options(description.files, Stage::Optimise));
-    description.model = *std::move(compilation.model);
-    description.characteristics = characteristics_of(description.model);
-    description.simulator =
-        interpreted_simulator(*std::move(compilation.program), std::move(compilation.sources));
-    description.refusals = solvers::refusals(*description.simulator);
+    ProblemFiles files = options.problem.files();
+    if (!options.policy_file.empty()) files.policy = options.policy_file;
+    const ProblemDescription description = describe(files);
     if (options.json)
         print("{}", json_document(description_json(description)));
     else
@@ -50,7 +39,7 @@ Command info_command() {
         "  rddl info Reservoir_ippc2023 1 --json\n"
         "  rddl info domain.rddl instance.rddl --policy policy.rddl";
     add_problem_arguments(command, options->problem);
-    add_text_option(command, "--policy", "FILE", "Take the policy block of this file, too",
+    add_text_option(command, "--policy", "FILE", "Also read the policy block of this file",
                     options->policy_file);
     add_flag(command, "--json", "Print everything as JSON, layouts and bounds included",
              options->json);

@@ -1,10 +1,7 @@
 // rddl list: the problems of rddlrepository.
 #include "commands/commands.hpp"
 #include "formats/table.hpp"
-#include "problems/characteristics.hpp"
-#include "problems/front_end.hpp"
-#include "problems/problem_lookup.hpp"
-#include "rollouts/parallel.hpp"
+#include "problems/survey.hpp"
 #include "support/json_text.hpp"
 #include "support/program.hpp"
 
@@ -60,46 +57,27 @@ std::string instances_text(const std::vector<std::string>& instances) {
     return out;
 }
 
-// What one instance shows of a problem; instances hardly differ in it.
-struct ListedProblem {
-    RepositoryProblem problem;
-    std::optional<Characteristics> characteristics;  // absent if there are errors
-};
-
-std::vector<ListedProblem> look_at(const std::vector<RepositoryProblem>& problems) {
-    std::vector<ListedProblem> listed;
-    for (const RepositoryProblem& problem : problems) listed.push_back({problem, std::nullopt});
-    for_each_in_parallel("looking at problems", listed.size(), [&](std::size_t i) {
-        const RepositoryProblem& problem = listed[i].problem;
-        if (problem.instances.empty()) return;
-        const Compilation compilation = compile(
-            compile_options(find_instance(problem, problem.instances.front()), Stage::Check));
-        if (compilation.model) listed[i].characteristics = characteristics_of(*compilation.model);
-    });
-    return listed;
-}
-
-std::string kind_text(const ListedProblem& listed) {
+std::string kind_text(const SurveyedProblem& listed) {
     if (!listed.characteristics) return "has errors";
     const Characteristics& c = *listed.characteristics;
     return std::string(c.stochastic() ? "stochastic" : "deterministic") +
            (c.partially_observed ? " POMDP" : " MDP");
 }
 
-std::string actions_text(const ListedProblem& listed) {
+std::string actions_text(const SurveyedProblem& listed) {
     return listed.characteristics ? listed.characteristics->action.text() : "";
 }
 
-std::size_t instance_count(const std::vector<ListedProblem>& all) {
+std::size_t instance_count(const std::vector<SurveyedProblem>& all) {
     std::size_t count = 0;
-    for (const ListedProblem& listed : all) count += listed.problem.instances.size();
+    for (const SurveyedProblem& listed : all) count += listed.problem.instances.size();
     return count;
 }
 
-void print_table(const std::vector<ListedProblem>& all, const Repository& repository) {
+void print_table(const std::vector<SurveyedProblem>& all, const Repository& repository) {
     constexpr std::size_t description_width = 32;
-    Table table({{"problem"}, {"instances"}, {"kind"}, {"actions"}, {"description"}});
-    for (const ListedProblem& listed : all)
+    TextTable table({{"problem"}, {"instances"}, {"kind"}, {"actions"}, {"description"}});
+    for (const SurveyedProblem& listed : all)
         table.add_row({listed.problem.name, instances_text(listed.problem.instances),
                        kind_text(listed), actions_text(listed),
                        shortened(listed.problem.description, description_width)});
@@ -111,7 +89,7 @@ void print_table(const std::vector<ListedProblem>& all, const Repository& reposi
           counted(instance_count(all), "instance"), repository.folder.string());
 }
 
-void print_descriptions(const std::vector<ListedProblem>& all) {
+void print_descriptions(const std::vector<SurveyedProblem>& all) {
     for (const auto& [problem, characteristics] : all) {
         print("{}\n", problem.name);
         for (const std::string& line : wrapped(problem.description, 94)) print("    {}\n", line);
@@ -124,7 +102,7 @@ void print_descriptions(const std::vector<ListedProblem>& all) {
     }
 }
 
-nlohmann::ordered_json problem_json(const ListedProblem& listed) {
+nlohmann::ordered_json problem_json(const SurveyedProblem& listed) {
     const RepositoryProblem& problem = listed.problem;
     nlohmann::ordered_json out{{"name", problem.name},
                                {"context", problem.context},
@@ -142,9 +120,9 @@ nlohmann::ordered_json problem_json(const ListedProblem& listed) {
     return out;
 }
 
-void print_json(const std::vector<ListedProblem>& all) {
+void print_json(const std::vector<SurveyedProblem>& all) {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const ListedProblem& listed : all) out.push_back(problem_json(listed));
+    for (const SurveyedProblem& listed : all) out.push_back(problem_json(listed));
     print("{}", json_document(out));
 }
 
@@ -154,7 +132,7 @@ ExitStatus list(const ListOptions& options) {
     const std::string filter = lower_case(options.filter);
     std::copy_if(repository.problems.begin(), repository.problems.end(), std::back_inserter(chosen),
                  [&](const RepositoryProblem& problem) { return matches(problem, filter); });
-    const std::vector<ListedProblem> listed = look_at(chosen);
+    const std::vector<SurveyedProblem> listed = survey(chosen);
     if (options.json)
         print_json(listed);
     else if (options.verbose)

@@ -22,13 +22,13 @@ ProblemFiles ProblemArguments::with_options(ProblemFiles files) const {
 void add_problem_arguments(Command& command, ProblemArguments& arguments, bool required) {
     add_argument(
         command, "DOMAIN",
-        "Domain file, or one that holds the instance, too; folder of a domain.rddl and its "
+        "Domain file, or one that also holds the instance; folder of a domain.rddl and its "
         "instances; or NAME of a problem of rddlrepository",
         arguments.first)
         .is_required = required;
     add_argument(command, "INSTANCE", "Instance file, or number of the instance", arguments.second);
     add_text_option(command, "--instance", "NAME",
-                    "Take the instance of this name, where the files hold several",
+                    "Use the instance of this name, if the files hold several",
                     arguments.instance_name);
     add_standard_option(command, arguments.standard);
     add_option(
@@ -69,7 +69,7 @@ void add_pass_options(Command& command, LoadOptions& options) {
 }
 
 void add_cache_option(Command& command, LoadOptions& options) {
-    add_flag(command, "--no-cache", "Compile anew instead of using a simulator compiled before",
+    add_flag(command, "--no-cache", "Compile again instead of using a cached simulator",
              options.ignore_cache);
 }
 
@@ -81,9 +81,10 @@ void add_engine_options(Command& command, LoadOptions& options) {
                })
         .choices = {"compiled", "interpreter"};
     add_extern_option(command, options,
-                      "C++ header of the external functions; the interpreter takes a .so, too");
+                      "C++ header of the external functions; the interpreter also takes a .so");
     add_pass_options(command, options);
-    add_option(command, "--real", "TYPE", "What reals are computed in: double (default) or float",
+    add_option(command, "--real", "TYPE",
+               "Type of reals in computations: double (default) or float",
                [&options](const std::string& name) {
                    options.real = name == "float" ? RealType::Float : RealType::Double;
                })
@@ -113,9 +114,8 @@ void choose_policy(const std::string& name, Policy& policy,
     if (is_learned_policy(name)) {
         if (!rollouts)
             throw UsageError(
-                fmt::format("--policy: '{}' is a trace or what a solver has learned, which this "
-                            "command does not "
-                            "take; --states takes the states of a trace",
+                fmt::format("--policy: '{}' is a trace or a learned policy, which this "
+                            "command does not accept; --states takes the states of a trace",
                             name));
         policy = Policy::Learned;
         rollouts->learned = name;
@@ -142,7 +142,7 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
         std::string("random (default): legal random actions; noop: default actions; rddl: the "
                     "policy block of the problem; FILE: the policy block in it") +
             (rollouts
-                 ? ", what a solver has learned, or the actions of a trace (.jsonl): episode 0 "
+                 ? ", a learned policy, or the actions of a trace (.jsonl): episode 0 "
                    "plays those of its episode 0 and so on, and after its last episode comes "
                    "its first one again; plan:NAME: a planner ('rddl help evaluate' lists them)"
                  : ""),
@@ -150,6 +150,68 @@ void add_policy_option(Command& command, Policy& policy, std::optional<std::file
             choose_policy(name, policy, file, rollouts);
         })
         .suggestions = {"random", "noop", "rddl"};
+}
+
+namespace {
+
+// "600x400"
+void read_size(const std::string& text, int& width, int& height) {
+    const std::size_t by = text.find_first_of("xX");
+    if (by == std::string::npos)
+        throw UsageError(fmt::format("--size: '{}' is not WIDTHxHEIGHT, such as 600x400", text));
+    width = number_of<int>("--size", text.substr(0, by), 16, 8192);
+    height = number_of<int>("--size", text.substr(by + 1), 16, 8192);
+}
+
+}  // namespace
+
+void add_size_option(Command& command, int& width, int& height, const std::string& explanation) {
+    add_option(command, "--size", "WxH", explanation,
+               [&width, &height](const std::string& text) { read_size(text, width, height); });
+}
+
+void add_chart_options(Command& command, ChartFiles& files) {
+    add_text_option(command, "--png", "FILE", "Write a picture", files.png);
+    add_text_option(command, "--svg", "FILE", "Write a vector graphic", files.svg);
+    add_size_option(command, files.width, files.height, "Pixels of the picture (900x600)");
+}
+
+void add_picture_options(Command& command, PictureOptions& options) {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    add_text_option(command, "--gif", "FILE",
+                    "Write a movie of an episode; - is stdout, here and below", options.gif);
+    add_text_option(command, "--video,--mp4", "FILE",
+                    "The same as .mp4, .webm or .webp, by the program ffmpeg", options.video);
+    add_text_option(command, "--png", "PATH",
+                    "FILE.png or -: a picture of one state; another path: a folder of all",
+                    options.png);
+    add_text_option(command, "--svg", "PATH", "The same as vector graphics", options.svg);
+    add_text_option(command, "--html", "FILE", "Write a page that replays the episode, in one file",
+                    options.html);
+    add_flag(command, "--watch", "Show the episode in the terminal, state by state", options.watch);
+    add_text_option(command, "--visualizer", "NAME",
+                    "How states are drawn: auto, chart, heatmap, text, or that of a domain (the "
+                    "one for the problem's domain); 'list' prints all",
+                    options.visualizer);
+    add_text_option(command, "--scene", "FILE.json",
+                    "Draw the shapes that this file describes (docs/scenes.md)", options.scene);
+    add_size_option(command, options.width, options.height, "Pixels of a picture (600x400)");
+    add_number_option<double>(command, "--fps", "N", "Steps a second in movies (10)",
+                              options.frames_per_second, 0.01, 1000);
+    add_number_option<double>(command, "--real-time-factor", "X",
+                              "X seconds of the problem in a second of the movie, where a "
+                              "non-fluent gives the length of a step",
+                              options.real_time_factor, 1e-6, 1e6);
+    add_number_option<std::int64_t>(command, "--max-frames", "N",
+                                    "Largest number of pictures: every second, third, ... state of "
+                                    "a longer episode (1000)",
+                                    options.most_frames, 1, most);
+    add_number_option<std::int64_t>(command, "--environment", "K",
+                                    "Number of the episode, from 0 on (0; --watch shows all)",
+                                    options.episode, 0, most);
+    add_number_option<std::int64_t>(command, "--step", "K",
+                                    "State that a single picture shows (the last one)",
+                                    options.step, 0, most);
 }
 
 void add_preconditions_option(Command& command, Preconditions& preconditions) {

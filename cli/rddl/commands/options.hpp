@@ -1,9 +1,12 @@
-// Options that several subcommands share, so that they are spelled and explained alike. What they
-// write to outlives the command.
+// Options that several subcommands share, so that they are spelled and explained alike. The
+// variables that they write must outlive the command.
 #pragma once
 
 #include "command_line/command_line.hpp"
+#include "commands/commands.hpp"
 #include "engines/load_simulator.hpp"
+#include "pictures/charts.hpp"
+#include "pictures/picture_options.hpp"
 #include "problems/problem_lookup.hpp"
 #include "rollouts/rollouts.hpp"
 #include "rollouts/violations.hpp"
@@ -69,13 +72,22 @@ void add_cache_option(Command& command, LoadOptions& options);
 // --engine, --extern, --without, --fast-math, --real, --no-cache
 void add_engine_options(Command& command, LoadOptions& options);
 
-// --policy; of a file its policy block or, where there is a place for it, a learned policy or a
-// planner
+// --policy; a file gives its policy block or, if `rollouts` is not null, a learned policy. Planners
+// are accepted if `rollouts` is not null.
 void add_policy_option(Command& command, Policy& policy, std::optional<std::filesystem::path>& file,
                        RolloutOptions* rollouts = nullptr);
 
 // --cheat, --explain-decisions
 void add_planner_options(Command& command, PlannerSettings& planning);
+
+// --size
+void add_size_option(Command& command, int& width, int& height, const std::string& explanation);
+
+// The pictures to draw, and their files.
+void add_picture_options(Command& command, PictureOptions& options);
+
+// --png, --svg, --size
+void add_chart_options(Command& command, ChartFiles& files);
 
 // --preconditions
 void add_preconditions_option(Command& command, Preconditions& preconditions);

@@ -1,14 +1,11 @@
 // rddl plot: learning curves of runs.
 #include "commands/commands.hpp"
-#include "learning/learning_curves.hpp"
+#include "learning/run_groups.hpp"
 #include "pictures/charts.hpp"
 #include "support/program.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <memory>
 
 namespace rddlc::cli {
@@ -22,60 +19,11 @@ struct PlotOptions {
     ChartFiles files;
 };
 
-// Runs that make one curve.
-struct Group {
-    std::string name;
-    std::string what;  // solver and problem: returns of different problems have no mean
-    std::vector<RunProgress> runs;
-};
-
-// A folder of runs is a group; so are runs whose names differ in their seeds.
-std::vector<Group> groups_of(const PlotOptions& options) {
-    std::vector<Group> groups;
-    for (const std::string& word : options.runs) {
-        const std::vector<std::filesystem::path> folders = run_folders(word);
-        const bool is_run = folders.size() == 1 && folders[0] == word;
-        for (const std::filesystem::path& folder : folders) {
-            std::string name = word;
-            const RunDescription run = description_of(folder).value_or(RunDescription{});
-            if (!run.what.empty() && is_run && !options.each) name = without_seed(word, run.seed);
-            if (options.each && !is_run) name = folder.string();
-            const auto known = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-                return group.name == name && group.what == run.what && !options.each;
-            });
-            Group& group =
-                known == groups.end() ? groups.emplace_back(Group{name, run.what, {}}) : *known;
-            group.runs.push_back(read_progress(folder));
-        }
-    }
-    // A run that has no others keeps the name that it has; groups of one folder tell what they are.
-    std::map<std::string, int> uses;
-    for (const Group& group : groups) uses[group.name] += 1;
-    for (Group& group : groups)
-        if (group.runs.size() == 1)
-            group.name = group.runs[0].folder.string();
-        else if (uses[group.name] > 1)
-            group.name += ": " + group.what;
-    return groups;
-}
-
-// What is a step to one solver is a generation to another: beside each other, they have but time
-// in common.
-std::string steps_title(const std::vector<Group>& groups) {
-    std::size_t searches = 0, all = 0;
-    for (const Group& group : groups)
-        for (const RunProgress& run : group.runs) {
-            all += 1;
-            searches += std::count(run.columns.begin(), run.columns.end(), "search/best") > 0;
-        }
-    return searches == 0 ? "steps" : searches == all ? "generations" : "";
-}
-
 ExitStatus plot(const PlotOptions& options) {
     ChartFiles files = options.files;
     if (!files.any()) files.png = "curves.png";
     require_writable_chart(files);
-    const std::vector<Group> groups = groups_of(options);
+    const std::vector<RunGroup> groups = run_groups(options.runs, options.each);
     const std::string steps = steps_title(groups);
     const bool by_time = options.x == "time" || (options.x == "auto" && steps.empty());
     const bool by_steps = options.x == "steps" || (options.x == "auto" && !steps.empty());
@@ -89,7 +37,7 @@ ExitStatus plot(const PlotOptions& options) {
                      options.y,
                      {}};
     chart.title = fmt::format("{} by {}", options.y, chart.x_title);
-    for (const Group& group : groups)
+    for (const RunGroup& group : groups)
         chart.curves.push_back(curve_of(group.name, group.runs, x, options.y));
     write_chart(chart, files);
     for (const std::string& file : {files.png, files.svg})
@@ -105,10 +53,10 @@ Command plot_command() {
     command.name = "plot";
     command.summary = "Draw the learning curves of runs";
     command.details =
-        "Runs of 'rddl train' whose names end in '_' and their seeds, and else are the same, are "
+        "Runs of 'rddl train' whose names differ only in the seed at their end (NAME_SEED) are "
         "one\n"
         "curve, as are all runs of a solver on a problem in a folder: their mean, and a band of "
-        "the\nstandard deviation about it.\n\n"
+        "the\nstandard deviation around it.\n\n"
         "Examples:\n"
         "  rddl plot runs/car_ppo_0 runs/car_ppo_1 runs/car_cgp_0 --png curves.png\n"
         "  rddl plot runs/a --y train/approx_kl --svg kl.svg";

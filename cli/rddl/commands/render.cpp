@@ -2,20 +2,17 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "formats/line_stream.hpp"
-#include "formats/trace.hpp"
+#include "formats/traced_problem.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
 #include "support/files.hpp"
-#include "support/json_text.hpp"
 #include "support/program.hpp"
 #include "terminal/interrupt.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace rddlc::cli {
 
@@ -38,36 +35,6 @@ void require_pages_alone(const RenderOptions& options) {
         throw Failure("--beside is for --html alone", {}, usage_error);
 }
 
-// The files that the trace was made with, as its header names them.
-ProblemFiles files_of_header(const std::string& line, const RenderOptions& options) {
-    const Failure unknown(
-        fmt::format("the first line of '{}' does not tell which problem it is of", options.trace),
-        "name the problem: rddl render TRACE DOMAIN INSTANCE");
-    nlohmann::json header;
-    try {
-        header = parse_json(line);
-    } catch (const RefusedJson&) {
-        throw Failure(fmt::format("'{}' is no trace: its first line is no JSON", options.trace),
-                      "'rddl run --trace FILE' writes traces");
-    }
-    const auto files = header.is_object() ? header.find("files") : header.end();
-    if (files == header.end() || !files->is_array() || files->empty()) throw unknown;
-    std::vector<std::string> paths;
-    for (const auto& file : *files) {
-        if (!file.is_object() || !file.contains("path") || !file["path"].is_string()) throw unknown;
-        paths.push_back(file["path"].get<std::string>());
-    }
-    for (const std::string& path : paths)
-        if (!is_there(path))
-            throw Failure(fmt::format("the trace is of '{}', which is not there", path),
-                          "name the problem: rddl render TRACE DOMAIN INSTANCE");
-    // A third one has the policy, of which states do not depend any more.
-    ProblemFiles problem = find_files(paths[0], paths.size() > 1 ? paths[1] : "");
-    for (const auto& file : changed_files(header, problem.inputs()))
-        tell("rddl: warning: '{}' has changed since the trace was made\n", file.string());
-    return problem;
-}
-
 ExitStatus render_trace(const RenderOptions& options) {
     if (options.pictures.visualizer == "list") {
         print("{}", visualizer_list());
@@ -82,7 +49,7 @@ ExitStatus render_trace(const RenderOptions& options) {
     if (!options.beside.empty()) require_pages_alone(options);
     if (is_folder(options.trace))
         throw Failure(
-            fmt::format("'{}' is a folder, and no trace", options.trace),
+            fmt::format("'{}' is a folder, not a trace", options.trace),
             "'rddl run --gif FILE' runs a problem and draws it; 'rddl run --trace FILE' writes a "
             "trace");
     UsedFiles used;
@@ -90,9 +57,10 @@ ExitStatus render_trace(const RenderOptions& options) {
     LineReader input(options.trace, used, largest_text);
     std::optional<std::string> line = input.next();
     if (!line) throw Failure(fmt::format("'{}' is empty", options.trace));
-    const ProblemFiles files = options.problem.first.empty()
-                                   ? options.problem.with_options(files_of_header(*line, options))
-                                   : options.problem.files();
+    const ProblemFiles files =
+        options.problem.first.empty()
+            ? options.problem.with_options(files_of_header(*line, options.trace))
+            : options.problem.files();
     LoadedProblem problem = load_problem(files, options.load);
     problem.used.add(options.trace);
     std::optional<LineReader> second;
@@ -119,7 +87,7 @@ Command render_command() {
     command.details =
         "A trace is what 'rddl run --trace' writes, or any file in that form (docs/traces.md). "
         "Its\n"
-        "header tells which problem it is of; without one, or where the files have moved, name "
+        "header names its problem; without one, or where the files have moved, name "
         "the\n"
         "problem. docs/pictures.md shows what the pictures look like.\n\n"
         "Examples:\n"

@@ -31,7 +31,7 @@ struct ReplayCommandOptions {
     std::string output = "-";
 };
 
-// Tells of violated preconditions on stderr: the first with all circumstances, all as a number.
+// Reports violated preconditions on stderr: the first with all circumstances, all as a number.
 class ViolationLog {
   public:
     ViolationLog(const ProblemFiles& files, const LoadOptions& load, Preconditions preconditions)
@@ -57,7 +57,7 @@ class ViolationLog {
     std::size_t count_ = 0;
 };
 
-// The first trace whose files had another text tells so, for all.
+// The first trace whose files had another text reports it, for all.
 class ChangedFiles {
   public:
     explicit ChangedFiles(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
@@ -116,14 +116,14 @@ Command replay_command() {
     const auto options = std::make_shared<ReplayCommandOptions>();
     Command command;
     command.name = "replay";
-    command.summary = "Make the steps that lines of JSON ask for";
+    command.summary = "Step the simulator from JSON input";
     command.details =
         "An input line is {\"action\": {...}, \"state\": {...}}, both optional; the state (or a\n"
         "part of it) is set before the step. The answer is {\"state\": {...}, \"observation\":\n"
         "{...} or null, \"reward\": r, \"terminated\": b, \"truncated\": b}, or {\"error\": "
         "\"...\"}\n"
-        "for a line that is refused. docs/traces.md tells all members. A trace of 'rddl run' is\n"
-        "an input, too. In a pipe every answer comes at once, so a program can drive this.\n\n"
+        "for a line that is refused. docs/traces.md lists all members. A trace of 'rddl run' is\n"
+        "also an input. In a pipe every answer comes at once, so a program can drive this.\n\n"
         "Examples:\n"
         "  rddl replay domain.rddl instance.rddl --input actions.jsonl --output trace.jsonl\n"
         "  echo '{\"action\": {\"throttle\": 1.0}}' | rddl replay domain.rddl instance.rddl\n"

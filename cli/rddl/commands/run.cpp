@@ -7,6 +7,7 @@
 #include "formats/trace.hpp"
 #include "pictures/picture_options.hpp"
 #include "pictures/picture_writer.hpp"
+#include "pictures/rollout_pictures.hpp"
 #include "rollouts/rollouts.hpp"
 #include "solvers/evaluation/summary.hpp"
 #include "support/json_text.hpp"
@@ -16,9 +17,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -48,7 +46,7 @@ std::string when(const auto& event) {
     return fmt::format("episode {}, step {}", event.episode, event.step);
 }
 
-// In the form of the compiler's messages; `count` illegal actions there were in all.
+// Reports in the form of the compiler's messages; `count` is the number of all illegal actions.
 void report_illegal_action(const EpisodeViolation& first, std::int64_t count,
                            Preconditions preconditions, ViolationExplainer& explainer) {
     const char* const severity = preconditions == Preconditions::Error ? "error" : "warning";
@@ -66,7 +64,7 @@ bool all_faulted(const Summary& summary) {
     return summary.faulted > 0 && summary.faulted == summary.episodes;
 }
 
-// Who sees no summary learns of it here.
+// Reports faults to users who see no summary.
 void report_faults(const Summary& summary, const EpisodeFault& first) {
     if (summary.faulted == 0) return;
     const std::string_view severity = all_faulted(summary) ? "error" : "warning";
@@ -89,11 +87,11 @@ void print_summary(const RunOptions& options, const Summary& summary, const Roll
     const rddl_problem& description = *problem.simulator->problem;
     print("{} ({}): policy {}, seed {}, {}\n\n", description.instance, description.domain,
           policy_name(options.rollouts), options.rollouts.seed, name_of(options.load.engine));
-    Table table({{""},
-                 {"mean", Align::Right},
-                 {"std", Align::Right},
-                 {"min", Align::Right},
-                 {"max", Align::Right}});
+    TextTable table({{""},
+                     {"mean", Align::Right},
+                     {"std", Align::Right},
+                     {"min", Align::Right},
+                     {"max", Align::Right}});
     const auto add = [&](std::string what, const solvers::Estimate& s) {
         table.add_row({std::move(what), number_text(s.mean), number_text(s.deviation),
                        number_text(s.minimum), number_text(s.maximum)});
@@ -189,28 +187,9 @@ void require_drawn_episode(const RunOptions& options) {
     require_different_files(options.pictures, options.trace);
 }
 
-// An episode that is over before its first step has no line in the trace; its state is drawn.
-void draw_initial_states(const Rollouts& rollouts, PictureWriter& pictures) {
-    for (std::size_t e = 0; e < rollouts.episodes.size(); ++e) {
-        const Episode& episode = rollouts.episodes[e];
-        if (episode.length == 0 && !(episode.causes & RDDL_FAULTED))
-            pictures.add_line(fmt::format(R"({{"episode":{},"state":{{}},"causes":{}}})", e,
-                                          causes_json(episode.causes)));
-    }
-}
-
-// Of the episode, for people.
+// The name of the episode in titles.
 std::string course_name(const RunOptions& options) {
     return fmt::format("policy {}, seed {}", policy_name(options.rollouts), options.rollouts.seed);
-}
-
-// The lines of a text, without their line breaks.
-void for_each_line(std::string_view lines, const auto& take) {
-    while (!lines.empty()) {
-        const std::size_t end = std::min(lines.find('\n'), lines.size() - 1);
-        take(lines.substr(0, end));
-        lines.remove_prefix(end + 1);
-    }
 }
 
 ExitStatus run(const RunOptions& options) {
@@ -236,8 +215,7 @@ ExitStatus run(const RunOptions& options) {
     if (trace || pictures) {
         sink = [&](const std::string& lines) {
             if (trace) trace->write(lines);
-            if (pictures && !is_interrupted())
-                for_each_line(lines, [&](std::string_view line) { pictures->add_line(line); });
+            if (pictures && !is_interrupted()) draw_lines(lines, *pictures);
         };
         sink(header_line(options, problem, horizon));
     }
@@ -301,8 +279,8 @@ Command run_command() {
     add_problem_arguments(command, options->problem);
     add_policy_option(command, options->rollouts.policy, options->policy_file, &options->rollouts);
     RolloutOptions& rollouts = options->rollouts;
-    add_number_option<std::int64_t>(command, "--episodes", "N", "How many (1)", rollouts.episodes,
-                                    1, 100'000'000);
+    add_number_option<std::int64_t>(command, "--episodes", "N", "Episodes to run (1)",
+                                    rollouts.episodes, 1, 100'000'000);
     add_seed_option(command, rollouts.seed, "Seed of all random numbers (0)");
     add_horizon_option(command, rollouts.horizon,
                        "Steps an episode; 0: no horizon (the instance's)");

@@ -71,7 +71,7 @@ ExitStatus run_training(const TrainOptions& options, const rddl_simulator& simul
              result.not_finite);
     if (!result.interrupted) return success;
     if (!ranks.is_first()) return interrupted_status();
-    tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' goes on\n", trainee.solver,
+    tell("rddl: interrupted; 'rddl train {} ... --out {} --resume' continues it\n", trainee.solver,
          training.folder.string());
     return interrupted_status();
 }
@@ -87,22 +87,43 @@ ExitStatus train_on_ranks(TrainOptions& options,
 void add_common_options(Command& command, TrainOptions& options) {
     add_problem_arguments(command, options.problem);
     add_text_option(command, "--out", "FOLDER",
-                    "Where the run is written (runs/INSTANCE_SOLVER_SEED)", options.folder);
-    add_flag(command, "--resume", "Go on with the run in that folder, by the same options",
+                    "Folder of the run's files (runs/INSTANCE_SOLVER_SEED)", options.folder);
+    add_flag(command, "--resume", "Resume the run in that folder, with the same options",
              options.training.resumes);
-    add_number_option(command, "--time", "SECONDS", "End after so long", options.training.seconds,
+    add_number_option(command, "--time", "SECONDS", "End after this time", options.training.seconds,
                       0.0, 1e9);
-    add_number_option(command, "--stop-return", "RETURN", "End when an evaluation earns this",
-                      options.training.stop_return, -1e300, 1e300);
+    add_number_option(command, "--stop-return", "RETURN",
+                      "End when an evaluation reaches this return", options.training.stop_return,
+                      -1e300, 1e300);
     add_number_option<std::int64_t>(command, "--evaluations", "N",
                                     "Evaluations; the best policy of all is kept (20)",
                                     options.training.evaluations, 1, 1'000'000);
-    add_number_option<std::int64_t>(command, "--evaluation-episodes", "N",
-                                    "Episodes of each, where anything is drawn at random (20)",
-                                    options.training.evaluation_episodes, 1, 1'000'000);
+    add_number_option<std::int64_t>(
+        command, "--evaluation-episodes", "N",
+        "Episodes of each evaluation, if anything is drawn at random (20)",
+        options.training.evaluation_episodes, 1, 1'000'000);
     add_seed_option(command, options.training.seed, "Seed of all random numbers (0)");
     add_engine_options(command, options.load);
     add_flag(command, "--quiet", "Print nothing", options.training.quiet);
+}
+
+Option& add_learner_option(Command& command, const solvers::OptionText& option,
+                           const std::function<void(const std::string&)>& take) {
+    if (option.value.empty())
+        return add_flag(command, option.name, option.help, [take](const std::string& word) {
+            take(word == "true" ? "on" : word == "false" ? "off" : word);
+        });
+    if (option.is_list)
+        return add_list_option(command, option.name, option.value, option.help, take);
+    Option& added = add_option(command, option.name, option.value, option.help, take);
+    added.choices = option.choices;
+    return added;
+}
+
+std::vector<std::string> names_elsewhere(const solvers::OptionText& option) {
+    std::vector<std::string> names = option.elsewhere;
+    names.push_back(option.keyword);
+    return names;
 }
 
 // All options of a learner's table.
@@ -121,16 +142,7 @@ void add_learner_options(Command& command, const solvers::OptionTable<Options>& 
                     throw UsageError(fmt::format("{}: {}", option.name, refused.what()));
                 }
             };
-        if (option.value.empty()) {
-            add_flag(command, option.name, option.help, [take](const std::string& word) {
-                take(word == "true" ? "on" : word == "false" ? "off" : word);
-            });
-        } else if (option.is_list) {
-            add_list_option(command, option.name, option.value, option.help, take);
-        } else {
-            add_option(command, option.name, option.value, option.help, take).choices =
-                option.choices;
-        }
+        add_learner_option(command, option, take).elsewhere = names_elsewhere(option);
     }
 }
 
@@ -158,8 +170,8 @@ Command ppo_command() {
     command.name = "ppo";
     command.summary = "Learn a neural network by proximal policy optimisation";
     command.details =
-        "Takes all kinds of fluents and actions, bounded or not, observed in full or in part\n"
-        "('rddl info' tells what a problem has). Refuses problems without an end, without a\n"
+        "Takes all kinds of fluents and actions, bounded or not, fully or partially observed\n"
+        "('rddl info' shows what a problem has). Refuses problems without an end, without a\n"
         "choice or with too many choices, and says why.\n\n"
         "Examples:\n"
         "  rddl train ppo MountainCar_ippc2023 1 --out runs/a\n"
@@ -198,8 +210,8 @@ Command cgp_command() {
     command.name = "cgp";
     command.summary = "Find a formula by Cartesian genetic programming";
     command.details =
-        "Takes all kinds of fluents and actions, bounded or not ('rddl info' tells what a problem\n"
-        "has). Of a problem that is observed in part programs read the present observation alone.\n"
+        "Takes all kinds of fluents and actions, bounded or not ('rddl info' shows what a problem\n"
+        "has). In a partially observed problem programs read only the present observation.\n"
         "Refuses problems without a choice or with too many choices, and says why.\n\n"
         "Examples:\n"
         "  rddl train cgp MountainCar_ippc2023 1 --gens 25 --out runs/c\n"
@@ -220,7 +232,7 @@ Command train_command() {
     Command command;
     command.name = "train";
     command.summary = "Learn a policy";
-    command.details = "'rddl help train ppo' tells all options.";
+    command.details = "'rddl help train ppo' lists all options.";
     command.commands = {ppo_command(), cgp_command()};
     return command;
 }

@@ -8,7 +8,7 @@
 
 namespace rddl_extern {
 
-// Of any size: a span of dynamic extent takes those of fixed extent.
+// Takes any size: a span of dynamic extent accepts those of fixed extent.
 inline void bought(std::span<const bool> buys, std::span<const std::int64_t> stock,
                    std::int64_t limit, std::span<std::int64_t> result) {
     for (std::size_t g = 0; g < buys.size(); ++g)
@@ -19,7 +19,7 @@ inline double price_of(double price, bool is_known) {
     return is_known ? price : 1.5 * price;
 }
 
-// Of the size that the instance has.
+// Takes the size that the instance has.
 template <class T, std::size_t rows, std::size_t columns>
 void blend(std::span<const std::array<T, columns>, rows> table,
            std::span<std::array<double, columns>, rows> result) {

@@ -81,7 +81,7 @@ class Draft(Tables):
         return type_
 
     def declare(self, stem: str, role: str, kind: str, *parameters: str, default: str | None = None) -> Fluent:
-        """Its values are random, but for a default that is given."""
+        """Declares a fluent with random values, except for a default that is given."""
         fluent = Fluent(self.fresh(stem), role, kind, parameters)
         fluent.magnitude, fluent.fraction = 10, 2
         if kind == "real" and self.problem.flavour != "plain" and self.chance(0.4):
@@ -149,7 +149,7 @@ class Draft(Tables):
         return real(self.pick(["(0.0 * %s)", "(-0.0 * %s)", "(%s * 0.0)", "(-(0.0 * %s))", "(0.0 - 0.0 * %s)"]), number)
 
     def signed(self, number: Expr) -> Expr:
-        """As often negative as positive, and often a zero."""
+        """A number that is as often negative as positive, and often a zero."""
         form = self.pick(["%s", "(-%s)", "(0.0 - %s)", "(%s - 0.5)", "(%s * -1.0)", "(%s + 0.0)", "(1.0 * %s)", "ZERO", "MASK"])
         if form == "ZERO":
             return self.zero(number)
@@ -157,21 +157,8 @@ class Draft(Tables):
             return real(self.pick(["(%s * %s)", "(if (%s) then -%s else -0.0)"]), self.some_bool({}), number)
         return real(form, number)
 
-    def sums_within(self, expr: Expr) -> int:
-        """How many sums or products of reals stand in one another, interm-fluents included."""
-        below = [self.sums_within(part) for part in expr.parts]
-        name = expr.form.split("(")[0]
-        if name in self.problem.cpfs:
-            below.append(self.sums_within(self.problem.cpfs[name][1]))
-        is_sum = expr.kind == "real" and expr.form.startswith(("(sum_", "(prod_", "(avg_"))
-        return is_sum + max(below, default=0)
-
     def revealed(self, number: Expr) -> Expr:
-        """Bounded. Where signs of zeros count, different for 0.0 and -0.0. Sums of reals within sums may be rounded in
-        another order (docs/decisions.md), so that nothing that jumps is applied to them. Values of wild problems cancel,
-        which leaves nothing but rounding."""
-        if self.sums_within(number) > 1:
-            return real("0.5") if self.flavour.wild else real("max[-9.0, min[9.0, %s]]", number)
+        """Bounded. Where signs of zeros count, different for 0.0 and -0.0."""
         if not self.reveals:
             forms = ["max[-9.0, min[9.0, %s]]", "(%s / (0.5 + abs[%s]))", "(if (%s > 0.0) then 1.0 else -1.0)", "sgn[%s] * 1.0"]
         else:

@@ -65,7 +65,7 @@ def spread(draft: Draft, alive, around):
 
 
 def crowding(draft: Draft, cell: str, around) -> None:
-    """A line of the count, and another value where there is none."""
+    """A line of the count, and another value if the count is 0."""
     low, rise = draft.pick([("0.525", "0.0475"), ("0.05", "0.1"), ("-1.0", "0.25"), ("0.0", "-0.3")])
     line = real(f"({low} + {rise} * %s)", around)
     if draft.chance(0.6):  # each cell has a line of its own

@@ -21,7 +21,7 @@ def add(draft: Draft) -> None:
 
 
 def switch(draft: Draft, mode, subject, value):
-    """Of all members, or of some and a default."""
+    """A switch with cases for all members, or for some and a default."""
     members = list(mode.members)
     draft.rng.shuffle(members)
     shown = members if draft.chance(0.5) else members[: max(1, len(members) // 2)]

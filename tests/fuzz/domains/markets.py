@@ -22,7 +22,7 @@ def add(draft: Draft) -> None:
 
 
 def sales(draft: Draft, consumer: str, item: str, holds, buys, sold):
-    """Of each provider, in the order of consumers or of items."""
+    """The sales of each provider, in the order of consumers or of items."""
     bought = draft.at(buys, "?c", "?i")
     both = integer("(%s ^ %s)", bought, draft.at(holds, "?p", "?i"))
     by_consumer = over("sum", "?c", consumer, over("sum", "?i", item, boolean("%s", both)))
@@ -46,7 +46,7 @@ def fits(draft: Draft, consumer: str, item: str, provider: str, taste, offer, bu
 
 
 def parts(draft: Draft, consumer: str, item: str, provider: str, taste, offer, buys) -> None:
-    """Divided by numbers of the instance, of which some may be zero; none with --fast-math."""
+    """Divides by numbers of the instance, of which some may be zero, but not with --fast-math."""
     divisor = draft.declare("PARTS", CONSTANT, "real", item, default=draft.pick(["1.0", "2.0", "-4.0"]))
     numbers = ["1.0", "-2.0", "8.0", "0.5"] + (["0.0", "-0.0"] if draft.reveals and draft.chance(0.3) else [])
     for objects in draft.problem.groundings(divisor):
@@ -58,7 +58,7 @@ def parts(draft: Draft, consumer: str, item: str, provider: str, taste, offer, b
 
 
 def extremes(draft: Draft, consumer: str, item: str, provider: str, taste, offer, buys) -> None:
-    """The least and the greatest taste of those who buy."""
+    """The least and the greatest taste of the buyers."""
     term = real(draft.pick(["(%s * %s)", "(if (%s) then %s else -9.0)"]), draft.at(buys, "?c", "?i"), draft.signed(draft.at(taste, "?c", "?i")))
     outer, inner = draft.pick(["sum", "max", "min"]), draft.pick(["max", "min", "avg"])
     draft.earn(draft.revealed(over(outer, "?i", item, over(inner, "?c", consumer, term))))

@@ -52,7 +52,7 @@ def strongest(draft: Draft, unit: str, weight, net, out) -> None:
 
 
 def balance(draft: Draft, unit: str, weight, net, out) -> None:
-    """What goes in less what goes out cancels, or nearly."""
+    """The inflow less the outflow cancels, or nearly."""
     pair = real("(%s * %s - %s * %s)", draft.at(weight, "?u", "?v"), draft.at(out, "?v"), draft.at(weight, "?v", "?u"), draft.at(out, "?u"))
     draft.earn(draft.revealed(over("sum", "?u", unit, over("sum", "?v", unit, pair))))
     linked = boolean(f"(%s {draft.comparison()} 0.0)", draft.at(weight, "?u", "?v"))

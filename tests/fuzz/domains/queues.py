@@ -40,7 +40,8 @@ def arrivals(draft: Draft, queue: str):
 
 
 def counter(draft: Draft, queue: str, length, room) -> None:
-    """Near 2^53, where reals end to tell ints apart, or 2^63, where ints wrap around."""
+    """Numbers near 2^53, beyond which reals no longer distinguish ints, or 2^63, where ints wrap
+    around."""
     count = draft.declare("count", STATE, "int")
     total = over("sum", "?q", queue, integer("%s", draft.at(length, "?q")))
     if draft.flavour.wild:

@@ -33,7 +33,7 @@ def term(draft: Draft, debt, mask, variable: str):
 
 
 def rows(draft: Draft, item: str, debt, mask, link) -> None:
-    """Sums of a row of a table: of one term, of none, of many."""
+    """Sums of a row of a table: of one term, of no term, of many."""
     inside = real("(%s * %s)", draft.at(link, *draft.pick([("?i", "?j"), ("?j", "?i")])), draft.pick([draft.signed(draft.at(debt, "?j")), term(draft, debt, mask, "?j")]))
     row = draft.interm("row-sum", {"?i": item}, over("sum", "?j", item, inside))
     draft.earn(over(draft.pick(["sum", "max", "min"]), "?i", item, draft.revealed(draft.at(row, "?i"))))

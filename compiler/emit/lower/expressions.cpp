@@ -1,0 +1,395 @@
+#include "emit/lower/expressions.hpp"
+
+#include "emit/cpp/literals.hpp"
+#include "emit/cpp/print.hpp"
+#include "emit/lower/operators.hpp"
+#include "emit/lower/tables.hpp"
+#include "ir/call.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rddlc::cpp {
+namespace {
+
+using tree::braces;
+using tree::element;
+using tree::Expression;
+using tree::list;
+using tree::operation;
+using tree::word;
+
+bool is_int_constant(const ir::Node& node) {
+    return node.type == ir::Scalar::Int && std::holds_alternative<ir::Constant>(node.form);
+}
+
+// A real to an int.
+bool rounds(const ir::Node& node) {
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    return apply && (apply->op == Operator::Round || apply->op == Operator::Floor ||
+                     apply->op == Operator::Ceil);
+}
+
+}  // namespace
+
+void Uses::add(const Uses& others) {
+    records.insert(others.records.begin(), others.records.end());
+    stored.insert(others.stored.begin(), others.stored.end());
+    types.insert(others.types.begin(), others.types.end());
+    context |= others.context;
+}
+
+// -------------------------------------------------------------------------------- names
+
+std::string Expressions::enter(ir::VariableId variable) {
+    return variables_[variable] = scope_.claim(unit_.program[variable].name);
+}
+
+const Expressions::SeveralObjects& Expressions::enter(ir::Nest nest) {
+    std::string wish;
+    for (const ir::VariableId variable : nest.variables)
+        wish += (wish.empty() ? "" : "_") + unit_.program[variable].name;
+    several_ = {std::move(nest), scope_.claim("several"), scope_.claim(wish)};
+    return *several_;
+}
+
+void Expressions::name(ir::NodeId id, const std::string& name) {
+    const auto [known, is_new] = named_.try_emplace(id, name);
+    namings_.push_back({id, is_new ? std::nullopt : std::optional(known->second)});
+    known->second = name;
+}
+
+void Expressions::return_to(Mark mark) {
+    scope_.release(mark.scope);
+    forget(mark);
+}
+
+void Expressions::forget(Mark mark) {
+    for (; namings_.size() > mark.naming; namings_.pop_back()) {
+        Naming& last = namings_.back();
+        if (last.before) {
+            named_[last.id] = *std::move(last.before);
+        } else {
+            named_.erase(last.id);
+        }
+    }
+}
+
+std::string Expressions::type(ir::Scalar scalar) {
+    if (several_) return table_type(scalar, unit_.program.real);
+    uses_.types.insert(scalar);
+    return lane_type(scalar);
+}
+
+// -------------------------------------------------------------------------- expressions
+
+Expression Expressions::lower(ir::NodeId id) {
+    if (nodes_left_ == 0) return word("");
+    --nodes_left_;
+    if (const auto named = named_.find(id); named != named_.end()) return word(named->second);
+    const ir::Node& node = unit_.program[id];
+    return match(node.form, [&](const auto& form) { return lower(node, form); });
+}
+
+// Each node takes a character at least. What is measured need not be written in the end.
+std::size_t Expressions::width_within(ir::NodeId id, std::size_t most) {
+    nodes_left_ = most + 1;
+    const Expression whole = measured([&] { return lower(id); });
+    const bool is_whole = std::exchange(nodes_left_, all_nodes) > 0;
+    return is_whole ? std::min(width(whole), most + 1) : most + 1;
+}
+
+Expression Expressions::result(ir::NodeId id) {
+    const ir::Node& node = unit_.program[id];
+    return is_int_constant(node) ? braces(type(node.type), {lower(id)}) : lower(id);
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Constant& constant) {
+    const std::string text = literal(constant.value, unit_.program.real);
+    return {tree::Word{text, text.front() == '-' ? tree::Level::Unary : tree::Level::Primary}};
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Index& index) {
+    return word(variables_.at(index.variable));
+}
+
+Expression Expressions::lower(const ir::Node& node, const ir::Search& search) {
+    const std::string table = unit_.names.buffers[search.table.index];
+    return tree::call("rddl::search<" + table + ", " + type(node.type) + ">",
+                      {lower(search.value)});
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Bits& bits) {
+    const std::string first = bits.first == 0 ? "" : "<" + std::to_string(bits.first) + ">";
+    const bool of_action = unit_.program[bits.buffer].storage == ir::Storage::Action;
+    const std::string function = of_action ? "rddl::action_bits" : "rddl::bits";
+    return tree::call(function + first, {record(bits.buffer)});
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Local& local) {
+    return word(locals_.at(local.local));
+}
+
+Expression Expressions::lower(const ir::Node& node, const ir::Convert& convert) {
+    if (node.type == ir::Scalar::Int) return call("to_int", {convert.operand});
+    if (unit_.program.real == RealType::Float) return call("to_float", {convert.operand});
+    const ir::Node& operand = unit_.program[convert.operand];
+    if (!rounds(operand)) return call("to_real", {convert.operand});
+    const auto& apply = std::get<ir::Apply>(operand.form);
+    return call(std::string(name_of(apply.op)) + "_as_real", apply.operands);
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Apply& apply) {
+    const bool on_ints = unit_.program[apply.operands.front()].type == ir::Scalar::Int;
+    const auto spelling = spelling_of(apply.op, on_ints);
+    if (const auto* function = std::get_if<std::string>(&spelling))
+        return call(*function, apply.operands, apply.place);
+    tree::Expressions operands = all_of(apply.operands);
+    if (apply.op == Operator::Implies)
+        operands[0] = operation(plain_operator(Operator::Not), list(std::move(operands[0])));
+    return operation(std::get<tree::Operator>(spelling), std::move(operands));
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Select& select) {
+    const bool constants = is_int_constant(unit_.program[select.then_value]) &&
+                           is_int_constant(unit_.program[select.else_value]);
+    Expression condition = lower(select.condition);
+    Expression first = constants ? result(select.then_value) : lower(select.then_value);
+    Expression second = constants ? result(select.else_value) : lower(select.else_value);
+    return tree::call("rddl::select",
+                      list(std::move(condition), std::move(first), std::move(second)));
+}
+
+Expression Expressions::lower(const ir::Node& node, const ir::Reduce&) {
+    return inline_binder(node);
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Sample& sample) {
+    const std::string valid = needs_no_check(sample) ? "valid_" : "";
+    return call("sample::" + valid + function_of(sample.distribution), sample.parameters,
+                sample.place);
+}
+
+// The C++ compiler sees by itself that a number in the text is a probability.
+bool Expressions::needs_no_check(const ir::Sample& sample) const {
+    if (sample.distribution != Distribution::Bernoulli) return false;
+    const ir::NodeId p = sample.parameters.front();
+    if (std::holds_alternative<ir::Constant>(unit_.program[p].form)) return false;
+    return always_in_domain(sample.distribution, std::array{unit_.facts_of(p).range});
+}
+
+Expression Expressions::lower(const ir::Node&, const ir::Discrete& discrete) {
+    return discrete_call(discrete, braces(weights_type(discrete), all_of(discrete.weights)));
+}
+
+std::string Expressions::weights_type(const ir::Discrete& discrete) {
+    return "std::array<" + type(ir::Scalar::Real) + ", " + std::to_string(discrete.weights.size()) +
+           ">";
+}
+
+Expression Expressions::discrete_call(const ir::Discrete& discrete, Expression weights) {
+    const std::string function = discrete.normalise ? "unnormalised_discrete" : "discrete";
+    tree::Expressions arguments = place(discrete.place);
+    arguments.push_back(std::move(weights));
+    return tree::call("rddl::sample::" + function, std::move(arguments));
+}
+
+Expression Expressions::lower(const ir::Node& node, const ir::DiscreteOver&) {
+    return inline_binder(node);
+}
+
+Expression Expressions::lower(const ir::Node& node, const ir::Fault& fault) {
+    return tree::call("rddl::fault<" + type(node.type) + ">", place(fault.place));
+}
+
+// -------------------------------------------------------------------------------- calls
+
+tree::Expressions Expressions::all_of(std::span<const ir::NodeId> operands) {
+    tree::Expressions expressions;
+    for (ir::NodeId operand : operands) expressions.push_back(lower(operand));
+    return expressions;
+}
+
+Expression Expressions::call(const std::string& function, const std::vector<ir::NodeId>& operands,
+                             const std::optional<ir::Place>& where) {
+    tree::Expressions arguments = where ? place(*where) : tree::Expressions{};
+    append(arguments, all_of(operands));
+    return tree::call("rddl::" + function, std::move(arguments));
+}
+
+tree::Expressions Expressions::place(const ir::Place& place) {
+    uses_.context = true;
+    const auto& series = unit_.program[place.site].series;
+    tree::Expressions numbers = {word(std::to_string(place.site.index)),
+                                 several_ ? word(several_->objects) : index(place.index)};
+    if (series) numbers.push_back(word(std::to_string(series->index)));
+    return {word(context()), braces("", std::move(numbers))};
+}
+
+std::string Expressions::binder_function(const ir::Node& binder) {
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form))
+        return "rddl::" + function_of(reduce->op) + "<" + type(binder.type) + ">";
+    const bool normalises = std::get<ir::DiscreteOver>(binder.form).normalise;
+    return normalises ? "rddl::sample::unnormalised_discrete_over" : "rddl::sample::discrete_over";
+}
+
+tree::Expressions Expressions::binder_arguments(const ir::Node& binder) {
+    if (const auto* reduce = std::get_if<ir::Reduce>(&binder.form)) return {range(*reduce)};
+    const auto& discrete = std::get<ir::DiscreteOver>(binder.form);
+    tree::Expressions arguments = place(discrete.place);
+    arguments.push_back(word(unit_.size_of(unit_.program[discrete.variable])));
+    return arguments;
+}
+
+Expression Expressions::range(const ir::Reduce& reduce) {
+    if (!reduce.bounds) return word(unit_.size_of(unit_.program[reduce.variable]));
+    // "rddl::row(LINK_rows, c)": from one element of a table to the next one.
+    if (const ir::Load* row = ir::row_of(unit_.program, *reduce.bounds))
+        return tree::call("rddl::row", {record(row->buffer), index(row->indices.front())});
+    Expression begin = index(reduce.bounds->begin);
+    return tree::call("rddl::IndexRange", {std::move(begin), index(reduce.bounds->end)});
+}
+
+Expression Expressions::parameter(ir::VariableId variable, ir::NodeId body) const {
+    const auto& used = unit_.facts_of(body).free_variables;
+    if (!std::ranges::binary_search(used, variable)) return word("rddl::Index");
+    return {tree::Declared{"rddl::Index", variables_.at(variable)}};
+}
+
+Expression Expressions::inline_binder(const ir::Node& node) {
+    return lower_binder(node,
+                        [&](ir::NodeId body) { return tree::Block{{tree::Return{result(body)}}}; });
+}
+
+// ------------------------------------------------------------------------------ elements
+
+Expression Expressions::record(ir::BufferId id) {
+    const std::string& name = unit_.names.buffers[id.index];
+    const ir::Storage storage = unit_.program[id].storage;
+    if (storage == ir::Storage::Constant) return word(name);
+    uses_.records.insert(storage);
+    return word(words_of(storage).parameter + "." + name);
+}
+
+Expression Expressions::elements(Expression table, std::span<const ir::NodeId> indices) {
+    for (ir::NodeId id : indices) table = element(std::move(table), index(id));
+    return table;
+}
+
+Expression Expressions::target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices) {
+    uses_.stored.insert(unit_.program[buffer].storage);
+    if (several_) return tree::call("rddl::elements", {record(buffer), word(several_->objects)});
+    return elements(record(buffer), indices);
+}
+
+Expression Expressions::view(const ir::TableView& view, bool is_written) {
+    if (is_written) return target(view.buffer, view.indices);
+    return elements(record(view.buffer), view.indices);
+}
+
+tree::Statement Expressions::lower(const ir::Call& call) {
+    if (ir::is_external(call.callee)) return external_call(call);
+    const ir::Extent extent = ir::extent_of(unit_.program, call);
+    const bool overwrites = ir::overwrites_inputs(call.callee);
+    tree::Expressions arguments = call.place ? place(*call.place) : tree::Expressions{};
+    arguments.push_back(word(unit_.count_of(extent.type, extent.size)));
+    append(arguments, all_of(call.scalars));
+    for (const ir::TableView& input : call.inputs) arguments.push_back(view(input, overwrites));
+    arguments.push_back(view(call.output, true));
+    return {tree::call(function_of(unit_.program, call.callee), std::move(arguments))};
+}
+
+// Gives one value, or fills a table. Tables are passed as spans.
+tree::Statement Expressions::external_call(const ir::Call& call) {
+    const auto is_value = [&](const ir::TableView& view) {
+        return ir::axes_of(unit_.program, view).empty();
+    };
+    const std::string function = function_of(unit_.program, call.callee);
+    tree::Expressions arguments;
+    for (const ir::TableView& input : call.inputs) {
+        Expression table = view(input, false);
+        arguments.push_back(is_value(input)
+                                ? std::move(table)
+                                : tree::call("rddl::external::input", {std::move(table)}));
+    }
+    Expression output = view(call.output, true);
+    if (is_value(call.output))
+        return {tree::Assign{std::move(output), tree::call(function, std::move(arguments))}};
+    arguments.push_back(tree::call("rddl::external::output", {std::move(output)}));
+    return {tree::call(function, std::move(arguments))};
+}
+
+// "rddl::at_row<up_by_count, up_kind>(x, count)": from a row of each of several objects, or of its
+// kind.
+std::optional<Expression> Expressions::element_of_row(const ir::Load& load) {
+    const auto is_constant = [&](ir::BufferId id) {
+        return unit_.program[id].storage == ir::Storage::Constant;
+    };
+    const bool is_row = several_ && load.indices.size() == 2 && is_constant(load.buffer) &&
+                        unit_.program[load.buffer].scalar == ir::Scalar::Real;
+    if (!is_row) return std::nullopt;
+    const auto is_of_objects = [&](const std::vector<ir::NodeId>& indices) {
+        return indices.size() == several_->nest.variables.size() &&
+               ir::begins_with(unit_.program, indices, several_->nest);
+    };
+    std::string tables = unit_.names.buffers[load.buffer.index];
+    if (!is_of_objects({load.indices[0]})) {
+        const auto* kind = std::get_if<ir::Load>(&unit_.program[load.indices[0]].form);
+        const bool is_kind = kind && !is_named(load.indices[0]) && is_constant(kind->buffer) &&
+                             is_of_objects(kind->indices);
+        if (!is_kind) return std::nullopt;
+        tables += ", " + unit_.names.buffers[kind->buffer.index];
+    }
+    return tree::call("rddl::at_row<" + tables + ">",
+                      {word(several_->objects), lower(load.indices[1])});
+}
+
+// Uniform indices first in brackets; from the first other one on, the lanes differ.
+Expression Expressions::lower(const ir::Node&, const ir::Load& load) {
+    if (const auto element = element_of_row(load)) return *element;
+    Expression table = record(load.buffer);
+    const std::span<const ir::NodeId> indices = load.indices;
+    const auto at = [&](const char* function, std::size_t first) {
+        tree::Expressions arguments = {table};
+        if (several_) arguments.push_back(word(several_->objects));
+        append(arguments, all_of(indices.subspan(first)));
+        return tree::call(function, std::move(arguments));
+    };
+    if (several_ && ir::begins_with(unit_.program, load.indices, several_->nest))
+        return at("rddl::at", several_->nest.variables.size());
+    const bool is_same_for_all = std::ranges::all_of(indices, [&](ir::NodeId id) {
+        return !several_ || ir::is_same_for_all(unit_.facts_of(id), several_->nest);
+    });
+    if (!is_same_for_all) return at("rddl::at_own", 0);
+    const auto next =
+        std::ranges::find_if(indices, [&](ir::NodeId id) { return !unit_.is_uniform(id); });
+    const auto uniform = static_cast<std::size_t>(next - indices.begin());
+    table = elements(std::move(table), indices.first(uniform));
+    if (uniform == indices.size()) return table;
+    tree::Expressions arguments = {std::move(table)};
+    append(arguments, all_of(indices.subspan(uniform)));
+    return tree::call("rddl::at", std::move(arguments));
+}
+
+// Arithmetic of objects cannot overflow, so it needs no wrapping functions.
+bool Expressions::is_plain_index(ir::NodeId id) const {
+    const ir::Node& node = unit_.program[id];
+    if (named_.contains(id) || std::holds_alternative<ir::Index>(node.form)) return true;
+    if (std::holds_alternative<ir::Constant>(node.form)) return true;
+    if (std::holds_alternative<ir::Load>(node.form)) return unit_.is_uniform(id);
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    return apply && (apply->op == Operator::Add || apply->op == Operator::Multiply) &&
+           std::ranges::all_of(apply->operands,
+                               [&](ir::NodeId operand) { return is_plain_index(operand); });
+}
+
+Expression Expressions::index(ir::NodeId id) {
+    const auto* apply = std::get_if<ir::Apply>(&unit_.program[id].form);
+    if (!apply || is_named(id) || !is_plain_index(id)) return lower(id);
+    Expression first = index(apply->operands[0]);
+    return operation(plain_operator(apply->op), list(std::move(first), index(apply->operands[1])));
+}
+
+}  // namespace rddlc::cpp

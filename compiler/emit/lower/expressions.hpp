@@ -1,0 +1,160 @@
+// Expressions of the IR as those of C++.
+#pragma once
+
+#include "emit/cpp/tree.hpp"
+#include "emit/lower/unit.hpp"
+#include "emit/names/identifiers.hpp"
+#include "ir/ir.hpp"
+#include "ir/nest.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rddlc::cpp {
+
+// What a function turns out to need.
+struct Uses {
+    std::set<ir::Storage> records;  // its parameters
+    std::set<ir::Storage> stored;   // those that it changes
+    std::set<ir::Scalar> types;
+    bool context = false;
+
+    void add(const Uses& others);
+    bool has(ir::Storage storage) const { return records.contains(storage); }
+};
+
+// Lowers the expressions of one function, by the names that are known at the current point.
+class Expressions {
+  public:
+    explicit Expressions(const Unit& unit)
+        : unit_(unit), scope_(&unit.names.file, function_words()) {}
+
+    tree::Expression lower(ir::NodeId id);
+    // How many characters it has on one line; one more than `most` if it has more than that: what
+    // is longer is not lowered to its end.
+    std::size_t width_within(ir::NodeId id, std::size_t most);
+    // What `make` makes, which is only looked at: it counts for no use.
+    template <class Make>
+    auto measured(Make&& make) {
+        Uses before = std::exchange(uses_, {});
+        auto made = make();
+        uses_ = std::move(before);
+        return made;
+    }
+    // The alias of a type in the function: Bool, Int or Real.
+    std::string type(ir::Scalar scalar);
+    // An element to store into: next.x[i][j].
+    tree::Expression target(ir::BufferId buffer, const std::vector<ir::NodeId>& indices);
+    // A statement that fills a table.
+    tree::Statement lower(const ir::Call& call);
+    // An aggregation or a draw over objects; `body` is called while its variable has a name.
+    template <class Body>
+    tree::Expression lower_binder(const ir::Node& binder, Body&& body) {
+        tree::Expressions arguments = binder_arguments(binder);
+        const Mark before = mark();
+        const ir::VariableId variable = *ir::bound_variable(binder);
+        enter(variable);
+        const ir::NodeId value = ir::operands_of(binder).front();
+        arguments.push_back({tree::Lambda{{parameter(variable, value)}, body(value)}});
+        return_to(before);
+        return tree::call(binder_function(binder), std::move(arguments));
+    }
+    // What a lambda returns: an int constant must not be C++'s int.
+    tree::Expression result(ir::NodeId id);
+    // One call of a draw from listed weights, given their array.
+    tree::Expression discrete_call(const ir::Discrete& discrete, tree::Expression weights);
+    std::string weights_type(const ir::Discrete& discrete);
+
+    // A named node is lowered to its name from then on.
+    void name(ir::NodeId id, const std::string& name);
+    void name(ir::LocalId local, const std::string& name) { locals_[local] = name; }
+    bool is_named(ir::NodeId id) const { return named_.contains(id); }
+    std::size_t named_count() const { return named_.size(); }
+    std::string enter(ir::VariableId variable);
+    // From here on loops run over several objects at once; the names of their context and of the
+    // objects. Ended by `leave_nest`.
+    struct SeveralObjects {
+        ir::Nest nest;
+        std::string context, objects;
+    };
+    const SeveralObjects& enter(ir::Nest nest);
+    bool is_over_several() const { return several_.has_value(); }
+    void leave_nest() { several_.reset(); }
+    // What draws and branches take.
+    std::string context() const { return several_ ? several_->context : "context"; }
+    std::string claim(std::string_view wish) { return scope_.claim(wish); }
+
+    // What was named since a mark is forgotten by returning to it.
+    struct Mark {
+        std::size_t scope, naming;
+    };
+    Mark mark() const { return {scope_.mark(), namings_.size()}; }
+    void return_to(Mark mark);
+    // The same, but the names stay taken.
+    void forget(Mark mark);
+
+    Uses& uses() { return uses_; }
+    const Unit& unit() const { return unit_; }
+
+  private:
+    tree::Expression lower(const ir::Node& node, const ir::Constant& constant);
+    tree::Expression lower(const ir::Node& node, const ir::Index& index);
+    tree::Expression lower(const ir::Node& node, const ir::Load& load);
+    tree::Expression lower(const ir::Node& node, const ir::Search& search);
+    tree::Expression lower(const ir::Node& node, const ir::Bits& bits);
+    tree::Expression lower(const ir::Node& node, const ir::Local& local);
+    tree::Expression lower(const ir::Node& node, const ir::Convert& convert);
+    tree::Expression lower(const ir::Node& node, const ir::Apply& apply);
+    tree::Expression lower(const ir::Node& node, const ir::Select& select);
+    tree::Expression lower(const ir::Node& node, const ir::Reduce& reduce);
+    tree::Expression lower(const ir::Node& node, const ir::Sample& sample);
+    tree::Expression lower(const ir::Node& node, const ir::Discrete& discrete);
+    tree::Expression lower(const ir::Node& node, const ir::DiscreteOver& discrete);
+    tree::Expression lower(const ir::Node& node, const ir::Fault& fault);
+
+    tree::Expression inline_binder(const ir::Node& node);
+    tree::Expression call(const std::string& function, const std::vector<ir::NodeId>& operands,
+                          const std::optional<ir::Place>& place = {});
+    std::string binder_function(const ir::Node& binder);
+    tree::Expressions binder_arguments(const ir::Node& binder);
+    // "rddl::Index r"; without the name where the body does not use it.
+    tree::Expression parameter(ir::VariableId variable, ir::NodeId body) const;
+    // What an aggregation runs over: a count, a row of a table, or rddl::IndexRange(begin, end).
+    tree::Expression range(const ir::Reduce& reduce);
+    std::optional<tree::Expression> element_of_row(const ir::Load& load);
+    tree::Expressions all_of(std::span<const ir::NodeId> operands);
+    // The context and the place of a draw or a fault.
+    tree::Expressions place(const ir::Place& place);
+    tree::Expression record(ir::BufferId buffer);
+    tree::Expression elements(tree::Expression table, std::span<const ir::NodeId> indices);
+    tree::Expression view(const ir::TableView& view, bool is_written);
+    tree::Statement external_call(const ir::Call& call);
+    tree::Expression index(ir::NodeId id);
+    bool is_plain_index(ir::NodeId id) const;
+    bool needs_no_check(const ir::Sample& sample) const;
+
+    const Unit& unit_;
+    Scope scope_;
+    std::map<ir::NodeId, std::string> named_;
+    struct Naming {
+        ir::NodeId id;
+        std::optional<std::string> before;  // its name until then
+    };
+    std::vector<Naming> namings_;  // to be undone, since copies of all names would be too many
+    std::map<ir::VariableId, std::string> variables_;
+    std::map<ir::LocalId, std::string> locals_;
+    std::optional<SeveralObjects> several_;
+    Uses uses_;
+    static constexpr std::size_t all_nodes = std::numeric_limits<std::size_t>::max();
+    std::size_t nodes_left_ = all_nodes;  // that may be lowered
+};
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,416 @@
+// Over 400 lines: a function for each kind of statement, and for each reason to name a part.
+#include "emit/lower/statements.hpp"
+
+#include "emit/cpp/print.hpp"
+#include "emit/lower/operators.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace rddlc::cpp {
+namespace {
+
+// Longer conditions get a name.
+constexpr std::size_t longest_condition = 45;
+// In operations (Facts::cost): what packs may compute for all lanes though no lane needs it.
+constexpr double cost_without_jumps = 128;
+// Longer operands of a chain get a name of their own instead of a line of their own.
+constexpr std::size_t longest_operand = 75;
+// Shorter texts are not worth a name.
+constexpr std::size_t shortest_named = 12;
+// Of parts that are longer, none is the longest.
+constexpr std::size_t longest_compared = 2000;
+constexpr std::size_t operator_and_brackets = 4;  // of an operand in a chain
+constexpr std::size_t assignment_width = 3;       // " = "
+// An expression with more calls with lambdas inside is taken to pieces first.
+constexpr std::size_t most_lambda_calls = 64;
+
+bool is_binder(const ir::Node& node) {
+    return ir::bound_variable(node).has_value();
+}
+
+// Spelled by names alone; other elements than those at loop indices take a call.
+bool is_leaf(const Unit& unit, ir::NodeId id) {
+    const auto is_uniform = [&](ir::NodeId index) {
+        return unit.is_uniform(index);
+    };
+    return match(
+        unit.program[id].form, [](const ir::Constant&) { return true; },
+        [](const ir::Index&) { return true; }, [](const ir::Local&) { return true; },
+        [&](const ir::Load& load) { return std::ranges::all_of(load.indices, is_uniform); },
+        [](const auto&) { return false; });
+}
+
+// The first of the operators that may follow each other in one chain; none: it makes no chains.
+std::optional<Operator> chain_operator(const ir::Node& node) {
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (!apply || apply->operands.size() != 2 || node.type == ir::Scalar::Int) return std::nullopt;
+    if (apply->op == Operator::Subtract) return Operator::Add;
+    if (apply->op == Operator::Divide) return Operator::Multiply;
+    const bool makes_chains =
+        is_one_of(apply->op, {Operator::Add, Operator::Multiply, Operator::And, Operator::Or,
+                              Operator::Equal, Operator::NotEqual});
+    return makes_chains ? std::optional(apply->op) : std::nullopt;
+}
+
+// What to call a value that needs a name.
+std::string_view wish_for(const ir::Node& node) {
+    if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
+        switch (reduce->op) {
+            case Reduction::Sum:
+                return "total";
+            case Reduction::Product:
+                return "product";
+            case Reduction::Minimum:
+                return "least";
+            case Reduction::Maximum:
+                return "greatest";
+            case Reduction::ForAll:
+                return "all";
+            case Reduction::Exists:
+                return "any";
+            case Reduction::Average:
+            case Reduction::ArgMin:
+            case Reduction::ArgMax:
+                return "best";
+        }
+    }
+    if (std::holds_alternative<ir::Bits>(node.form)) return "bits";
+    const auto* apply = std::get_if<ir::Apply>(&node.form);
+    if (apply && apply->op == Operator::CountOnes) return "count";
+    if (apply && apply->op >= Operator::BitAnd && apply->op <= Operator::BitXor) return "bits";
+    const bool draws = std::holds_alternative<ir::Sample>(node.form) ||
+                       std::holds_alternative<ir::Discrete>(node.form) ||
+                       std::holds_alternative<ir::DiscreteOver>(node.form);
+    if (draws) return "draw";
+    switch (node.type) {
+        case ir::Scalar::Bool:
+            return "condition";
+        case ir::Scalar::Int:
+            return "number";
+        case ir::Scalar::Real:
+            break;
+    }
+    return "term";
+}
+
+}  // namespace
+
+// --------------------------------------------------------------------------- statements
+
+void FunctionBody::block(const ir::Block& block) {
+    for (const ir::Statement& each : block) {
+        match(each.form, [&](const auto& form) { statement(form); });
+    }
+}
+
+void FunctionBody::return_value(ir::NodeId id) {
+    const Use use{std::string_view("return ").size(), true};
+    prepare(use, id);
+    statements_.push_back({tree::Return{value(use, id)}});
+}
+
+void FunctionBody::statement(const ir::Let& let) {
+    expressions_.name(let.local, declare(let.value));
+}
+
+void FunctionBody::statement(const ir::Store& store) {
+    const auto before = expressions_.mark();
+    tree::Expression target = expressions_.target(store.target, store.indices);
+    const Use use{width(target) + assignment_width};
+    prepare(use, store.value);
+    statements_.push_back({tree::Assign{std::move(target), value(use, store.value)}});
+    // Values that were named on the way may change with the next store; their names stay taken.
+    expressions_.forget(before);
+}
+
+void FunctionBody::statement(const ir::Loop& loop) {
+    if (loop.several_at_once) return over_several_objects(loop);
+    const auto before = expressions_.mark();
+    const std::string name = expressions_.enter(loop.variable);
+    const std::string size = expressions_.unit().size_of(program()[loop.variable]);
+    statements_.push_back({tree::For{name, size, inner(1, [&] { block(loop.body); })}});
+    expressions_.return_to(before);
+}
+
+// rddl::for_each_object(context, computer_count, [&](auto& several, auto x) { ... });
+void FunctionBody::over_several_objects(const ir::Loop& loop) {
+    const auto before = expressions_.mark();
+    const auto [nest, context, objects] = expressions_.enter(ir::nest_of(loop));
+    tree::Expression count = tree::word(expressions_.unit().size_of(program()[nest.variables[0]]));
+    for (const ir::VariableId variable : std::span(nest.variables).subspan(1))
+        count = tree::operation(
+            plain_operator(Operator::Multiply),
+            {std::move(count), tree::word(expressions_.unit().size_of(program()[variable]))});
+
+    // Whether the context has a name is known when the body is.
+    expressions_.uses().context = false;
+    tree::Block body = inner(1, [&] { block(*nest.body); });
+    const bool has_context = std::exchange(expressions_.uses().context, true);
+    tree::Expressions parameters = {
+        has_context ? tree::Expression{tree::Declared{"auto&", context}} : tree::word("auto&"),
+        {tree::Declared{"auto", objects}}};
+    statements_.push_back({tree::call("rddl::for_each_object",
+                                      {tree::word("context"),
+                                       std::move(count),
+                                       {tree::Lambda{std::move(parameters), std::move(body)}}})});
+    expressions_.leave_nest();
+    expressions_.return_to(before);
+}
+
+void FunctionBody::statement(const ir::Call& call) {
+    statements_.push_back(expressions_.lower(call));
+}
+
+// --------------------------------------------------------------------------- preparation
+
+void FunctionBody::prepare(Use use, ir::NodeId id) {
+    name_parts_in_order(id);
+    if (const ir::Select* select = lazy_select(id)) return prepare_branch(*select);
+    const ir::Node& node = program()[id];
+    if (is_block(id) || is_binder(node)) return;
+    while (!reads_well(use, id)) {
+        if (const auto* draw = std::get_if<ir::Discrete>(&node.form)) return prepare_weights(*draw);
+        if (!name_longest_part(id)) return;
+    }
+}
+
+bool FunctionBody::reads_well(Use use, ir::NodeId id) {
+    if (fits(use, id)) return true;
+    const std::vector<ir::NodeId> parts = chain_parts(id);
+    if (parts.size() < 2) return false;
+    // Two operands shall not stand in three lines.
+    const std::size_t beside = room({}) + indentation;
+    if (!use.returns && parts.size() == 2 &&
+        (use.width + expressions_.width_within(parts[0], line_width) + 1 > beside ||
+         use.width + expressions_.width_within(parts[1], line_width) > beside))
+        return false;
+    return std::ranges::all_of(parts, [&](ir::NodeId part) {
+        std::vector<ir::NodeId> lambdas;
+        collect_lambda_calls(part, lambdas);
+        const std::size_t width = expressions_.width_within(part, longest_operand);
+        return lambdas.empty() && width <= longest_operand &&
+               width + operator_and_brackets <= room(use);
+    });
+}
+
+void FunctionBody::prepare_branch(const ir::Select& select) {
+    const std::size_t width = expressions_.width_within(select.condition, longest_condition);
+    if (width > longest_condition) name_value(select.condition);
+}
+
+void FunctionBody::prepare_weights(const ir::Discrete& discrete) {
+    for (ir::NodeId weight : discrete.weights)
+        prepare({width(tree::element(tree::word("weights"), tree::word("0"))) + assignment_width},
+                weight);
+}
+
+// Gives names to the parts of `id` that are blocks, from the outside in. C++ may evaluate operands
+// in any order, but the first fault is the one that is told: of several operands that may fault,
+// all but the last get names, too.
+void FunctionBody::name_parts_in_order(ir::NodeId id) {
+    const std::vector<ir::NodeId> parts = eager_parts(id);
+    const auto may_fault = [&](ir::NodeId part) {
+        return !expressions_.is_named(part) && expressions_.unit().facts_of(part).may_fault;
+    };
+    for (auto part = parts.begin(); part != parts.end(); ++part) {
+        const bool is_binder_block = is_block(*part) && is_binder(program()[*part]);
+        const bool before_others =
+            may_fault(*part) && std::any_of(part + 1, parts.end(), may_fault);
+        if (before_others || is_binder_block || lazy_select(*part)) {
+            name_value(*part);
+        } else if (is_block(*part) || may_fault(*part)) {
+            name_parts_in_order(*part);
+        }
+    }
+}
+
+// False if no part is worth a name.
+bool FunctionBody::name_longest_part(ir::NodeId id) {
+    const std::vector<ir::NodeId> parts = nameable_parts(id);
+    std::vector<std::size_t> lengths;
+    for (const ir::NodeId& part : parts) {
+        const bool has_name = expressions_.is_named(part) || is_leaf(expressions_.unit(), part) ||
+                              expressions_.unit().is_uniform(part);
+        lengths.push_back(has_name ? 0 : expressions_.width_within(part, longest_compared));
+    }
+    const std::size_t longest = lengths.empty() ? 0 : std::ranges::max(lengths);
+    if (longest < shortest_named) return false;
+    // The first of those that are about as long, so that names come in the order of the text.
+    const auto first = std::ranges::find_if(
+        lengths, [&](std::size_t length) { return 3 * length >= 2 * longest; });
+    const ir::NodeId part = parts[static_cast<std::size_t>(first - lengths.begin())];
+    // Where it has parts that need names itself, these may be enough.
+    const std::size_t names_before = expressions_.named_count();
+    prepare_declaration(part);
+    if (expressions_.named_count() == names_before) name_value(part);
+    return true;
+}
+
+void FunctionBody::name_value(ir::NodeId id) {
+    if (!expressions_.is_named(id)) expressions_.name(id, declare(id));
+}
+
+// "const Real total = ...;"
+std::string FunctionBody::declare(ir::NodeId id) {
+    // The parts that need names get them first, so that numbers grow from top to bottom.
+    prepare_declaration(id);
+    const std::string name = expressions_.claim(wish_for(program()[id]));
+    const std::string type = type_in_declaration(id);
+    tree::Expression initial = value({type.size() + 1 + name.size() + assignment_width}, id);
+    statements_.push_back({tree::Assign{{tree::Declared{type, name}}, std::move(initial)}});
+    return name;
+}
+
+void FunctionBody::prepare_declaration(ir::NodeId id) {
+    const std::string type = expressions_.measured([&] { return type_in_declaration(id); });
+    prepare({type.size() + 1 + wish_for(program()[id]).size() + assignment_width}, id);
+}
+
+std::string FunctionBody::type_in_declaration(ir::NodeId id) {
+    if (expressions_.is_over_several()) return "const auto";
+    const bool is_index = expressions_.unit().is_uniform(id);
+    return "const " + (is_index ? "rddl::Index" : expressions_.type(program()[id].type));
+}
+
+// -------------------------------------------------------------------------------- values
+
+tree::Expression FunctionBody::value(Use use, ir::NodeId id) {
+    if (const ir::Select* select = lazy_select(id)) return branch(*select);
+    const ir::Node& node = program()[id];
+    if (is_binder(node) && !expressions_.is_named(id))
+        return expressions_.lower_binder(node, [&](ir::NodeId body) { return returning(body, 1); });
+    const auto* draw = std::get_if<ir::Discrete>(&node.form);
+    if (draw && !fits(use, id)) return discrete(*draw);
+    return use.returns ? expressions_.result(id) : expressions_.lower(id);
+}
+
+// A chain of else-ifs is one call: its conditions after the first are lambdas, like its values.
+// What packs may evaluate in all lanes, since it costs little and neither draws nor faults, needs
+// no context. An elementary function costs more than a jump that lanes do not agree about.
+tree::Expression FunctionBody::branch(const ir::Select& select) {
+    std::vector<ir::NodeId> lambdas = {select.then_value};
+    ir::NodeId last = select.else_value;
+    while (const ir::Select* next = lazy_select(last)) {
+        lambdas.insert(lambdas.end(), {next->condition, next->then_value});
+        last = next->else_value;
+    }
+    lambdas.push_back(last);
+
+    tree::Expressions arguments;
+    if (!are_harmless(lambdas)) {
+        expressions_.uses().context = true;
+        arguments.push_back(tree::word(expressions_.context()));
+    }
+    arguments.push_back(expressions_.lower(select.condition));
+    for (ir::NodeId lambda : lambdas) arguments.push_back({tree::Lambda{{}, returning(lambda, 2)}});
+    return tree::call("rddl::branch", std::move(arguments));
+}
+
+bool FunctionBody::are_harmless(const std::vector<ir::NodeId>& lambdas) const {
+    double cost = 0;
+    for (ir::NodeId lambda : lambdas) cost += expressions_.unit().facts_of(lambda).cost;
+    return cost <= cost_without_jumps && std::ranges::all_of(lambdas, [&](ir::NodeId lambda) {
+               const ir::Facts& facts = expressions_.unit().facts_of(lambda);
+               return ir::is_droppable(facts) && !facts.elementary;
+           });
+}
+
+// Too many weights for one line are set one by one.
+tree::Expression FunctionBody::discrete(const ir::Discrete& discrete) {
+    const std::string name = expressions_.claim("weights");
+    const std::string type = expressions_.weights_type(discrete);
+    statements_.push_back({tree::Expression{tree::Declared{type, name}}});
+    for (std::size_t k = 0; k < discrete.weights.size(); ++k) {
+        tree::Expression weight = tree::element(tree::word(name), tree::word(std::to_string(k)));
+        const Use use{width(weight) + assignment_width};
+        statements_.push_back({tree::Assign{std::move(weight), value(use, discrete.weights[k])}});
+    }
+    return expressions_.discrete_call(discrete, tree::word(name));
+}
+
+template <class Add>
+tree::Block FunctionBody::inner(std::size_t levels, Add&& add) {
+    tree::Block around = std::exchange(statements_, {});
+    level_ += levels;
+    add();
+    level_ -= levels;
+    return std::exchange(statements_, std::move(around));
+}
+
+tree::Block FunctionBody::returning(ir::NodeId id, std::size_t levels) {
+    const auto before = expressions_.mark();
+    tree::Block body = inner(levels, [&] { return_value(id); });
+    expressions_.return_to(before);
+    return body;
+}
+
+// ------------------------------------------------------------------------------ questions
+
+// In one line, behind a return or below what it is assigned to, with its semicolon.
+std::size_t FunctionBody::room(Use use) const {
+    const std::size_t before = level_ * indentation + (use.returns ? use.width : indentation);
+    return line_width - std::min(line_width, before + 1);
+}
+
+bool FunctionBody::fits(Use use, ir::NodeId id) {
+    const std::size_t most = room(use);
+    return expressions_.width_within(id, most) <= most;
+}
+
+bool FunctionBody::is_block(ir::NodeId id) const {
+    if (expressions_.is_named(id) || !expressions_.unit().contains_branch[id.index]) return false;
+    if (lazy_select(id)) return true;
+    const auto operands = ir::operands_of(program()[id]);
+    return std::ranges::any_of(operands, [&](ir::NodeId operand) { return is_block(operand); });
+}
+
+const ir::Select* FunctionBody::lazy_select(ir::NodeId id) const {
+    if (expressions_.is_named(id)) return nullptr;
+    const auto* select = std::get_if<ir::Select>(&program()[id].form);
+    return select && expressions_.unit().is_lazy(*select) ? select : nullptr;
+}
+
+// a + b - c -> a, b, c
+std::vector<ir::NodeId> FunctionBody::chain_parts(ir::NodeId id) const {
+    const auto op = chain_operator(program()[id]);
+    if (!op || expressions_.is_named(id)) return {id};
+    const auto& operands = std::get<ir::Apply>(program()[id].form).operands;
+    std::vector<ir::NodeId> parts = {operands[0]};
+    if (chain_operator(program()[operands[0]]) == op) parts = chain_parts(operands[0]);
+    parts.push_back(operands[1]);
+    return parts;
+}
+
+// What is evaluated whenever `id` is, before it.
+std::vector<ir::NodeId> FunctionBody::eager_parts(ir::NodeId id) const {
+    if (expressions_.is_named(id) || is_binder(program()[id])) return {};
+    if (const ir::Select* select = lazy_select(id)) return {select->condition};
+    return ir::operands_of(program()[id]);
+}
+
+// Calls with lambdas inside of it first, since they take many lines, unless there are too many;
+// else its operands.
+std::vector<ir::NodeId> FunctionBody::nameable_parts(ir::NodeId id) const {
+    std::vector<ir::NodeId> parts;
+    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, parts);
+    if (parts.empty() || parts.size() > most_lambda_calls) parts = chain_parts(id);
+    const bool is_itself = parts.size() == 1 && parts.front() == id;
+    return is_itself ? eager_parts(id) : parts;
+}
+
+// The outermost ones, and no more than it takes to see that there are too many.
+void FunctionBody::collect_lambda_calls(ir::NodeId id, std::vector<ir::NodeId>& calls) const {
+    if (expressions_.is_named(id) || calls.size() > most_lambda_calls) return;
+    if (is_binder(program()[id])) {
+        calls.push_back(id);
+        return;
+    }
+    for (ir::NodeId part : eager_parts(id)) collect_lambda_calls(part, calls);
+}
+
+}  // namespace rddlc::cpp

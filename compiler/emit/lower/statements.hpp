@@ -1,0 +1,81 @@
+// Statements of the IR as those of C++.
+//
+// An expression that does not fit into a line, nor is a chain of operands that do, gets names for
+// its longest parts until it does, so that the text reads well. Parts that C++ might evaluate too
+// early, or in another order, get names in any case.
+#pragma once
+
+#include "emit/lower/expressions.hpp"
+#include "ir/ir.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rddlc::cpp {
+
+class FunctionBody {
+  public:
+    // `level` is the indentation of the statements.
+    FunctionBody(const Unit& unit, std::size_t level) : expressions_(unit), level_(level) {}
+
+    void block(const ir::Block& block);
+    void return_value(ir::NodeId value);
+
+    tree::Block& statements() { return statements_; }
+    const Uses& uses() { return expressions_.uses(); }
+
+  private:
+    void statement(const ir::Let& let);
+    void statement(const ir::Store& store);
+    void statement(const ir::Loop& loop);
+    void over_several_objects(const ir::Loop& loop);
+    void statement(const ir::Call& call);
+
+    // What a value is for: how wide what stands before it is, with it in one line.
+    struct Use {
+        std::size_t width;
+        bool returns = false;
+    };
+
+    // Names parts of `id` until it reads well.
+    void prepare(Use use, ir::NodeId id);
+    bool reads_well(Use use, ir::NodeId id);
+    void prepare_branch(const ir::Select& select);
+    void prepare_weights(const ir::Discrete& discrete);
+    void name_parts_in_order(ir::NodeId id);
+    bool name_longest_part(ir::NodeId id);
+    void name_value(ir::NodeId id);
+    std::string declare(ir::NodeId id);
+    void prepare_declaration(ir::NodeId id);
+    std::string type_in_declaration(ir::NodeId id);
+
+    // What has been prepared.
+    tree::Expression value(Use use, ir::NodeId id);
+    tree::Expression branch(const ir::Select& select);
+    bool are_harmless(const std::vector<ir::NodeId>& lambdas) const;
+    tree::Expression discrete(const ir::Discrete& discrete);
+    // The statements that `add` adds, deeper by so many levels.
+    template <class Add>
+    tree::Block inner(std::size_t levels, Add&& add);
+    tree::Block returning(ir::NodeId id, std::size_t levels);
+
+    std::size_t room(Use use) const;
+    bool fits(Use use, ir::NodeId id);
+
+    // Must be a statement of its own: it contains a branch that is not named yet.
+    bool is_block(ir::NodeId id) const;
+    const ir::Select* lazy_select(ir::NodeId id) const;
+    std::vector<ir::NodeId> chain_parts(ir::NodeId id) const;
+    std::vector<ir::NodeId> eager_parts(ir::NodeId id) const;
+    std::vector<ir::NodeId> nameable_parts(ir::NodeId id) const;
+    void collect_lambda_calls(ir::NodeId id, std::vector<ir::NodeId>& calls) const;
+
+    const ir::Program& program() const { return expressions_.unit().program; }
+
+    Expressions expressions_;
+    std::size_t level_;
+    tree::Block statements_;
+};
+
+}  // namespace rddlc::cpp

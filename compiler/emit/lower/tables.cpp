@@ -1,0 +1,180 @@
+#include "emit/lower/tables.hpp"
+
+#include "emit/cpp/literals.hpp"
+#include "emit/cpp/print.hpp"
+#include "emit/lower/operators.hpp"
+#include "ir/layout.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rddlc::cpp {
+namespace {
+
+using tree::word;
+
+// The initialiser of a nested std::array: {{ {1, 2}, {3, 4} }}, without the blanks.
+tree::Expression initialiser(std::span<const std::int64_t> shape, std::span<const ir::Value> values,
+                             RealType real) {
+    if (shape.empty()) return word(table_entry(values.front(), real));
+    if (shape.size() == 1) {
+        tree::Words entries;
+        for (const ir::Value& value : values) entries.texts.push_back(table_entry(value, real));
+        return tree::braces("", tree::list(tree::Expression{std::move(entries)}));
+    }
+    tree::Expressions rows;
+    const std::size_t stride = values.size() / static_cast<std::size_t>(shape.front());
+    for (std::size_t begin = 0; begin < values.size(); begin += stride)
+        rows.push_back(initialiser(shape.subspan(1), values.subspan(begin, stride), real));
+    return tree::braces("", tree::list(tree::braces("", std::move(rows))));
+}
+
+bool is_zero(const ir::Value& value) {
+    return match(
+        value, [](bool v) { return !v; }, [](std::int64_t v) { return v == 0; },
+        [](double v) { return v == 0 && !std::signbit(v); });
+}
+
+// The same table under the same name and, as reals are `real`, of the same type.
+bool has_table(const Unit& unit, const std::string& name, const ir::Buffer& table, RealType real) {
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const bool is_named =
+            unit.names.buffers[index] == name || unit.names.initial[index] == name;
+        if (!is_named) continue;
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        const bool is_same_type = table.scalar != ir::Scalar::Real || unit.program.real == real;
+        return is_same_type && buffer.scalar == table.scalar && buffer.shape == table.shape &&
+               identical(buffer.values, table.values);
+    }
+    return false;
+}
+
+// "north, lake, ..."
+std::string object_list(const ir::ObjectType& type) {
+    constexpr std::size_t width = 40;
+    std::string text;
+    for (const std::string& object : type.objects) {
+        const std::string next = (text.empty() ? "" : ", ") + comment_text(object);
+        if (text.size() + next.size() > width) return text.empty() ? "..." : text + ", ...";
+        text += next;
+    }
+    return text;
+}
+
+tree::Statement size_assert(tree::Expression size, std::size_t bytes) {
+    return {tree::call("static_assert", {tree::operation(plain_operator(Operator::Equal),
+                                                         {std::move(size), tree::number(bytes)})})};
+}
+
+void add_size_asserts(const Unit& unit, const std::string& name, ir::Storage storage,
+                      tree::Block& asserts) {
+    const ir::RecordLayout layout = ir::record_layout(unit.program, storage);
+    if (layout.fields.empty()) return;
+    const tree::Expression type = word(name + "<rddl::Scalar>");
+    asserts.push_back(size_assert(tree::call("sizeof", {type}), layout.size));
+    if (layout.fields.size() < 2) return;
+    const ir::Field& last = layout.fields.back();
+    const std::string& member = unit.names.buffers[last.buffer.index];
+    asserts.push_back(size_assert(tree::call("offsetof", {type, word(member)}), last.offset));
+}
+
+}  // namespace
+
+std::string section(const std::string& title, const std::string& text) {
+    if (text.empty()) return "";
+    const std::size_t width = 92;
+    return "// " + std::string(width - 4 - title.size(), '-') + " " + title + "\n\n" + text;
+}
+
+std::string array_type(const Unit& unit, const ir::Buffer& buffer, const std::string& element) {
+    std::string type = element;
+    for (std::size_t d = buffer.shape.size(); d-- > 0;) {
+        const bool all_objects =
+            d < buffer.types.size() &&
+            static_cast<std::int64_t>(unit.program.types[buffer.types[d]].objects.size()) ==
+                buffer.shape[d];
+        const std::string extent =
+            all_objects ? unit.names.counts[buffer.types[d]] : std::to_string(buffer.shape[d]);
+        type = "std::array<" + type + ", " + extent + ">";
+    }
+    return type;
+}
+
+bool are_equal(std::span<const ir::Value> values) {
+    return std::ranges::all_of(values, [&](const ir::Value& v) { return identical(v, values[0]); });
+}
+
+tree::Statement table(const std::string& type, const std::string& name,
+                      std::span<const std::int64_t> shape, std::span<const ir::Value> values,
+                      RealType real) {
+    const bool zero = !shape.empty() && std::ranges::all_of(values, is_zero);
+    return {tree::Assign{{tree::Declared{"inline constexpr " + type, name}},
+                         zero ? tree::braces("", {}) : initialiser(shape, values, real)}};
+}
+
+std::string objects(const Unit& unit) {
+    tree::Block counts;
+    for (std::size_t type = 0; type < unit.program.types.size(); ++type) {
+        const ir::ObjectType& described = unit.program.types[type];
+        counts.push_back(tree::assign("inline constexpr rddl::Index " + unit.names.counts[type],
+                                      word(std::to_string(described.objects.size()))));
+        counts.back().remark = object_list(described);
+    }
+    return section("objects", tree::print(counts, 0));
+}
+
+std::string record(const Unit& unit, const std::string& name, ir::Storage storage) {
+    tree::Record result{name, {}};
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        if (buffer.storage != storage) continue;
+        const std::string type =
+            array_type(unit, buffer, "typename L::" + lane_type(buffer.scalar));
+        result.members.push_back(
+            {.form = tree::Expression{tree::Declared{type, unit.names.buffers[index]}},
+             .remark = unit.where(buffer.span)});
+    }
+    return tree::print({{.form = std::move(result), .is_template = true}}, 0);
+}
+
+std::string tables(const Unit& unit, const Unit* around) {
+    tree::Block definitions;
+    for (std::size_t index = 0; index < unit.program.buffers.size(); ++index) {
+        const ir::Buffer& buffer = unit.program.buffers[index];
+        const std::string& initial = unit.names.initial[index];
+        if (buffer.storage != ir::Storage::Constant && initial.empty()) continue;
+        const std::string& name = initial.empty() ? unit.names.buffers[index] : initial;
+        const RealType real = unit.program.real;
+        // Episodes start in the program around.
+        if (around && (!initial.empty() || has_table(*around, name, buffer, real))) continue;
+        const std::string type = array_type(unit, buffer, table_type(buffer.scalar, real));
+        definitions.push_back(table(type, name, buffer.shape, buffer.values.dense(), real));
+        definitions.back().comment = comment_text(buffer.name) + ", " + unit.where(buffer.span);
+    }
+    return section("tables", tree::print(definitions, 0));
+}
+
+std::string records(const Unit& unit) {
+    std::string text = record(unit, "State", ir::Storage::State) + "\n" +
+                       record(unit, "Action", ir::Storage::Action) +
+                       "\n// What the CPFs tell each other within a step.\n" +
+                       record(unit, "Scratch", ir::Storage::Scratch) + "\n" +
+                       record(unit, "Observation", ir::Storage::Observation);
+    if (unit.program.policy)
+        text += "\n// What the policy remembers from one decision to the next.\n" +
+                record(unit, "PolicyMemory", ir::Storage::Memory);
+    return section("records", text);
+}
+
+// That the records are laid out as the interpreter's are; Compiled checks that copies are trivial.
+std::string asserts(const Unit& unit) {
+    tree::Block result;
+    add_size_asserts(unit, "State", ir::Storage::State, result);
+    add_size_asserts(unit, "Action", ir::Storage::Action, result);
+    add_size_asserts(unit, "Observation", ir::Storage::Observation, result);
+    add_size_asserts(unit, "PolicyMemory", ir::Storage::Memory, result);
+    return tree::print(result, 0);
+}
+
+}  // namespace rddlc::cpp

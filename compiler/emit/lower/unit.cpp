@@ -1,0 +1,65 @@
+#include "emit/lower/unit.hpp"
+
+#include "emit/cpp/literals.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace rddlc::cpp {
+
+namespace {
+
+// If its operands are.
+bool keeps_uniform(const ir::Program& program, const ir::Node& node) {
+    if (node.type != ir::Scalar::Int) return false;
+    return match(
+        node.form, [](const ir::Index&) { return true; }, [](const ir::Constant&) { return true; },
+        [&](const ir::Load& load) { return program[load.buffer].storage == ir::Storage::Constant; },
+        [](const ir::Apply& apply) { return !apply.place; }, [](const auto&) { return false; });
+}
+
+}  // namespace
+
+Unit::Unit(const ir::Program& the_program, const Sources& the_sources,
+           const EmitOptions& the_options)
+    : program(the_program),
+      sources(the_sources),
+      options(the_options),
+      names(names_of(the_program)),
+      facts(ir::all_facts(the_program)),
+      uniform_ints(the_program.nodes.size(), false),
+      contains_branch(the_program.nodes.size(), false) {
+    for (std::size_t index = 0; index < program.nodes.size(); ++index) {
+        const ir::Node& node = program.nodes[index];
+        const std::vector<ir::NodeId> operands = ir::operands_of(node);
+        uniform_ints[index] =
+            keeps_uniform(program, node) &&
+            std::ranges::all_of(operands, [&](ir::NodeId operand) { return is_uniform(operand); });
+        const auto* select = std::get_if<ir::Select>(&node.form);
+        contains_branch[index] = select && is_lazy(*select);
+        for (ir::NodeId operand : operands) {
+            if (contains_branch[operand.index]) contains_branch[index] = true;
+        }
+    }
+}
+
+bool Unit::is_lazy(const ir::Select& select) const {
+    return ir::is_lazy(program, select, facts_of(select.then_value), facts_of(select.else_value));
+}
+
+std::string Unit::size_of(const ir::Variable& variable) const {
+    return variable.type ? count_of(*variable.type, variable.size) : std::to_string(variable.size);
+}
+
+std::string Unit::count_of(std::uint32_t type, std::int64_t size) const {
+    const auto all = static_cast<std::int64_t>(program.types[type].objects.size());
+    return size == all ? names.counts[type] : std::to_string(size);
+}
+
+std::string Unit::where(Span span) const {
+    const std::string file = std::filesystem::path(sources[span.file].path()).filename().string();
+    return comment_text(file) + ":" + std::to_string(sources.position(span).line);
+}
+
+}  // namespace rddlc::cpp

@@ -1,0 +1,42 @@
+// What every part of the emitter looks at: the program with its names and facts. Nothing changes.
+#pragma once
+
+#include "emit/emit.hpp"
+#include "emit/names/names.hpp"
+#include "ir/analysis.hpp"
+#include "ir/ir.hpp"
+#include "support/source.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rddlc::cpp {
+
+struct Unit {
+    Unit(const ir::Program& program, const Sources& sources, const EmitOptions& options);
+
+    const ir::Program& program;
+    const Sources& sources;
+    const EmitOptions& options;
+    Names names;
+    std::vector<ir::Facts> facts;       // by NodeId
+    std::vector<bool> uniform_ints;     // by NodeId; is_uniform tells
+    std::vector<bool> contains_branch;  // by NodeId: it is a lazy select, or has one inside
+
+    const ir::Facts& facts_of(ir::NodeId id) const { return facts[id.index]; }
+
+    // An int that is spelled as one, not as one for each lane: made of loop indices, constants and
+    // entries of constant tables by operators alone. It may stand in array[i], and number a place.
+    bool is_uniform(ir::NodeId id) const { return uniform_ints[id.index]; }
+
+    // The else-branch or the then-branch must not be evaluated unless taken.
+    bool is_lazy(const ir::Select& select) const;
+    // The number of objects that a loop runs over, by the name of its type where it is all of them.
+    std::string size_of(const ir::Variable& variable) const;
+    // A number of objects, by the name of the type where it is all of them.
+    std::string count_of(std::uint32_t type, std::int64_t size) const;
+    // "domain.rddl:41"
+    std::string where(Span span) const;
+};
+
+}  // namespace rddlc::cpp

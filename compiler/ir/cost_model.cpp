@@ -1,0 +1,232 @@
+#include "ir/cost_model.hpp"
+
+#include "ir/analysis.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace rddlc::ir {
+namespace {
+
+double size_of(const Program& program, VariableId variable) {
+    return static_cast<double>(program[variable].size);
+}
+
+// The average length of the rows, where the bounds are neighbours in a table of where rows begin.
+double length_of(const Program& program, const Bounds& bounds, double size) {
+    const auto* end = std::get_if<Load>(&program[bounds.end].form);
+    const std::int64_t rows = end ? program[end->buffer].count() - 1 : 1;
+    return size / static_cast<double>(std::max<std::int64_t>(rows, 1));
+}
+
+// The cost of a step in which every node is computed in the outermost loop where that is possible,
+// and there once.
+class StepCost {
+  public:
+    explicit StepCost(const Program& program) : program_(program) {}
+
+    double of_definition(const Block& body) {
+        begin(body);
+        add(body, outside);
+        return total_;
+    }
+    double of_computation(const Computation& computation) {
+        begin(computation.body);
+        add(computation.body, outside);
+        add(computation.value, outside);
+        return total_;
+    }
+
+  private:
+    // A loop or a reduction around what is evaluated. Its level is the number of those around it.
+    struct Around {
+        std::size_t outer;
+        VariableId variable;
+        std::size_t level;
+        double evaluations;  // of its body
+    };
+    using Place = std::size_t;  // index into arounds_
+    static constexpr Place outside = 0;
+    // The levels of the loops that a value depends on, as bits.
+    using Levels = std::uint64_t;
+
+    void begin(const Block& body) {
+        arounds_ = {{outside, {}, 0, 1}};
+        inner_.clear();
+        levels_.clear();
+        paid_.clear();
+        levels_of_local_.clear();
+        total_ = 0;
+        stored_.clear();
+        collect_stores(body, 0);
+    }
+
+    // A table that is filled in loops is read inside of them, if it is read there.
+    void collect_stores(const Block& block, std::size_t level) {
+        for (const Statement& statement : block) {
+            match(
+                statement.form, [](const Let&) {},
+                [&](const Store& store) { stored_[store.target] = level; },
+                [&](const Loop& loop) { collect_stores(loop.body, level + 1); },
+                [&](const Call& call) { stored_[call.output.buffer] = level; });
+        }
+    }
+
+    void add(const Block& block, Place place) {
+        for (const Statement& statement : block)
+            match(statement.form, [&](const auto& form) { add(form, place); });
+    }
+    void add(const Let& let, Place place) { levels_of_local_[let.local] = add(let.value, place); }
+    void add(const Store& store, Place place) {
+        add(store.value, place);
+        for (const NodeId index : store.indices) add(index, place);
+        pay(1, place);
+    }
+    void add(const Loop& loop, Place place) {
+        const double size = size_of(program_, loop.variable);
+        const double times = loop.several_at_once ? std::ceil(size / objects_at_once) : size;
+        pay(times, place);
+        add(loop.body, inside(place, loop.variable, times));
+    }
+    // It reads its tables and fills its output.
+    void add(const Call& call, Place place) {
+        for (const NodeId operand : operands_of(call)) add(operand, place);
+        double elements = static_cast<double>(program_[call.output.buffer].count());
+        for (const TableView& input : call.inputs)
+            elements += static_cast<double>(program_[input.buffer].count());
+        pay(1 + elements, place);
+    }
+
+    Levels add(NodeId id, Place place) {
+        if (const auto known = levels_.find({id, place}); known != levels_.end())
+            return known->second;
+        const Node& node = program_[id];
+        Levels levels = match(
+            node.form, [&](const Reduce& reduce) { return add(reduce, place); },
+            [&](const DiscreteOver& discrete) {
+                return add_body(discrete.variable, discrete.weight, repetitions(program_, discrete),
+                                place);
+            },
+            [&](const auto&) { return add_operands(node, place); });
+        levels |= own_levels(node, place);
+        const Place where = at_level(place, levels);
+        if (paid_.insert({id, where}).second) pay(own_cost(program_, node), where);
+        return levels_[{id, place}] = levels;
+    }
+    Levels add(const Reduce& reduce, Place place) {
+        Levels levels =
+            add_body(reduce.variable, reduce.body, repetitions(program_, reduce), place);
+        if (reduce.bounds)
+            levels |= add(reduce.bounds->begin, place) | add(reduce.bounds->end, place);
+        return levels;
+    }
+    Levels add_body(VariableId variable, NodeId body, double times, Place place) {
+        const Place inner = inside(place, variable, times);
+        return add(body, inner) & ~bit_of(arounds_[inner].level);
+    }
+    Levels add_operands(const Node& node, Place place) {
+        Levels levels = 0;
+        for (const NodeId operand : operands_of(node)) levels |= add(operand, place);
+        return levels;
+    }
+
+    Levels own_levels(const Node& node, Place place) const {
+        if (const auto* index = std::get_if<Index>(&node.form))
+            return level_of(index->variable, place);
+        if (const auto* local = std::get_if<Local>(&node.form)) {
+            const auto known = levels_of_local_.find(local->local);
+            return known == levels_of_local_.end() ? 0 : known->second;
+        }
+        const auto buffer = buffer_read_by(node);
+        const auto stored = buffer ? stored_.find(*buffer) : stored_.end();
+        if (stored == stored_.end()) return 0;
+        const std::size_t common = std::min(stored->second, arounds_[place].level);
+        return common == 0 ? 0 : bit_of(common);
+    }
+    Levels level_of(VariableId variable, Place place) const {
+        for (; place != outside; place = arounds_[place].outer)
+            if (arounds_[place].variable == variable) return bit_of(arounds_[place].level);
+        return 0;
+    }
+    static Levels bit_of(std::size_t level) { return Levels{1} << level; }
+
+    // The innermost of the loops around the place on which something with these levels depends.
+    Place at_level(Place place, Levels levels) const {
+        const auto level = static_cast<std::size_t>(std::bit_width(levels | 1) - 1);
+        while (arounds_[place].level > level) place = arounds_[place].outer;
+        return place;
+    }
+    Place inside(Place place, VariableId variable, double times) {
+        const auto [found, is_new] = inner_.try_emplace({place, variable}, arounds_.size());
+        if (is_new) {
+            const Around& around = arounds_[place];
+            arounds_.push_back({place, variable, around.level + 1, around.evaluations * times});
+        }
+        return found->second;
+    }
+
+    void pay(double cost, Place place) { total_ += cost * arounds_[place].evaluations; }
+
+    const Program& program_;
+    std::vector<Around> arounds_;
+    std::map<std::pair<Place, VariableId>, Place> inner_;
+    std::map<std::pair<NodeId, Place>, Levels> levels_;
+    std::set<std::pair<NodeId, Place>> paid_;
+    std::map<LocalId, Levels> levels_of_local_;
+    std::map<BufferId, std::size_t> stored_;  // the level of its stores
+    double total_ = 0;
+};
+
+}  // namespace
+
+double cost_of(Operator op) {
+    if (is_elementary(op)) return elementary_cost;
+    const bool divides = is_one_of(
+        op, {Operator::Divide, Operator::FloorDivide, Operator::FloorModulo, Operator::Sqrt});
+    return divides ? division_cost : 1;
+}
+
+double own_cost(const Program& program, const Node& node) {
+    return match(
+        node.form, [](const Load&) { return 1.0; },
+        [&](const Search& search) {
+            const auto size = static_cast<double>(program[search.table].count());
+            return 2 * std::ceil(std::log2(size + 1));
+        },
+        [&](const Bits& bits) {
+            const std::int64_t count = program[bits.buffer].count() - bits.first;
+            return static_cast<double>(std::min<std::int64_t>(count, 64));
+        },
+        [](const Apply& apply) { return cost_of(apply.op); }, [](const Select&) { return 1.0; },
+        [&](const Reduce& reduce) { return repetitions(program, reduce); },
+        [](const Sample&) { return draw_cost; }, [](const Discrete&) { return draw_cost; },
+        [&](const DiscreteOver& discrete) { return draw_cost + repetitions(program, discrete); },
+        [](const auto&) { return 0.0; });
+}
+
+double repetitions(const Program& program, const Reduce& reduce) {
+    const double size = size_of(program, reduce.variable);
+    return std::max(1.0, reduce.bounds ? length_of(program, *reduce.bounds, size) : size);
+}
+
+double repetitions(const Program& program, const DiscreteOver& discrete) {
+    return std::max(1.0, size_of(program, discrete.variable));
+}
+
+double cost_of_step(const Program& program) {
+    StepCost cost(program);
+    double total = cost.of_computation(program.reward);
+    for (const Definition& definition : program.step) total += cost.of_definition(definition.body);
+    for (const auto* conditions : {&program.invariants, &program.terminations})
+        for (const Computation& condition : *conditions) total += cost.of_computation(condition);
+    return total;
+}
+
+}  // namespace rddlc::ir

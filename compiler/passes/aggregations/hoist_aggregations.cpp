@@ -1,0 +1,216 @@
+#include "passes/aggregations/hoist_aggregations.hpp"
+
+#include "ir/call.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost): what is worth a table, and what writing or reading an element costs.
+constexpr double worth_hoisting = 8;
+constexpr double cost_of_element = 2;
+// The work must shrink to less than this part, since branches may skip some of it.
+constexpr double worthwhile = 0.5;
+constexpr double most_hoisted_elements = 1e6;
+
+using Variables = std::vector<ir::VariableId>;
+
+class Hoisting {
+  public:
+    Hoisting(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        hoist_in(program_.step);
+        hoist_in(program_.reward);
+        if (program_.policy) {
+            elements_.clear();  // the step has tables of its own
+            replaced_.clear();
+            visited_.clear();
+            hoist_in(program_.policy->act);
+        }
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void hoist_in(std::vector<ir::Definition>& definitions) {
+        for (ir::Definition& definition : definitions) {
+            name_ = program_[definition.target].name;
+            span_ = definition.span;
+            definition.body = hoisted(std::move(definition.body));
+        }
+    }
+
+    // The value is one more statement, outside of all loops.
+    void hoist_in(ir::Computation& computation) {
+        name_ = "reward";
+        span_ = computation.span;
+        computation.body = hoisted(std::move(computation.body));
+        filled_.clear();
+        find_tables(computation.value, {}, 0, computation.body);
+        computation.value = replaced(computation.value);
+    }
+
+    ir::Block hoisted(ir::Block block) {
+        ir::Block result;
+        for (ir::Statement& statement : block) {
+            ir::Block single;
+            single.push_back(std::move(statement));
+            filled_ = ir::written_buffers(single);
+            find_tables(single, {}, result);
+            ir::change_roots(single, [&](ir::NodeId& root) { root = replaced(root); });
+            result.push_back(std::move(single.front()));
+        }
+        return result;
+    }
+
+    // --------------------------------------------------------------------------- finding
+
+    // Puts the statements that fill new tables into `before`.
+    void find_tables(const ir::Block& block, const Variables& around, ir::Block& before) {
+        for (const ir::Statement& statement : block) {
+            match(
+                statement.form,
+                [&](const ir::Loop& loop) {
+                    Variables inner = around;
+                    inner.push_back(loop.variable);
+                    find_tables(loop.body, inner, before);
+                },
+                [&](const ir::Let& let) { find_tables(let.value, around, around.size(), before); },
+                [&](const ir::Store& store) {
+                    find_tables(store.value, around, around.size(), before);
+                },
+                [](const ir::Call&) {});
+        }
+    }
+
+    // `around` are all loops and aggregations around the node, outermost first, of which `loops`
+    // are statements.
+    void find_tables(ir::NodeId id, const Variables& around, std::size_t loops, ir::Block& before) {
+        if (elements_.contains(id) || !visited_.emplace(id, around).second) return;
+        if (is_worthwhile(id, around, loops)) return make_table(id, around, before);
+        const ir::Node node = program_[id];
+        const auto variable = ir::bound_variable(node);
+        const std::vector<ir::NodeId> operands = ir::operands_of(node);
+        for (ir::NodeId operand : operands) {
+            Variables inner = around;
+            if (variable && operand == operands.front()) inner.push_back(*variable);
+            find_tables(operand, inner, loops, before);
+        }
+    }
+
+    bool is_worthwhile(ir::NodeId id, const Variables& around, std::size_t loops) const {
+        const ir::Facts& facts = builder_.facts(id);
+        if (facts.may_fault || facts.uniform || facts.cost < worth_hoisting) return false;
+        if (facts.free_variables.empty() || is_fixed_by_loops(id, around, loops)) return false;
+        const double entries = product_of_sizes(facts.free_variables);
+        const double evaluations = product_of_sizes(around);
+        const double hoisted =
+            entries * (facts.cost + cost_of_element) + evaluations * cost_of_element;
+        return entries <= most_hoisted_elements &&
+               hoisted < worthwhile * evaluations * facts.cost && is_known_before(id);
+    }
+
+    // It depends on outer loops alone.
+    bool is_fixed_by_loops(ir::NodeId id, const Variables& around, std::size_t loops) const {
+        const auto& variables = builder_.facts(id).free_variables;
+        return std::all_of(variables.begin(), variables.end(), [&](ir::VariableId variable) {
+            const auto place =
+                static_cast<std::size_t>(std::ranges::find(around, variable) - around.begin());
+            return place < std::min(loops, variables.size());
+        });
+    }
+
+    double product_of_sizes(const Variables& variables) const {
+        double product = 1;
+        for (ir::VariableId variable : variables) {
+            product *= static_cast<double>(program_[variable].size);
+        }
+        return product;
+    }
+
+    // Neither a local value nor what the statement itself computes is part of it.
+    bool is_known_before(ir::NodeId id) const {
+        const ir::Node& node = program_[id];
+        if (std::holds_alternative<ir::Local>(node.form)) return false;
+        const auto buffer = ir::buffer_read_by(node);
+        if (buffer && filled_.contains(*buffer)) return false;
+        return std::ranges::all_of(ir::operands_of(node),
+                                   [&](ir::NodeId operand) { return is_known_before(operand); });
+    }
+
+    // ---------------------------------------------------------------------------- making
+
+    void make_table(ir::NodeId id, const Variables& around, ir::Block& before) {
+        Variables dimensions;
+        for (ir::VariableId variable : around) {
+            const auto& needed = builder_.facts(id).free_variables;
+            if (std::ranges::binary_search(needed, variable)) dimensions.push_back(variable);
+        }
+        // What its value consists of may become tables, too.
+        for (ir::NodeId operand : ir::operands_of(program_[id])) {
+            Variables inner = dimensions;
+            const auto variable = ir::bound_variable(program_[id]);
+            if (variable && operand == ir::operands_of(program_[id]).front()) {
+                inner.push_back(*variable);
+            }
+            find_tables(operand, inner, dimensions.size(), before);
+        }
+        const ir::BufferId table = new_table(id, dimensions);
+        std::vector<ir::NodeId> indices;
+        for (ir::VariableId variable : dimensions) indices.push_back(builder_.index(variable));
+        ir::Block fill;
+        fill.push_back({ir::Store{table, indices, replaced(id)}});
+        std::ranges::move(ir::looped(std::move(fill), dimensions), std::back_inserter(before));
+        elements_[id] = builder_.load(table, indices);
+        replaced_.clear();
+        ++report_["tables filled before loops"];
+    }
+
+    ir::BufferId new_table(ir::NodeId id, const Variables& dimensions) {
+        std::string name = name_ + "-by";
+        for (ir::VariableId variable : dimensions) {
+            const ir::Variable& dimension = program_[variable];
+            name += "-" + (dimension.type ? program_.types[*dimension.type].name : dimension.name);
+        }
+        return builder_.tables().scratch(name, program_[id].type, builder_.facts(id).range,
+                                         dimensions, span_);
+    }
+
+    // The node with elements of tables in it.
+    ir::NodeId replaced(ir::NodeId id) {
+        if (const auto element = elements_.find(id); element != elements_.end()) {
+            return element->second;
+        }
+        if (const auto known = replaced_.find(id); known != replaced_.end()) return known->second;
+        ir::Node node = program_[id];
+        ir::change_operands(node, [&](ir::NodeId& operand) { operand = replaced(operand); });
+        return replaced_[id] = builder_.rebuild(node);
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    std::string name_;  // of what is computed
+    Span span_;
+    std::set<ir::BufferId> filled_;  // by the current statement
+    std::set<std::pair<ir::NodeId, Variables>> visited_;
+    std::map<ir::NodeId, ir::NodeId> elements_;  // what stands for a node that became a table
+    std::map<ir::NodeId, ir::NodeId> replaced_;
+};
+
+}  // namespace
+
+ir::Program hoist_aggregations(ir::Program program, Report& report) {
+    return Hoisting(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,25 @@
+// An expression that does not depend on all of the loops around it, but on an inner one, becomes a
+// table of the variables that it depends on. So a nested aggregation costs the sum and not the
+// product of its sizes.
+//
+//     for p in provider
+//         next.sold[p] = sum[i in item](select(by[p, i], sum[c in consumer](int(buys[c, i])), 0))
+//                                       =>
+//     for i in item
+//         scratch.sold-by-item[i] = sum[c in consumer](int(buys[c, i]))
+//     for p in provider
+//         next.sold[p] = sum[i in item](select(by[p, i], scratch.sold-by-item[i], 0))
+//
+// The table is filled before the statement that needs it; later statements of the step, and the
+// reward, also use it. A fallible expression stays where it is. Conditions have no tables, so they
+// are left alone. share_subexpressions names expressions that an outer loop fixes.
+#pragma once
+
+#include "ir/ir.hpp"
+#include "passes/report.hpp"
+
+namespace rddlc::passes {
+
+ir::Program hoist_aggregations(ir::Program program, Report& report);
+
+}  // namespace rddlc::passes

@@ -1,0 +1,413 @@
+#include "passes/aggregations/make_aggregations_sparse.hpp"
+
+#include "ir/fold.hpp"
+#include "ir/rewrite.hpp"
+#include "passes/aggregations/entry_tables.hpp"
+#include "passes/analyses/sparsity_pattern.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// What looking up an entry costs, in operations.
+constexpr double cost_of_entry = 3;
+// A loop over all objects is fine if it costs no more than this.
+constexpr double cheap_loop = 12;
+// Rows beyond this number must have entries.
+constexpr double most_empty_rows = 1e6;
+// In operations, of computing one table of entries.
+constexpr double affordable_for_entries = 1e8;
+// Of all aggregations: each takes a few numbers in the emitted text.
+constexpr std::int64_t most_entries_in_all = std::int64_t{1} << 20;
+
+// The aggregation that is being rewritten: its objects are those of an entry now.
+struct Scope {
+    Scope* outer = nullptr;  // null: not inside of any
+    Relation relation = {};  // by axes that choose the row, then those of its columns
+    std::size_t row_axes = 0;
+    bool has_row_an_entry = false;  // the rows are the entries of `outer`; else all there may be
+    ir::NodeId entry = {};
+    std::string name = {};  // of its tables
+    Span span = {};
+    std::map<ir::NodeId, ir::NodeId> done = {};
+
+    std::span<const Axis> axes() const { return relation.axes; }
+    std::span<const Axis> rows() const { return axes().first(row_axes); }
+    std::span<const Axis> columns() const { return axes().subspan(row_axes); }
+};
+
+class Rewriting {
+  public:
+    Rewriting(ir::Program program, Report& report)
+        : program_(std::move(program)),
+          report_(report),
+          builder_(program_),
+          evaluator_(program_),
+          pattern_(builder_, evaluator_),
+          tables_(program_) {}
+
+    ir::Program run() && {
+        for (ir::Definition* definition : ir::definitions_of(program_)) {
+            rewrite(definition->body, program_[definition->target].name, definition->span);
+        }
+        rewrite(program_.reward, "reward");
+        for (auto& condition : program_.preconditions) rewrite(condition, "precondition");
+        for (auto& condition : program_.invariants) rewrite(condition, "invariant");
+        for (auto& condition : program_.terminations) rewrite(condition, "termination");
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    void rewrite(ir::Block& block, const std::string& name, Span span) {
+        name_ = name;
+        span_ = span;
+        ir::change_roots(block, [&](ir::NodeId& root) { root = rewritten(root, everything_); });
+    }
+    void rewrite(ir::Computation& computation, const std::string& name) {
+        rewrite(computation.body, name, computation.span);
+        computation.value = rewritten(computation.value, everything_);
+    }
+
+    ir::NodeId rewritten(ir::NodeId id, Scope& innermost) {
+        Scope& scope = scope_of(id, innermost);
+        if (const auto known = scope.done.find(id); known != scope.done.end()) return known->second;
+        const ir::NodeId result = scope.outer ? of_entry(id, scope) : rebuilt(id, scope);
+        return scope.done[id] = result;
+    }
+
+    // The innermost scope that replaces a variable of the node.
+    Scope& scope_of(ir::NodeId id, Scope& innermost) const {
+        const auto& variables = builder_.facts(id).free_variables;
+        const auto is_used = [&](const Axis& axis) {
+            return std::ranges::binary_search(variables, axis.variable);
+        };
+        Scope* scope = &innermost;
+        while (scope->outer && std::ranges::none_of(scope->columns(), is_used)) {
+            scope = scope->outer;
+        }
+        return *scope;
+    }
+
+    ir::NodeId rebuilt(ir::NodeId id, Scope& scope) {
+        ir::Node node = program_[id];
+        if (const auto* reduce = std::get_if<ir::Reduce>(&node.form)) {
+            if (const auto sparse = made_sparse(*reduce, scope)) return *sparse;
+        }
+        ir::change_operands(node,
+                            [&](ir::NodeId& operand) { operand = rewritten(operand, scope); });
+        return builder_.rebuild(node);
+    }
+
+    // -------------------------------------------------------------------------- entries
+
+    ir::NodeId of_entry(ir::NodeId id, Scope& scope) {
+        if (const auto* index = std::get_if<ir::Index>(&program_[id].form)) {
+            return column(index->variable, scope);
+        }
+        const std::optional<ir::NodeId> table =
+            is_fixed(id, scope) ? tabulated(id, scope) : std::nullopt;
+        return table ? *table : rebuilt(id, scope);
+    }
+
+    // The object of an entry.
+    ir::NodeId column(ir::VariableId variable, const Scope& scope) {
+        const auto axis = std::ranges::find(scope.axes(), variable, &Axis::variable);
+        const auto place = static_cast<std::size_t>(axis - scope.axes().begin());
+        std::vector<ir::Value> values;
+        for (const std::int64_t entry : scope.relation.tuples) {
+            values.emplace_back(values_of(entry, scope.axes())[place]);
+        }
+        return load("-" + program_[variable].name, ir::Scalar::Int, std::move(values), scope);
+    }
+
+    // The same in all environments, and not just arithmetic of objects.
+    bool is_fixed(ir::NodeId id, const Scope& scope) const {
+        const ir::Facts& facts = builder_.facts(id);
+        const auto is_known = [&](ir::VariableId variable) {
+            return scope.relation.has(variable);
+        };
+        return facts.uniform && std::ranges::all_of(facts.free_variables, is_known) &&
+               facts.cost * static_cast<double>(scope.relation.count()) <= affordable_for_entries &&
+               (program_[id].type != ir::Scalar::Int || reads_table(id));
+    }
+
+    bool reads_table(ir::NodeId id) const {
+        if (std::holds_alternative<ir::Load>(program_[id].form)) return true;
+        return std::ranges::any_of(ir::operands_of(program_[id]),
+                                   [&](ir::NodeId operand) { return reads_table(operand); });
+    }
+
+    // The node's values for the entries, unless it faults for some.
+    std::optional<ir::NodeId> tabulated(ir::NodeId id, const Scope& scope) {
+        std::vector<ir::Value> values;
+        values.reserve(scope.relation.tuples.size());
+        for (const std::int64_t entry : scope.relation.tuples) {
+            const auto value = pattern_.evaluate(id, scope.axes(), entry);
+            if (!value) return std::nullopt;
+            values.push_back(*value);
+        }
+        const auto is_like_first = [&](const ir::Value& value) {
+            return identical(value, values.front());
+        };
+        if (std::ranges::all_of(values, is_like_first)) return builder_.constant(values.front());
+        return load("-entries", program_[id].type, std::move(values), scope);
+    }
+
+    ir::NodeId load(const std::string& suffix, ir::Scalar scalar, std::vector<ir::Value> values,
+                    const Scope& scope) {
+        return builder_.load(
+            tables_.table(scope.name + suffix, scalar, std::move(values), scope.span),
+            {scope.entry});
+    }
+
+    // ---------------------------------------------------------------------- aggregations
+
+    // Reductions right inside each other by the same operator, if their order does not matter.
+    struct Nest {
+        std::vector<ir::VariableId> variables;
+        ir::NodeId body;
+    };
+    Nest nest_of(const ir::Reduce& outermost) const {
+        Nest nest{{outermost.variable}, outermost.body};
+        while (program_[nest.body].type != ir::Scalar::Real) {
+            const auto* inner = std::get_if<ir::Reduce>(&program_[nest.body].form);
+            if (!inner || inner->op != outermost.op || inner->bounds) break;
+            nest.variables.push_back(inner->variable);
+            nest.body = inner->body;
+        }
+        return nest;
+    }
+
+    std::optional<ir::NodeId> made_sparse(const ir::Reduce& reduce, Scope& outer) {
+        const auto neutral = ir::fold_empty(reduce.op, program_[reduce.body].type);
+        if (!neutral || reduce.bounds) return std::nullopt;
+        Nest nest = nest_of(reduce);
+        std::vector<ir::NodeId> doubtful;
+        std::optional<Relation> found = pattern_.of(nest.body, *neutral);
+        if (!found && reduce.op == Reduction::Sum)
+            found = pattern_.of_term(reduce.body, doubtful);
+        if (!found || pattern_.depend(doubtful, reduce.variable)) return std::nullopt;
+        Scope scope = scope_for(*found, nest, outer);
+        if (!doubtful.empty() && !lacks_entries_in_each_row(scope)) return std::nullopt;
+        if (found->tuples.empty())
+            return with_terms_left_out(builder_.constant(*neutral), doubtful, outer);
+        // Objects that no table tells apart are left to loops inside.
+        for (auto variable = nest.variables.rbegin(); variable != nest.variables.rend();
+             ++variable) {
+            if (!found->has(*variable))
+                nest.body = builder_.reduce(reduce.op, *variable, nest.body);
+        }
+        if (scope.relation.count() > entries_left_) return std::nullopt;
+        if (!is_worthwhile(scope, nest.body)) return std::nullopt;
+        entries_left_ -= scope.relation.count();
+        ++report_["aggregations made sparse"];
+        name(scope, nest.body);
+        return with_terms_left_out(over_entries(reduce.op, nest.body, scope), doubtful, outer);
+    }
+
+    // A term that is left out is zero times each of these: it is nan where one is not finite. Else
+    // it is a zero, which does not change a sum, since a sum is never -0.0.
+    ir::NodeId with_terms_left_out(ir::NodeId sum, const std::vector<ir::NodeId>& doubtful,
+                                   Scope& outer) {
+        for (const ir::NodeId factor : doubtful) {
+            const ir::NodeId zero = builder_.constant(0.0);
+            const ir::NodeId term =
+                builder_.apply(Operator::Multiply, {zero, rewritten(factor, outer)});
+            sum = builder_.apply(Operator::Add, {sum, term});
+        }
+        return sum;
+    }
+
+    static bool lacks_entries_in_each_row(const Scope& scope) {
+        const auto columns = volume(scope.columns());
+        if (!columns) return false;
+        std::int64_t row = -1, count = 0;
+        return std::ranges::none_of(scope.relation.tuples, [&](std::int64_t tuple) {
+            count = tuple / *columns == row ? count + 1 : 1;
+            row = tuple / *columns;
+            return count == *columns;
+        });
+    }
+
+    Scope scope_for(const Relation& found, const Nest& nest, Scope& outer) {
+        Scope scope{.outer = &outer};
+        std::vector<Axis> axes;
+        std::ranges::remove_copy_if(found.axes, std::back_inserter(axes), [&](const Axis& axis) {
+            return std::ranges::find(nest.variables, axis.variable) != nest.variables.end();
+        });
+        scope.row_axes = axes.size();
+        scope.has_row_an_entry = outer.outer && std::ranges::is_permutation(axes, outer.axes());
+        if (scope.has_row_an_entry) axes.assign(outer.axes().begin(), outer.axes().end());
+        for (const ir::VariableId variable : nest.variables) {
+            if (found.has(variable)) axes.push_back({variable, program_[variable].size});
+        }
+        scope.relation = ordered(found, std::move(axes));
+        if (scope.has_row_an_entry) keep_rows_of_entries(scope);
+        return scope;
+    }
+
+    // The others are not evaluated.
+    static void keep_rows_of_entries(Scope& scope) {
+        const std::int64_t columns = *volume(scope.columns());
+        std::erase_if(scope.relation.tuples, [&](std::int64_t tuple) {
+            return !std::ranges::binary_search(scope.outer->relation.tuples, tuple / columns);
+        });
+    }
+
+    bool is_worthwhile(const Scope& scope, ir::NodeId body) const {
+        const auto rows = rows_of(scope), columns = volume(scope.columns());
+        if (!rows || !columns || scope.columns().empty()) return false;
+        const auto count = static_cast<double>(scope.relation.count());
+        const auto row_count = static_cast<double>(*rows);
+        if (row_count > std::max(most_empty_rows, 4 * count)) return false;
+        const double cost = builder_.facts(body).cost + 1;
+        const double all = static_cast<double>(*columns) * cost;
+        return all > cheap_loop && all > count / row_count * (cost + cost_of_entry);
+    }
+
+    ir::NodeId over_entries(Reduction op, ir::NodeId body, Scope& scope) {
+        const std::vector<ir::Value> begins = row_begins(scope);
+        if (has_one_entry_a_row(begins)) {
+            scope.entry = row_of(scope);
+            return builder_.aggregated(op, rewritten(body, scope));
+        }
+        const ir::VariableId variable = tables_.variable(scope.relation.count(), height_of(body));
+        scope.entry = builder_.index(variable);
+        if (scope.row_axes == 0) return builder_.reduce(op, variable, rewritten(body, scope));
+        const ir::Bounds bounds = bounds_of_row(scope, begins);
+        const ir::NodeId term = rewritten(body, scope);
+        if (const auto whole = of_equal_terms(op, term, bounds, variable)) return *whole;
+        return builder_.reduce(op, variable, term, bounds);
+    }
+
+    // Where all entries of a row have the same term, it matters only how many there are.
+    std::optional<ir::NodeId> of_equal_terms(Reduction op, ir::NodeId term, ir::Bounds row,
+                                             ir::VariableId entry) {
+        const ir::Facts& facts = builder_.facts(term);
+        if (std::ranges::binary_search(facts.free_variables, entry)) return std::nullopt;
+        const std::vector ends = {row.begin, row.end};
+        if (op == Reduction::Exists) {
+            return builder_.apply(Operator::And, {builder_.apply(Operator::Less, ends), term});
+        }
+        if (op == Reduction::ForAll) {
+            return builder_.apply(Operator::Or, {builder_.apply(Operator::Equal, ends), term});
+        }
+        const bool is_int_sum = op == Reduction::Sum && program_[term].type == ir::Scalar::Int;
+        if (!is_int_sum || facts.may_fault) return std::nullopt;
+        const ir::NodeId count = builder_.apply(Operator::Subtract, {row.end, row.begin});
+        return builder_.apply(Operator::Multiply, {count, term});
+    }
+
+    // Then the row is the entry.
+    static bool has_one_entry_a_row(const std::vector<ir::Value>& begins) {
+        for (std::size_t row = 0; row < begins.size(); ++row) {
+            if (begins[row] != ir::Value(static_cast<std::int64_t>(row))) return false;
+        }
+        return true;
+    }
+
+    ir::Bounds bounds_of_row(const Scope& scope, const std::vector<ir::Value>& row_begins) {
+        const ir::BufferId begins =
+            tables_.table(scope.name + "-rows", ir::Scalar::Int, row_begins, scope.span);
+        const ir::NodeId row = row_of(scope);
+        const ir::NodeId one = builder_.constant(std::int64_t{1});
+        const ir::NodeId next = builder_.apply(Operator::Add, {row, one});
+        return {builder_.load(begins, {row}), builder_.load(begins, {next})};
+    }
+
+    ir::NodeId row_of(const Scope& scope) {
+        if (scope.has_row_an_entry) return scope.outer->entry;
+        ir::NodeId row = builder_.constant(std::int64_t{0});
+        for (const Axis& axis : scope.rows()) {
+            const ir::NodeId size = builder_.constant(axis.size);
+            const ir::NodeId object = rewritten(builder_.index(axis.variable), *scope.outer);
+            row = builder_.apply(Operator::Multiply, {row, size});
+            row = builder_.apply(Operator::Add, {row, object});
+        }
+        return row;
+    }
+
+    static std::optional<std::int64_t> rows_of(const Scope& scope) {
+        return scope.has_row_an_entry ? scope.outer->relation.count() : volume(scope.rows());
+    }
+
+    // Where the entries of each row begin; at the end, how many there are.
+    static std::vector<ir::Value> row_begins(const Scope& scope) {
+        const std::vector<std::int64_t>& entries = scope.relation.tuples;
+        const std::int64_t rows = *rows_of(scope), columns = *volume(scope.columns());
+        std::vector<ir::Value> begins;
+        begins.reserve(static_cast<std::size_t>(rows) + 1);
+        auto entry = entries.begin();
+        for (std::int64_t k = 0; k < rows; ++k) {
+            const std::int64_t row = scope.has_row_an_entry
+                                         ? scope.outer->relation.tuples[static_cast<std::size_t>(k)]
+                                         : k;
+            while (entry != entries.end() && *entry / columns < row) ++entry;
+            begins.emplace_back(std::int64_t{entry - entries.begin()});
+        }
+        begins.emplace_back(std::int64_t{std::ssize(entries)});
+        return begins;
+    }
+
+    // How many aggregations are inside each other: their indices must differ.
+    std::size_t height_of(ir::NodeId id) const {
+        std::size_t height = 0;
+        for (ir::NodeId operand : ir::operands_of(program_[id])) {
+            height = std::max(height, height_of(operand));
+        }
+        return height + (std::holds_alternative<ir::Reduce>(program_[id].form) ? 1 : 0);
+    }
+
+    // By the table of bools that tells entries apart, or the only table that does; else by the
+    // fluent that is computed.
+    void name(Scope& scope, ir::NodeId body) const {
+        std::set<ir::BufferId> tables;
+        collect_tables(body, scope, tables);
+        scope.name = name_;
+        scope.span = span_;
+        for (ir::BufferId table : tables) {
+            if (tables.size() > 1 && program_[table].scalar != ir::Scalar::Bool) continue;
+            scope.name = program_[table].name;
+            scope.span = program_[table].span;
+            return;
+        }
+    }
+
+    void collect_tables(ir::NodeId id, const Scope& scope, std::set<ir::BufferId>& tables) const {
+        const auto& variables = builder_.facts(id).free_variables;
+        const bool varies = std::ranges::any_of(scope.axes(), [&](const Axis& axis) {
+            return std::ranges::binary_search(variables, axis.variable);
+        });
+        if (!varies) return;
+        const auto* load = std::get_if<ir::Load>(&program_[id].form);
+        if (load && program_[load->buffer].storage == ir::Storage::Constant) {
+            tables.insert(load->buffer);
+        }
+        for (ir::NodeId operand : ir::operands_of(program_[id])) {
+            collect_tables(operand, scope, tables);
+        }
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    ir::Evaluator evaluator_;
+    SparsityPattern pattern_;
+    EntryTables tables_;
+    Scope everything_;
+    std::int64_t entries_left_ = most_entries_in_all;
+    std::string name_;  // of what is being rewritten
+    Span span_;
+};
+
+}  // namespace
+
+ir::Program make_aggregations_sparse(ir::Program program, Report& report) {
+    return Rewriting(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,330 @@
+#include "passes/aggregations/tabulate_counts.hpp"
+
+#include "ir/rewrite.hpp"
+#include "passes/analyses/constant_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr double largest_range = 256;
+// In operations (Facts::cost): what is worth loading an element of a table instead, and how many
+// elements each of them is worth.
+constexpr double worth_a_count_table = 8;
+constexpr double elements_for_an_operation = 64;
+// A table of several kinds of objects has this many times fewer rows, at least.
+constexpr std::size_t objects_of_a_kind = 4;
+constexpr std::size_t most_kinds = 64;
+
+// How an expression depends on what differs between environments.
+struct Dependence {
+    bool only_count = true;           // on nothing but `count`, beside constants
+    std::optional<ir::NodeId> count;  // a small int; none: on nothing
+    double cost = 0;                  // of what is computed beside the count
+};
+
+// Replaces the outermost expressions that depend on one count.
+class CountTabulation {
+  public:
+    CountTabulation(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_), evaluator_(program_) {
+        for (std::uint32_t index = 0; index < program_.nodes.size(); ++index)
+            dependences_.push_back(dependence_of({index}));
+    }
+
+    ir::Program run() && {
+        for (ir::Definition* definition : ir::definitions_of(program_))
+            change(definition->body, program_[definition->target].name, definition->span);
+        change(program_.reward, "reward");
+        for (auto& condition : program_.preconditions) change(condition, "precondition");
+        for (auto& condition : program_.invariants) change(condition, "invariant");
+        for (auto& condition : program_.terminations) change(condition, "termination");
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    // --------------------------------------------------------------------------- finding
+
+    Dependence dependence_of(ir::NodeId id) const {
+        const ir::Facts& facts = builder_.facts(id);
+        if (facts.uniform) return {.count = {}, .cost = facts.cost};
+        if (is_count(id)) return {.count = id};
+        Dependence dependence{.count = {}, .cost = facts.cost};
+        for (ir::NodeId operand : ir::operands_of(program_[id])) {
+            const Dependence& other = dependences_[operand.index];
+            const bool agrees =
+                !other.count || !dependence.count || other.count == dependence.count;
+            dependence.only_count &= other.only_count && agrees;
+            if (other.count) dependence.count = other.count;
+            dependence.cost -= builder_.facts(operand).cost - other.cost;
+        }
+        dependence.only_count &= dependence.count.has_value();
+        return dependence;
+    }
+
+    bool is_count(ir::NodeId id) const {
+        const ir::Facts& facts = builder_.facts(id);
+        return program_[id].type == ir::Scalar::Int && !facts.may_fault && facts.range &&
+               facts.range->upper - facts.range->lower < largest_range;
+    }
+
+    // What it depends on is bound outside of it.
+    bool is_bound_inside(ir::NodeId count, ir::NodeId id) const {
+        return !std::ranges::includes(builder_.facts(id).free_variables,
+                                      builder_.facts(count).free_variables);
+    }
+
+    // ------------------------------------------------------------------------- replacing
+
+    void change(ir::Block& block, const std::string& name, Span span) {
+        name_ = name;
+        span_ = span;
+        ir::change_roots(block, [&](ir::NodeId& root) { root = rewritten(root); });
+    }
+    void change(ir::Computation& computation, const std::string& name) {
+        change(computation.body, name, computation.span);
+        computation.value = rewritten(computation.value);
+    }
+
+    ir::NodeId rewritten(ir::NodeId id) {
+        return ir::replace_in(builder_, id, done_,
+                              [&](ir::NodeId part) { return looked_up(part); });
+    }
+
+    std::optional<ir::NodeId> looked_up(ir::NodeId id) {
+        const auto [only_count, count, cost] = dependences_[id.index];
+        const bool is_candidate = only_count && count && cost >= worth_a_count_table &&
+                                  program_[id].type == ir::Scalar::Real;
+        if (!is_candidate || is_bound_inside(*count, id)) return std::nullopt;
+        const std::vector<ir::NodeId> cases = cases_of(id, *count);
+        const std::vector<ir::VariableId> variables = variables_of(cases);
+        const double elements = static_cast<double>(cases.size()) * objects_of(variables);
+        if (elements > cost * elements_for_an_operation) return std::nullopt;
+        auto values = values_of(cases, variables);
+        if (!values) return std::nullopt;
+
+        ++report_["expressions of a count made tables"];
+        const Rows rows{.cases = cases.size(),
+                        .values = std::move(*values),
+                        .reached = reached_cases(*count, cases.size(), variables)};
+        const std::string name = name_ + "-by-" + name_of(*count);
+        const auto kinds = kinds_of(rows);
+        auto [table, indices] = kinds ? table_of_kinds(name, rows, *kinds, variables)
+                                      : table_of_objects(name, rows, variables);
+        indices.push_back(builder_.apply(Operator::Subtract, {rewritten(*count), least(*count)}));
+        return builder_.load(table, std::move(indices));
+    }
+
+    // The expression for each value of the count.
+    std::vector<ir::NodeId> cases_of(ir::NodeId id, ir::NodeId count) {
+        const Range range = *builder_.facts(count).range;
+        std::vector<ir::NodeId> cases;
+        for (double value = range.lower; value <= range.upper; ++value) {
+            std::map<ir::NodeId, ir::NodeId> known = {{count, integer(value)}};
+            cases.push_back(ir::replace_in(builder_, id, known));
+        }
+        return cases;
+    }
+
+    std::vector<ir::VariableId> variables_of(const std::vector<ir::NodeId>& cases) const {
+        std::set<ir::VariableId> variables;
+        for (ir::NodeId id : cases) {
+            const auto& free = builder_.facts(id).free_variables;
+            variables.insert(free.begin(), free.end());
+        }
+        return {variables.begin(), variables.end()};
+    }
+
+    // Row-major, the count innermost. None if it draws, reads more than constants, or faults.
+    std::optional<std::vector<ir::Value>> values_of(
+        const std::vector<ir::NodeId>& cases, const std::vector<ir::VariableId>& variables) const {
+        const auto objects = static_cast<std::size_t>(objects_of(variables));
+        std::vector<ir::Value> values(objects * cases.size());
+        for (std::size_t k = 0; k < cases.size(); ++k) {
+            if (!builder_.facts(cases[k]).uniform) return std::nullopt;
+            const auto of_case = constant_values(evaluator_, program_, cases[k], variables);
+            if (!of_case) return std::nullopt;
+            for (std::size_t object = 0; object < objects; ++object)
+                values[object * cases.size() + k] = (*of_case)[object];
+        }
+        return values;
+    }
+
+    // How many of its cases each object's count may reach.
+    std::vector<std::size_t> reached_cases(ir::NodeId count, std::size_t cases,
+                                           const std::vector<ir::VariableId>& variables) {
+        std::vector<std::size_t> reached(static_cast<std::size_t>(objects_of(variables)), cases);
+        const auto greatest =
+            constant_values(evaluator_, program_, greatest_for(count, variables), variables);
+        if (!greatest) return reached;
+        const auto least = static_cast<std::int64_t>(builder_.facts(count).range->lower);
+        for (std::size_t object = 0; object < reached.size(); ++object) {
+            const std::int64_t last = std::get<std::int64_t>((*greatest)[object]) - least;
+            reached[object] = static_cast<std::size_t>(
+                std::clamp<std::int64_t>(last + 1, 1, static_cast<std::int64_t>(cases)));
+        }
+        return reached;
+    }
+
+    // An upper bound of a count, from constants and these variables.
+    ir::NodeId greatest_for(ir::NodeId count, const std::vector<ir::VariableId>& variables) {
+        const auto is_known = [&](ir::NodeId id) {
+            const ir::Facts& facts = builder_.facts(id);
+            return facts.uniform && std::ranges::includes(variables, facts.free_variables);
+        };
+        if (is_known(count)) return count;
+        const Range range = *builder_.facts(count).range;
+        const auto form = program_[count].form;
+        if (const auto* apply = std::get_if<ir::Apply>(&form)) {
+            const ir::NodeId a = apply->operands.front(), b = apply->operands.back();
+            if (apply->op == Operator::Add)
+                return builder_.apply(Operator::Add,
+                                      {greatest_for(a, variables), greatest_for(b, variables)});
+            if (apply->op == Operator::Subtract && is_known(b))
+                return builder_.apply(Operator::Subtract, {greatest_for(a, variables), b});
+        }
+        const auto* sum = std::get_if<ir::Reduce>(&form);
+        if (sum && sum->op == Reduction::Sum && sum->bounds) {
+            const auto length =
+                builder_.apply(Operator::Subtract, {sum->bounds->end, sum->bounds->begin});
+            const double term = std::max(0.0, builder_.facts(sum->body).range->upper);
+            if (is_known(length))
+                return builder_.apply(Operator::Multiply, {integer(term), length});
+        }
+        return integer(range.upper);
+    }
+
+    double objects_of(const std::vector<ir::VariableId>& variables) const {
+        double objects = 1;
+        for (ir::VariableId variable : variables)
+            objects *= static_cast<double>(program_[variable].size);
+        return objects;
+    }
+
+    // ---------------------------------------------------------------------------- tables
+
+    // A row for each object, in row-major order.
+    struct Rows {
+        std::size_t cases;
+        std::vector<ir::Value> values;
+        std::vector<std::size_t> reached;  // by object: how many of its row's elements are read
+
+        std::span<const ir::Value> reached_by(std::size_t object) const {
+            return std::span(values).subspan(object * cases, reached[object]);
+        }
+    };
+    // Objects of one kind have the same row, as far as both reach.
+    struct Kinds {
+        std::vector<std::size_t> examples;  // of each kind, the object that reaches furthest
+        std::vector<ir::Value> of_objects;  // ints
+    };
+    struct Place {
+        ir::BufferId table;
+        std::vector<ir::NodeId> indices;  // but for the count
+    };
+
+    // None where the objects are of too many kinds.
+    static std::optional<Kinds> kinds_of(const Rows& rows) {
+        Kinds kinds;
+        for (std::size_t object = 0; object < rows.reached.size(); ++object) {
+            const auto row = rows.reached_by(object);
+            const auto known = std::ranges::find_if(kinds.examples, [&](std::size_t example) {
+                const auto other = rows.reached_by(example);
+                const std::size_t both = std::min(row.size(), other.size());
+                return are_identical(row.first(both), other.first(both));
+            });
+            kinds.of_objects.push_back(std::int64_t{known - kinds.examples.begin()});
+            if (known == kinds.examples.end())
+                kinds.examples.push_back(object);
+            else if (row.size() > rows.reached[*known])
+                *known = object;
+            const std::size_t count = kinds.examples.size();
+            const std::size_t most = std::min(rows.reached.size() / objects_of_a_kind, most_kinds);
+            if (count > 1 && count > most) return std::nullopt;
+        }
+        return kinds;
+    }
+
+    Place table_of_kinds(const std::string& name, const Rows& rows, const Kinds& kinds,
+                         const std::vector<ir::VariableId>& variables) {
+        if (kinds.examples.size() == 1) return {new_table(name, rows, kinds.examples, {}), {}};
+        ir::Buffer of_objects{.name = name_ + "-kind",
+                              .storage = ir::Storage::Constant,
+                              .scalar = ir::Scalar::Int,
+                              .values = kinds.of_objects,
+                              .span = span_};
+        ir::set_dimensions(program_, of_objects, variables);
+        const ir::BufferId kind = builder_.tables().constant(std::move(of_objects));
+        const auto count = static_cast<std::int64_t>(kinds.examples.size());
+        return {new_table(name, rows, kinds.examples, {count}),
+                {builder_.load(kind, indices_of(variables))}};
+    }
+    Place table_of_objects(const std::string& name, const Rows& rows,
+                           const std::vector<ir::VariableId>& variables) {
+        std::vector<std::size_t> all(rows.reached.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::vector<std::int64_t> shape;
+        for (ir::VariableId variable : variables) shape.push_back(program_[variable].size);
+        return {new_table(name, rows, all, std::move(shape)), indices_of(variables)};
+    }
+
+    // The rows of these objects. Elements that are not reached repeat the last one that is, so that
+    // they do not widen the range of the table.
+    ir::BufferId new_table(const std::string& name, const Rows& rows,
+                           const std::vector<std::size_t>& objects,
+                           std::vector<std::int64_t> shape) {
+        shape.push_back(static_cast<std::int64_t>(rows.cases));
+        std::vector<ir::Value> values;
+        for (std::size_t object : objects) {
+            const auto row = rows.reached_by(object);
+            values.insert(values.end(), row.begin(), row.end());
+            values.insert(values.end(), rows.cases - row.size(), row.back());
+        }
+        ir::Buffer table{.name = name,
+                         .storage = ir::Storage::Constant,
+                         .scalar = ir::Scalar::Real,
+                         .shape = std::move(shape),
+                         .span = span_};
+        table.values = std::move(values);
+        return builder_.tables().constant(std::move(table));
+    }
+
+    std::vector<ir::NodeId> indices_of(const std::vector<ir::VariableId>& variables) {
+        std::vector<ir::NodeId> indices;
+        for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+        return indices;
+    }
+
+    std::string name_of(ir::NodeId count) const {
+        const auto* load = std::get_if<ir::Load>(&program_[count].form);
+        return load ? program_[load->buffer].name : "count";
+    }
+
+    ir::NodeId least(ir::NodeId count) { return integer(builder_.facts(count).range->lower); }
+    ir::NodeId integer(double value) { return builder_.constant(static_cast<std::int64_t>(value)); }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    ir::Evaluator evaluator_;
+    std::vector<Dependence> dependences_;  // by NodeId::index
+    std::string name_;                     // of what is computed
+    Span span_;
+    std::map<ir::NodeId, ir::NodeId> done_;
+};
+
+}  // namespace
+
+ir::Program tabulate_counts(ir::Program program, Report& report) {
+    return CountTabulation(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,72 @@
+#include "passes/analyses/several_objects.hpp"
+
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+constexpr std::int64_t fewest_iterations = 8;
+
+}  // namespace
+
+SeveralObjects::SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,
+                               std::function<bool(ir::NodeId)> is_element)
+    : program_(program),
+      facts_of_(std::move(facts_of)),
+      nest_(std::move(nest)),
+      is_element_(std::move(is_element)) {}
+
+bool SeveralObjects::are_enough() const {
+    std::int64_t iterations = 1;
+    for (const ir::VariableId variable : nest_.variables) iterations *= program_[variable].size;
+    return iterations >= fewest_iterations;
+}
+
+bool SeveralObjects::can_evaluate(ir::NodeId id) const {
+    if (is_element_ && is_element_(id)) return true;
+    return match(
+        program_[id].form, [](const ir::Constant&) { return true; },
+        [](const ir::Local&) { return true; }, [](const ir::Bits&) { return true; },
+        [&](const ir::Load& load) { return can_load(load); },
+        [&](const ir::Convert& convert) { return can_evaluate(convert.operand); },
+        [&](const ir::Apply& apply) { return !apply.place && can_evaluate_all(apply.operands); },
+        [&](const ir::Select& select) {
+            return can_evaluate_all({select.condition, select.then_value, select.else_value});
+        },
+        [&](const ir::Sample& sample) {
+            return is_by_inversion(sample.distribution) &&
+                   ir::is_place_in(program_, nest_, sample.place.index) &&
+                   can_evaluate_all(sample.parameters);
+        },
+        [](const auto&) { return false; });
+}
+
+bool SeveralObjects::can_evaluate_all(const std::vector<ir::NodeId>& ids) const {
+    return std::ranges::all_of(ids, [&](ir::NodeId id) { return can_evaluate(id); });
+}
+
+// An element of these objects, or one that is the same for all of them, or that they choose from a
+// table of constants.
+bool SeveralObjects::can_load(const ir::Load& load) const {
+    if (ir::begins_with(program_, load.indices, nest_)) {
+        const auto rest =
+            load.indices.begin() + static_cast<std::ptrdiff_t>(nest_.variables.size());
+        return can_evaluate_all({rest, load.indices.end()});
+    }
+    const bool is_same = std::ranges::all_of(load.indices, [&](ir::NodeId index) {
+        return ir::is_same_for_all(facts_of_(index), nest_);
+    });
+    return is_same || (program_[load.buffer].storage == ir::Storage::Constant &&
+                       can_evaluate_all(load.indices));
+}
+
+bool SeveralObjects::can_store(const ir::Store& store) const {
+    return store.indices.size() == nest_.variables.size() &&
+           ir::begins_with(program_, store.indices, nest_) && can_evaluate(store.value);
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,39 @@
+// Whether expressions can be evaluated for several objects at once (rddl/object_lanes/objects.hpp):
+// they need elements of their own objects, what is the same for all, or what they choose from
+// constants, and no aggregations.
+#pragma once
+
+#include "ir/analysis.hpp"
+#include "ir/ir.hpp"
+#include "ir/nest.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace rddlc::passes {
+
+// For the objects of a nest of loops, or of aggregations, over these variables.
+class SeveralObjects {
+  public:
+    using FactsOf = std::function<const ir::Facts&(ir::NodeId)>;
+
+    // `is_element` says which nodes will become elements of tables.
+    SeveralObjects(const ir::Program& program, FactsOf facts_of, ir::Nest nest,
+                   std::function<bool(ir::NodeId)> is_element = nullptr);
+
+    // Too few iterations do not fill the registers.
+    bool are_enough() const;
+    bool can_evaluate(ir::NodeId id) const;
+    bool can_store(const ir::Store& store) const;
+
+  private:
+    bool can_load(const ir::Load& load) const;
+    bool can_evaluate_all(const std::vector<ir::NodeId>& ids) const;
+
+    const ir::Program& program_;
+    FactsOf facts_of_;
+    ir::Nest nest_;
+    std::function<bool(ir::NodeId)> is_element_;
+};
+
+}  // namespace rddlc::passes

@@ -1,0 +1,81 @@
+#include "passes/arithmetic/reduce_strength.hpp"
+
+#include "ir/rewrite.hpp"
+
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost): what costs more is not written down twice.
+constexpr double cheap_operand = 6;
+constexpr std::int64_t largest_int_exponent = 4;
+
+bool is_power_of_two(double value) {
+    int exponent = 0;
+    const double fraction = std::frexp(std::abs(value), &exponent);
+    return fraction == 0.5 && std::isnormal(value) && std::isnormal(1 / value);
+}
+
+// A bool as a number: 0 or 1, never -0.
+bool is_from_bool(const ir::Program& program, ir::NodeId id) {
+    const auto* form = std::get_if<ir::Convert>(&program[id].form);
+    return form && program[form->operand].type == ir::Scalar::Bool;
+}
+
+bool is_zero(const ir::Program& program, ir::NodeId id) {
+    const auto value = ir::constant<double>(program, id);
+    return value && std::bit_cast<std::uint64_t>(*value) == 0;
+}
+
+ir::NodeId product(ir::Builder& builder, ir::NodeId base, std::int64_t count) {
+    ir::NodeId result = base;
+    for (std::int64_t k = 1; k < count; ++k)
+        result = builder.apply(Operator::Multiply, {result, base});
+    return result;
+}
+
+std::optional<ir::NodeId> reduced_power(ir::Builder& builder, ir::NodeId base,
+                                        ir::NodeId exponent) {
+    if (builder.facts(base).cost > cheap_operand) return std::nullopt;
+    const auto real = ir::constant<double>(builder.program(), exponent);
+    if (real && *real == 2) return product(builder, base, 2);
+    const auto whole = ir::constant<std::int64_t>(builder.program(), exponent);
+    if (whole && *whole >= 1 && *whole <= largest_int_exponent)
+        return product(builder, base, *whole);
+    return std::nullopt;
+}
+
+std::optional<ir::NodeId> reduced(ir::Builder& builder, const ir::Apply& apply) {
+    const ir::Program& program = builder.program();
+    const ir::NodeId a = apply.operands.front(), b = apply.operands.back();
+    if (apply.op == Operator::Power) return reduced_power(builder, a, b);
+    if (apply.op == Operator::Divide) {
+        const auto divisor = ir::constant<double>(program, b);
+        if (!divisor || !is_power_of_two(*divisor)) return std::nullopt;
+        return builder.apply(Operator::Multiply, {a, builder.constant(1 / *divisor)});
+    }
+    if (apply.op != Operator::Multiply) return std::nullopt;
+    const bool vanishes = (is_zero(program, a) && is_from_bool(program, b)) ||
+                          (is_zero(program, b) && is_from_bool(program, a));
+    const ir::NodeId other = is_zero(program, a) ? b : a;
+    if (!vanishes || !ir::is_droppable(builder.facts(other))) return std::nullopt;
+    return builder.constant(0.0);
+}
+
+}  // namespace
+
+ir::Program reduce_strength(ir::Program program, Report& report) {
+    return ir::rewrite(
+        std::move(program),
+        [&](ir::Builder& builder, ir::NodeId, const ir::Node& node) -> std::optional<ir::NodeId> {
+            const auto* apply = std::get_if<ir::Apply>(&node.form);
+            const auto cheaper = apply ? reduced(builder, *apply) : std::nullopt;
+            if (cheaper) ++report["operators made cheaper"];
+            return cheaper;
+        });
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,52 @@
+#include "passes/constants/fold_constant_expressions.hpp"
+
+#include "ir/rewrite.hpp"
+#include "passes/analyses/constant_values.hpp"
+
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// More operations than this are left to the simulator.
+constexpr double affordable_to_fold = 1e7;
+
+bool is_known(const ir::Node& node, const ir::Facts& facts) {
+    return facts.cost <= affordable_to_fold && facts.uniform && facts.free_variables.empty() &&
+           !std::holds_alternative<ir::Constant>(node.form);
+}
+
+// By NodeId::index. Only the outermost known expressions matter: what is inside goes with them.
+std::vector<std::optional<ir::Value>> known_values(const ir::Program& program) {
+    std::vector<std::optional<ir::Value>> values(program.nodes.size());
+    const std::vector<ir::Facts> facts = ir::all_facts(program);
+    const ir::Evaluator evaluator(program);
+    std::vector<bool> wanted(program.nodes.size());
+    for (ir::NodeId root : ir::roots_of(program)) wanted[root.index] = true;
+    for (std::uint32_t index = static_cast<std::uint32_t>(program.nodes.size()); index-- > 0;) {
+        if (!wanted[index]) continue;
+        const ir::Node& node = program.nodes[index];
+        if (is_known(node, facts[index])) {
+            const auto value = constant_values(evaluator, program, ir::NodeId{index}, {});
+            if (value) values[index] = value->front();
+        }
+        if (values[index]) continue;
+        for (ir::NodeId operand : ir::operands_of(node)) wanted[operand.index] = true;
+    }
+    return values;
+}
+
+}  // namespace
+
+ir::Program fold_constant_expressions(ir::Program program, Report& report) {
+    const std::vector<std::optional<ir::Value>> values = known_values(program);
+    return ir::rewrite(
+        std::move(program),
+        [&](ir::Builder& builder, ir::NodeId id, const ir::Node&) -> std::optional<ir::NodeId> {
+            if (!values[id.index]) return std::nullopt;
+            ++report["expressions evaluated"];
+            return builder.constant(*values[id.index]);
+        });
+}
+
+}  // namespace rddlc::passes

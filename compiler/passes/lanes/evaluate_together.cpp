@@ -1,0 +1,80 @@
+#include "passes/lanes/evaluate_together.hpp"
+
+#include "ir/analysis.hpp"
+#include "ir/nest.hpp"
+#include "passes/analyses/several_objects.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost): C++ compilers put cheaper loops over reals into registers
+// themselves.
+constexpr double least_cost_of_reals = 4;
+
+class Marking {
+  public:
+    explicit Marking(const ir::Program& program)
+        : program_(program), facts_(ir::all_facts(program)) {}
+
+    std::int64_t mark(ir::Block& block) const {
+        std::int64_t marked = 0;
+        for (ir::Statement& statement : block) {
+            auto* const loop = std::get_if<ir::Loop>(&statement.form);
+            if (!loop) continue;
+            loop->several_at_once = is_worth_it(*loop) && is_possible(*loop);
+            marked += loop->several_at_once;
+        }
+        return marked;
+    }
+
+  private:
+    bool is_worth_it(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        double cost = 0;
+        bool draws_or_is_bool = true;
+        for (const ir::Statement& statement : *nest.body) {
+            if (const auto* let = std::get_if<ir::Let>(&statement.form))
+                cost += cost_of(let->value);
+            const auto* store = std::get_if<ir::Store>(&statement.form);
+            if (!store) continue;
+            const ir::Scalar scalar = program_[store->target].scalar;
+            if (scalar == ir::Scalar::Int && !facts_[store->value.index].random) return false;
+            cost += cost_of(store->value);
+            draws_or_is_bool &= scalar == ir::Scalar::Bool || facts_[store->value.index].random;
+        }
+        return draws_or_is_bool || cost >= least_cost_of_reals;
+    }
+    double cost_of(ir::NodeId id) const { return facts_[id.index].cost; }
+
+    bool is_possible(const ir::Loop& loop) const {
+        const ir::Nest nest = ir::nest_of(loop);
+        const SeveralObjects several(
+            program_, [&](ir::NodeId id) -> const ir::Facts& { return facts_[id.index]; }, nest);
+        return several.are_enough() &&
+               std::ranges::all_of(*nest.body, [&](const ir::Statement& statement) {
+                   return match(
+                       statement.form,
+                       [&](const ir::Let& let) { return several.can_evaluate(let.value); },
+                       [&](const ir::Store& store) { return several.can_store(store); },
+                       [](const auto&) { return false; });
+               });
+    }
+
+    const ir::Program& program_;
+    std::vector<ir::Facts> facts_;
+};
+
+}  // namespace
+
+ir::Program evaluate_together(ir::Program program, Report& report) {
+    const Marking marking(program);
+    std::int64_t& marked = report["loops over several objects at once"];
+    for (ir::Definition& definition : program.step) marked += marking.mark(definition.body);
+    marked += marking.mark(program.reward.body);
+    return program;
+}
+
+}  // namespace rddlc::passes

@@ -1,0 +1,245 @@
+#include "passes/sharing/share_across_definitions.hpp"
+
+#include "ir/call.hpp"
+#include "ir/nest.hpp"
+#include "ir/rewrite.hpp"
+#include "support/match.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace rddlc::passes {
+namespace {
+
+// In operations (Facts::cost): what is worth an element, what an element costs, and what may be
+// computed although no branch needs it.
+constexpr double worth_an_element = 15;
+constexpr double cost_of_shared_element = 2;
+constexpr double cheap_enough_to_try = 64;
+constexpr double most_shared_elements = 1e6;
+
+// How one CPF, or the reward, uses a node.
+struct UseByDefinition {
+    double times = 0;     // evaluations in a step
+    bool always = false;  // and not in a branch
+};
+// By users, which are the CPFs in their order, and then the reward.
+using UsesByDefinition = std::map<std::size_t, UseByDefinition>;
+
+class DefinitionSharing {
+  public:
+    DefinitionSharing(ir::Program program, Report& report)
+        : program_(std::move(program)), report_(report), builder_(program_) {}
+
+    ir::Program run() && {
+        find_uses();
+        find_available();
+        choose();
+        replace();
+        return ir::collect_garbage(std::move(program_));
+    }
+
+  private:
+    // Worth a table, which the first user fills.
+    struct Shared {
+        ir::NodeId id;
+        std::size_t first_user;
+        ir::BufferId table;
+    };
+
+    // ------------------------------------------------------------------------------- uses
+
+    void find_uses() {
+        for (std::size_t user = 0; user < program_.step.size(); ++user)
+            visit(program_.step[user].body, user, 1);
+        const std::size_t reward = program_.step.size();
+        visit(program_.reward.body, reward, 1);
+        use(program_.reward.value, reward, {1, true});
+    }
+
+    void visit(const ir::Block& block, std::size_t user, double times) {
+        const auto use_root = [&](ir::NodeId root) {
+            use(root, user, {times, true});
+        };
+        for (const ir::Statement& statement : block) {
+            match(
+                statement.form, [&](const ir::Let& let) { use_root(let.value); },
+                [&](const ir::Store& store) {
+                    for (ir::NodeId index : store.indices) use_root(index);
+                    use_root(store.value);
+                },
+                [&](const ir::Loop& loop) {
+                    visit(loop.body, user,
+                          times * static_cast<double>(program_[loop.variable].size));
+                },
+                [&](const ir::Call& call) {
+                    for (ir::NodeId operand : ir::operands_of(call)) use_root(operand);
+                });
+        }
+    }
+
+    void use(ir::NodeId id, std::size_t user, const UseByDefinition& more) {
+        if (more.times == 0) return;
+        UseByDefinition& use = uses_[id][user];
+        use.times = std::max(use.times, more.times);
+        use.always |= more.always;
+    }
+
+    // Behind which users all is there that a node reads. A local value is there for no other user.
+    void find_available() {
+        std::map<ir::BufferId, std::size_t> filled;
+        for (std::size_t user = 0; user <= program_.step.size(); ++user) {
+            for (const ir::BufferId table : ir::written_buffers(body_of(user)))
+                filled[table] = user + 1;
+        }
+        available_.resize(program_.nodes.size());
+        for (std::size_t index = 0; index < available_.size(); ++index) {
+            const ir::Node& node = program_.nodes[index];
+            const auto buffer = ir::buffer_read_by(node);
+            const auto table = buffer ? filled.find(*buffer) : filled.end();
+            std::size_t& available = available_[index];
+            if (std::holds_alternative<ir::Local>(node.form)) available = program_.step.size() + 1;
+            if (table != filled.end()) available = table->second;
+            for (const ir::NodeId operand : ir::operands_of(node))
+                available = std::max(available, available_[operand.index]);
+        }
+    }
+
+    // ---------------------------------------------------------------------------- choosing
+
+    // From the roots down, so that the outermost expressions that are worth it are found first;
+    // users come behind their operands in the pool.
+    void choose() {
+        for (const auto& [id, uses] : uses_) {
+            if (is_worthwhile(id, uses) && available_[id.index] <= uses.begin()->first) {
+                share(id, uses);
+            } else {
+                for (const auto& [user, use] : uses) spread(id, user, use);
+            }
+        }
+    }
+
+    void spread(ir::NodeId id, std::size_t user, const UseByDefinition& of_node) {
+        const ir::Node& node = program_[id];
+        const auto bound = ir::bound_variable(node);
+        const std::vector<ir::NodeId> operands = ir::operands_of(node);
+        for (std::size_t k = 0; k < operands.size(); ++k) {
+            const double repeated =
+                bound && k == 0 ? static_cast<double>(program_[*bound].size) : 1;
+            const bool is_branch = std::holds_alternative<ir::Select>(node.form) && k > 0;
+            use(operands[k], user, {of_node.times * repeated, of_node.always && !is_branch});
+        }
+    }
+
+    bool is_worthwhile(ir::NodeId id, const UsesByDefinition& uses) const {
+        const ir::Facts& facts = builder_.facts(id);
+        if (uses.size() < 2 || facts.may_fault || facts.uniform || facts.cost < worth_an_element)
+            return false;
+        double elements = 1, evaluations = 0;
+        for (ir::VariableId variable : facts.free_variables)
+            elements *= static_cast<double>(program_[variable].size);
+        bool always = false;
+        for (const auto& [user, use] : uses) {
+            evaluations += use.times;
+            always |= use.always;
+        }
+        const double shared = elements * (facts.cost + cost_of_shared_element);
+        return (always || facts.cost <= cheap_enough_to_try) && elements <= most_shared_elements &&
+               shared + evaluations * cost_of_shared_element < evaluations * facts.cost;
+    }
+
+    // The first user fills a table for it, and all read that.
+    void share(ir::NodeId id, const UsesByDefinition& uses) {
+        const std::size_t first_user = uses.begin()->first;
+        double elements = 1;
+        for (const ir::VariableId variable : builder_.facts(id).free_variables)
+            elements *= static_cast<double>(program_[variable].size);
+        spread(id, first_user, {elements, true});
+        const Span span = first_user < program_.step.size() ? program_.step[first_user].span
+                                                            : program_.reward.span;
+        shared_.push_back({id, first_user, new_table(id, span)});
+    }
+
+    ir::Block& body_of(std::size_t user) {
+        return user < program_.step.size() ? program_.step[user].body : program_.reward.body;
+    }
+
+    // --------------------------------------------------------------------------- replacing
+
+    // Inner expressions first, so that outer ones read their tables.
+    void replace() {
+        std::ranges::reverse(shared_);
+        std::map<ir::NodeId, ir::NodeId> known;
+        std::map<std::size_t, ir::Block> fills;
+        for (const Shared& shared : shared_) {
+            const std::vector<ir::VariableId> variables = builder_.facts(shared.id).free_variables;
+            std::vector<ir::NodeId> indices;
+            for (ir::VariableId variable : variables) indices.push_back(builder_.index(variable));
+            const ir::NodeId value = ir::replace_in(builder_, shared.id, known);
+            known[shared.id] = builder_.load(shared.table, indices);
+            ir::Block fill;
+            fill.push_back({ir::Store{shared.table, indices, value}});
+            std::ranges::move(ir::looped(std::move(fill), variables),
+                              std::back_inserter(fills[shared.first_user]));
+            ++report_["expressions computed once for several CPFs"];
+        }
+        if (shared_.empty()) return;
+        const ir::Change change = [&](ir::NodeId& root) {
+            root = ir::replace_in(builder_, root, known);
+        };
+        for (ir::Definition& definition : program_.step) ir::change_roots(definition.body, change);
+        ir::change_roots(program_.reward.body, change);
+        change(program_.reward.value);
+        for (auto& [user, fill] : fills) {
+            ir::Block& body = body_of(user);
+            std::ranges::move(body, std::back_inserter(fill));
+            body = std::move(fill);
+        }
+    }
+
+    ir::BufferId new_table(ir::NodeId id, Span span) {
+        const ir::Facts facts = builder_.facts(id);
+        return builder_.tables().scratch(name_for(id), program_[id].type, facts.range,
+                                         facts.free_variables, span);
+    }
+
+    // cos(state.angle): "cos-angle".
+    std::string name_for(ir::NodeId id) const {
+        const std::string what = match(
+            program_[id].form, [](const ir::Apply& form) { return std::string(name_of(form.op)); },
+            [](const ir::Reduce& form) { return std::string(name_of(form.op)); },
+            [](const ir::Bits&) { return std::string("bits"); },
+            [](const auto&) { return std::string("value"); });
+        const std::string of = first_fluent(id);
+        return of.empty() ? what : what + "-" + of;
+    }
+
+    std::string first_fluent(ir::NodeId id) const {
+        const auto buffer = ir::buffer_read_by(program_[id]);
+        if (buffer && program_[*buffer].storage != ir::Storage::Constant)
+            return program_[*buffer].name;
+        for (ir::NodeId operand : ir::operands_of(program_[id])) {
+            const std::string name = first_fluent(operand);
+            if (!name.empty()) return name;
+        }
+        return "";
+    }
+
+    ir::Program program_;
+    Report& report_;
+    ir::Builder builder_;
+    std::map<ir::NodeId, UsesByDefinition, std::greater<>> uses_;  // users before their operands
+    std::vector<std::size_t> available_;  // by NodeId::index: the first user
+    std::vector<Shared> shared_;
+};
+
+}  // namespace
+
+ir::Program share_across_definitions(ir::Program program, Report& report) {
+    return DefinitionSharing(std::move(program), report).run();
+}
+
+}  // namespace rddlc::passes

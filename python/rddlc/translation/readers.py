@@ -1,0 +1,171 @@
+"""Readers of observations: dictionaries with pyRDDLGym's names and order, and rows of numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from .. import _native
+from ..model import Fluent
+from ..records import columns_of, grounded_view, lifted_views
+from .fluent_spaces import grounded_space, lifted_space
+from .protocols import ObservationReader
+
+Array = NDArray[Any]
+Records = NDArray[np.uint8]
+
+
+def dictionary_reader(
+    fluents: list[Fluent], records: Records, final_records: Records | None = None, *, lifted: bool
+) -> ObservationReader:
+    """lifted: a key for each fluent, and arrays; else a key for each grounding."""
+    final = records if final_records is None else final_records
+    return (LiftedReader if lifted else GroundedReader)(fluents, records, final)
+
+
+def observation_reader(
+    fluents: list[Fluent],
+    batch: _native.EnvPool,
+    *,
+    flat: bool,
+    lifted: bool,
+    normalize: bool,
+    by_values: bool,
+) -> ObservationReader:
+    """flat: rows of numbers; else dictionaries. by_values: whether actions are rows of values; steps by
+    records leave the last observations of episodes as records alone."""
+    if flat:
+        final = batch.final_values if by_values else grounded_view(batch.final_observations, fluents)
+        return FlatReader(fluents, batch.observation_values, final, normalize=normalize)
+    return dictionary_reader(fluents, batch.observations, batch.final_observations, lifted=lifted)
+
+
+class GroundedReader:
+    """Reads {"pos___c1": value, ...}: reals are arrays of shape (). Rows are {"pos___c1": (n,), ...}."""
+
+    is_view = False
+
+    def __init__(self, fluents: list[Fluent], records: Records, final_records: Records) -> None:
+        columns = columns_of(fluents)
+        self.space = grounded_space(fluents)
+        self._names = [column.name for column in columns]
+        self._view, self._final_view = (
+            grounded_view(each, fluents) for each in (records, final_records)
+        )
+        named = [(column.name, column.offset, column.fluent.scalar) for column in columns]
+        self._native = _native.DictionaryReader(records, named)
+        self._boxes = [name for name, space in self.space.items() if isinstance(space, spaces.Box)]
+
+    def read(self) -> dict[str, Any]:
+        values: dict[str, Any] = self._native.read()
+        array = np.array  # without a dtype it takes half the time, and gives the same float64 or int64
+        for name in self._boxes:
+            values[name] = array(values[name])
+        return values
+
+    def rows(self, *, copy: bool) -> dict[str, Array]:
+        return self._rows(self._view.copy() if copy else self._view)
+
+    def final_rows(self) -> dict[str, Array]:
+        return self._rows(self._final_view.copy())
+
+    def values(self, observations: Any) -> Array:
+        return np.column_stack([np.ravel(observations[name]) for name in self._names])
+
+    def _rows(self, view: NDArray[np.void]) -> dict[str, Array]:
+        return {name: view[f"f{place}"] for place, name in enumerate(self._names)}
+
+
+class LiftedReader:
+    """Reads {"pos": (*shape), ...} or {"pos": (n, *shape), ...}; a shape is never ()."""
+
+    is_view = False
+
+    def __init__(self, fluents: list[Fluent], records: Records, final_records: Records) -> None:
+        self.space = lifted_space(fluents)
+        self._views = lifted_views(records, fluents)
+        self._final_views = lifted_views(final_records, fluents)
+
+    def read(self) -> dict[str, Any]:
+        return {name: view[0].copy() for name, view in self._views.items()}
+
+    def rows(self, *, copy: bool) -> dict[str, Array]:
+        return {name: view.copy() for name, view in self._views.items()} if copy else self._views
+
+    def final_rows(self) -> dict[str, Array]:
+        return {name: view.copy() for name, view in self._final_views.items()}
+
+    def values(self, observations: Any) -> Array:
+        counts = {name: view[0].size for name, view in self._views.items()}
+        return np.hstack([np.reshape(observations[name], (-1, counts[name])) for name in counts])
+
+
+class FlatReader:
+    """Rows of float32 (n, features): bools are 0 and 1, objects a feature for each object (1 for the
+    one that it is), numbers themselves. `normalize`: those with two bounds are -1 at the lower and 1
+    at the upper one."""
+
+    def __init__(
+        self, fluents: list[Fluent], values: Array, final_values: Array, *, normalize: bool
+    ) -> None:
+        columns = columns_of(fluents)
+        self._values, self._first, self._final_values = values, values[0], final_values
+        self._sources: list[int] = []  # of each feature: a column
+        objects: list[int] = []  # and the object that it is about, or -1
+        self.names: list[str] = []
+        for index, column in enumerate(columns):
+            names = column.fluent.objects
+            self._sources += [index] * (len(names) if names else 1)
+            objects += range(len(names)) if names else [-1]
+            self.names += [f"{column.name}={each}" for each in names] if names else [column.name]
+        self._objects = np.array(objects)
+        lower, upper = np.array([column.bounds for column in columns]).reshape(-1, 2)[self._sources].T
+        is_object = self._objects >= 0
+        lower, upper = np.where(is_object, 0, lower), np.where(is_object, 1, upper)
+        self._is_plain = not is_object.any()
+        self.is_view = self._is_plain and not normalize
+        self._middle: Array | None = None
+        if normalize:
+            scaled = np.isfinite(lower) & np.isfinite(upper) & (lower < upper)
+            safe_lower, safe_upper = np.where(scaled, lower, 0), np.where(scaled, upper, 0)
+            self._middle = ((safe_lower + safe_upper) / 2).astype(np.float32)
+            self._half = np.where(scaled, (safe_upper - safe_lower) / 2, 1).astype(np.float32)
+            lower, upper = np.where(scaled, -1, lower), np.where(scaled, 1, upper)
+        self.space = spaces.Box(lower.astype(np.float32), upper.astype(np.float32), dtype=np.float32)
+
+    def rows(self, *, copy: bool) -> Array:
+        """(n, features)"""
+        return self._values.copy() if copy and self.is_view else self._features(self._values)
+
+    def final_rows(self) -> Array:
+        """(n, features)"""
+        final = self._final_values
+        if final.dtype.names is not None:  # records
+            final = np.stack([final[name] for name in final.dtype.names], axis=1)
+        return self._features(final.astype(np.float32))
+
+    def _features(self, rows: Array) -> Array:
+        if not self._is_plain:
+            rows = rows[:, self._sources]
+            rows = np.where(self._objects >= 0, rows == self._objects, rows).astype(np.float32)
+        if self._middle is not None:
+            rows = (rows - self._middle) / self._half
+        return rows
+
+    def read(self) -> Array:
+        """(features,)"""
+        return self._first.copy() if self.is_view else self._features(self._values)[0]
+
+    def values(self, observations: Any) -> Array:
+        rows = np.reshape(observations, (-1, len(self._sources)))
+        if self._middle is not None:
+            rows = rows * self._half + self._middle
+        columns: list[Array] = []
+        for column in range(len(self._first)):
+            features = np.flatnonzero(np.array(self._sources) == column)
+            is_object = self._objects[features[0]] >= 0
+            columns.append(rows[:, features].argmax(axis=1) if is_object else rows[:, features[0]])
+        return np.stack(columns, axis=1)

@@ -1,0 +1,113 @@
+"""Native writers of actions: what they take gives the same step as the writers of Python, which take anything."""
+
+from __future__ import annotations
+
+import unittest
+from typing import Any
+
+import numpy as np
+from support import TEXTS, example, problem_of
+
+import rddlc
+
+FORMS = (
+    {},
+    {"vectorized": True},
+    {"actions": "simplified"},
+    {"actions": "simplified", "observations": "flat"},
+)
+PROBLEMS = [problem_of(name) for name in TEXTS if name != "mistake"] + [
+    example(name).problem for name in ("delivery", "mountain_car", "network", "reservoir", "robot")
+]
+
+
+class Refuser:
+    """A native writer that takes nothing."""
+
+    def write(self, actions: Any) -> bool:
+        return False
+
+    def step(self, actions: Any, into: Any) -> None:
+        return None
+
+
+def slow(env: Any) -> Any:
+    env._writer._native = env._writer._native_asked = env._writer._row_writer = Refuser()
+    return env
+
+
+class NativeWriters(unittest.TestCase):
+    def test_single_environments_step_alike(self) -> None:
+        for problem in PROBLEMS:
+            for form in FORMS:
+                with self.subTest(problem=problem.name, form=form):
+                    quick, plain = rddlc.RDDLEnv(problem, **form), slow(rddlc.RDDLEnv(problem, **form))
+                    quick.action_space.seed(1)
+                    for env in (quick, plain):
+                        env.reset(seed=1)
+                    for _ in range(4):
+                        action = quick.action_space.sample()
+                        np.testing.assert_equal(quick.step(action), plain.step(action))
+                        if quick.get_state().causes:
+                            break
+
+    def test_batches_step_alike(self) -> None:
+        for problem in PROBLEMS:
+            for actions in ("simplified", "dict"):
+                with self.subTest(problem=problem.name, actions=actions):
+                    quick = rddlc.RDDLVectorEnv(problem, 3, actions=actions)
+                    plain = slow(rddlc.RDDLVectorEnv(problem, 3, actions=actions))
+                    quick.action_space.seed(1)
+                    for envs in (quick, plain):
+                        envs.reset(seed=1)
+                    for _ in range(4):
+                        action = quick.action_space.sample()
+                        np.testing.assert_equal(quick.step(action), plain.step(action))
+
+    def test_samples_are_taken_natively(self) -> None:
+        for problem in PROBLEMS:
+            for vectorized in (False, True):
+                with self.subTest(problem=problem.name, vectorized=vectorized):
+                    env = rddlc.RDDLEnv(problem, vectorized=vectorized)
+                    env.reset(seed=1)
+                    self.assertTrue(env._writer._native.write(env.action_space.sample()))
+
+    def test_common_forms_of_values_are_one_value(self) -> None:
+        env = rddlc.make(problem_of("counters"))
+        env.reset(seed=1)
+        before, after = env.get_state(), set()
+        for two in (2, 2.0, np.int64(2), np.int32(2), np.float32(2), np.array(2), np.array([2.0])):
+            self.assertTrue(env._writer._native.write({"add___b": two}), repr(two))
+            env.set_state(before)
+            env.step({"add___b": two})
+            after.add(env.get_state())
+        self.assertEqual(len(after), 1)
+
+    def test_the_rest_is_left_to_python(self) -> None:
+        env = rddlc.make(problem_of("counters_two"))
+        env.reset(seed=1)
+        write = env._writer._native.write
+        for action in (
+            None,
+            [],
+            {"no_such": 1},
+            {1: 1},
+            {"add___b": 3},
+            {"add___b": 0.5},
+            {"add___b": float("nan")},
+            {"add___b": 1 << 70},
+            {"add": np.zeros((2, 1))},
+            {"add": np.zeros(3)},
+            {"add": [1, 2]},
+            {"paint": "blue"},
+            {"add___a": 1, "add___b": 1, "push": 1.0},  # max-nondef-actions is 2
+        ):
+            self.assertFalse(write(action), repr(action))
+        before = env._batch.actions.copy()
+        self.assertTrue(write({"add": np.array([1, 2], np.int8)}))
+        self.assertTrue(write({}))
+        np.testing.assert_array_equal(env._batch.actions, before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,220 @@
+// Lanes of registers (simd.hpp) to and from memory, and from lane to lane.
+#pragma once
+
+#include <rddl/lanes/simd.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+namespace rddl::simd::inline RDDL_SIMD_LEVEL {
+
+// The first `count` lanes of a register; `count` may be 0 or more than it has; zeros in the others.
+// No more is read or written.
+template <class T>
+[[gnu::always_inline]] inline Vector<T> load_some(const T* from, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some =
+        _bzhi_u32(all_lanes_of<T>, static_cast<unsigned>(count < 0 ? 0 : count));
+    if constexpr (sizeof(T) == 8)
+        return reinterpret<Vector<T>>(_mm512_maskz_loadu_pd(static_cast<__mmask8>(some), from));
+    else
+        return reinterpret<Vector<T>>(_mm512_maskz_loadu_ps(static_cast<__mmask16>(some), from));
+#else
+    Vector<T> result{};
+    for (int i = 0; i < lanes_of<T> && i < count; ++i) result[i] = from[i];
+    return result;
+#endif
+}
+template <class T>
+[[gnu::always_inline]] inline void store_some(T* to, Vector<T> values, int count) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint32_t some =
+        _bzhi_u32(all_lanes_of<T>, static_cast<unsigned>(count < 0 ? 0 : count));
+    if constexpr (sizeof(T) == 8)
+        _mm512_mask_storeu_pd(to, static_cast<__mmask8>(some), reinterpret<Reals>(values));
+    else
+        _mm512_mask_storeu_ps(to, static_cast<__mmask16>(some), reinterpret<Floats>(values));
+#else
+    for (int i = 0; i < lanes_of<T> && i < count; ++i) to[i] = values[i];
+#endif
+}
+
+// -------------------------------------------------------------------------------- gathering
+
+[[gnu::always_inline]] inline Reals gather(const double* from, Ints indices) {
+#ifdef RDDL_SIMD_AVX512
+    return _mm512_mask_i64gather_pd(Reals{}, 0xFF, (__m512i)indices, from, 8);
+#elif defined(__AVX2__)
+    return _mm256_i64gather_pd(from, (__m256i)indices, 8);
+#else
+    Reals result{};
+    for (int i = 0; i < lanes; ++i) result[i] = from[indices[i]];
+    return result;
+#endif
+}
+// Looks up entries of a table of `count` values, which registers may be able to hold.
+template <std::int64_t count>
+[[gnu::always_inline]] inline Reals look_up(const double* table, Ints indices) {
+#ifdef RDDL_SIMD_AVX512
+    if constexpr (count <= 16) {
+        constexpr int first_half = count < 8 ? count : 8, second_half = count - first_half;
+        const Reals first = _mm512_maskz_loadu_pd((1 << first_half) - 1, table);
+        if constexpr (second_half == 0)
+            return _mm512_maskz_permutexvar_pd(0xFF, (__m512i)indices, first);
+        const Reals second = _mm512_maskz_loadu_pd((1 << second_half) - 1, table + first_half);
+        return _mm512_permutex2var_pd(first, (__m512i)indices, second);
+    } else if constexpr (count <= 32) {
+        const __mmask8 beyond =
+            _mm512_test_epi64_mask((__m512i)indices, _mm512_set1_epi64(std::int64_t{16}));
+        return _mm512_mask_mov_pd(look_up<16>(table, indices), beyond,
+                                  look_up<count - 16>(table + 16, indices));
+    }
+#endif
+    return gather(table, indices);
+}
+[[gnu::always_inline]] inline Floats gather(const float* from, Ints first, Ints second) {
+#ifdef RDDL_SIMD_AVX512
+    const __m256 low =
+        _mm512_mask_i64gather_ps(__m256{}, 0xFF, reinterpret<__m512i>(first), from, 4);
+    const __m256 high =
+        _mm512_mask_i64gather_ps(__m256{}, 0xFF, reinterpret<__m512i>(second), from, 4);
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+#else
+    Floats result{};
+    for (int i = 0; i < lanes; ++i) result[i] = from[first[i]];
+    for (int i = 0; i < lanes; ++i) result[lanes + i] = from[second[i]];
+    return result;
+#endif
+}
+[[gnu::always_inline]] inline Ints gather(const std::int64_t* from, Ints indices) {
+    return reinterpret<Ints>(gather(reinterpret_cast<const double*>(from), indices));
+}
+
+// The 8 bytes from each offset on in an object of `size` bytes; behind its end there are zeros, and
+// nothing is read there.
+template <std::int64_t size>
+[[gnu::always_inline]] inline Words gather_bytes(const void* from, Ints offsets) {
+    if constexpr (size < 8) {
+        std::uint64_t all = 0;
+        __builtin_memcpy(&all, from, size);
+        return (Words{} + all) >> (Words)(offsets * 8);
+    } else {
+        const Ints last = Ints{} + (size - 8);
+        const Ints begin = offsets < last ? offsets : last;
+        Words words{};
+#if defined(RDDL_SIMD_AVX512)
+        words = (Words)_mm512_mask_i64gather_epi64(__m512i{}, 0xFF, (__m512i)begin, from, 1);
+#elif defined(__AVX2__)
+        words =
+            (Words)_mm256_i64gather_epi64(static_cast<const long long*>(from), (__m256i)begin, 1);
+#else
+        for (int i = 0; i < lanes; ++i) {
+            std::uint64_t word;
+            __builtin_memcpy(&word, static_cast<const char*>(from) + begin[i], sizeof word);
+            words[i] = word;
+        }
+#endif
+        return words >> (Words)((offsets - begin) * 8);
+    }
+}
+
+// Values of 8 bytes whose addresses are `distance` bytes apart.
+template <class V>
+[[gnu::always_inline]] inline V load_apart(const void* from, std::int64_t distance) {
+    static_assert(sizeof(V{}[0]) == 8);
+    V result{};
+#if defined(RDDL_SIMD_AVX512)
+    const Ints numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+    result = (V)_mm512_mask_i64gather_pd(Reals{}, 0xFF, (__m512i)(numbers * distance), from, 1);
+#else
+    for (int i = 0; i < lanes; ++i) {
+        std::remove_cvref_t<decltype(result[0])> value;
+        __builtin_memcpy(&value, static_cast<const char*>(from) + i * distance, sizeof value);
+        result[i] = value;
+    }
+#endif
+    return result;
+}
+
+// -------------------------------------------------------------------------------- matrices
+
+namespace detail {
+
+// Exchanges the lanes whose numbers differ from the row's in bit `distance`: rows[i] gets lanes of
+// rows[i + distance], and gives its own for them.
+template <int distance, class V, std::size_t... lane>
+[[gnu::always_inline]] inline void exchange(V& row, V& later, std::index_sequence<lane...>) {
+    constexpr std::size_t d = distance, all = sizeof...(lane);
+    const V first =
+        __builtin_shufflevector(row, later, ((lane & d) == 0 ? lane : all + lane - d)...);
+    later = __builtin_shufflevector(row, later, ((lane & d) == 0 ? lane + d : all + lane)...);
+    row = first;
+}
+template <int distance, class V>
+[[gnu::always_inline]] inline void exchange_all(V* rows) {
+    for (int i = 0; i < lanes; ++i)
+        if ((i & distance) == 0)
+            exchange<distance>(rows[i], rows[i + distance], std::make_index_sequence<lanes>());
+}
+
+}  // namespace detail
+
+// Transposes as many registers of 64-bit values as each has lanes.
+template <class V>
+[[gnu::always_inline]] inline void transpose(V* rows) {
+    static_assert(sizeof(V{}[0]) == 8);
+    if constexpr (lanes > 4) detail::exchange_all<4>(rows);
+    if constexpr (lanes > 2) detail::exchange_all<2>(rows);
+    detail::exchange_all<1>(rows);
+}
+
+// ------------------------------------------------------------------------ some of the lanes
+
+// The lanes of several registers where the mask holds, 8 at most, one after the other; `others` in
+// the rest of the 8.
+template <int count>
+[[gnu::always_inline]] inline void compress(std::uint64_t mask, const Reals (&from)[count],
+                                            double others, double (&to)[8]) {
+    int next = 0;
+#ifdef RDDL_SIMD_AVX512
+    Reals selected{};
+    for (int p = 0; p < count; ++p) {
+        const auto bits = static_cast<__mmask8>(mask >> (p * lanes));
+        const auto behind = static_cast<__mmask8>(0xFFu << next);
+        selected = _mm512_mask_expand_pd(selected, behind, _mm512_maskz_compress_pd(bits, from[p]));
+        next += __builtin_popcount(bits);
+    }
+    selected = blend(0xFFu << next, Reals{} + others, selected);
+    __builtin_memcpy(to, &selected, sizeof selected);
+#else
+    for (double& value : to) value = others;
+    for (; mask != 0; mask &= mask - 1) {
+        const int lane = __builtin_ctzll(mask);
+        to[next++] = from[lane / lanes][lane % lanes];
+    }
+#endif
+}
+// Expands back to where the mask holds; the other lanes stay.
+template <int count>
+[[gnu::always_inline]] inline void expand(std::uint64_t mask, const double (&from)[8],
+                                          Reals (&to)[count]) {
+    int next = 0;
+#ifdef RDDL_SIMD_AVX512
+    const Reals values = _mm512_maskz_loadu_pd(0xFF, from);
+    for (int p = 0; p < count; ++p) {
+        const auto bits = static_cast<__mmask8>(mask >> (p * lanes));
+        const auto behind = static_cast<__mmask8>(0xFFu << next);
+        to[p] = _mm512_mask_expand_pd(to[p], bits, _mm512_maskz_compress_pd(behind, values));
+        next += __builtin_popcount(bits);
+    }
+#else
+    for (; mask != 0; mask &= mask - 1) {
+        const int lane = __builtin_ctzll(mask);
+        to[lane / lanes][lane % lanes] = from[next++];
+    }
+#endif
+}
+
+}  // namespace rddl::simd::inline RDDL_SIMD_LEVEL

@@ -1,0 +1,226 @@
+// Several objects of one environment in vector registers.
+//
+// Emitted code evaluates some loops by for_each_object. Packs of environments take one object after
+// the other there; one environment alone takes 16 of them at once: a value is then a pack whose
+// lanes are neighbouring elements of tables. Each lane computes what one object would, bit for bit,
+// and the reported fault is that of the first object.
+#pragma once
+
+#include <rddl/lanes/simd.hpp>
+#include <rddl/lanes/simd_moves.hpp>
+#include <rddl/random/random.hpp>
+#include <rddl/values/bits.hpp>
+#include <rddl/values/context.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+// Named after the level of simd.hpp, as packs are.
+inline namespace RDDL_SIMD_LEVEL {
+
+// A lane type: the values of n objects.
+template <int n, class R>
+struct Objects : Pack<n, R> {};
+
+// One object, as the row-major place of its elements in tables.
+struct OneObject {
+    Index place;
+    constexpr operator Index() const { return place; }
+};
+// The objects [first, first + count), up to n of them.
+template <int n>
+struct SomeObjects {
+    Index first;
+    int count;
+    constexpr operator Index() const { return first; }
+
+    Mask<n> mask() const { return Mask<n>::of_bits(~std::uint64_t{0} >> (64 - count)); }
+};
+// The place where their values are stored.
+template <class T, int n>
+struct Elements {
+    T* first;
+    SomeObjects<n> objects;
+    template <class Value>
+    RDDL_INLINE void operator=(const Value& values) const;
+};
+
+}  // namespace RDDL_SIMD_LEVEL
+
+// ------------------------------------------------------------------------------------ draws
+
+template <int n, class R>
+struct Context<Objects<n, R>> {
+    const philox::Schedule<philox::draw_rounds, std::uint64_t>& schedule;
+    Mask<n> active;  // the lanes whose values are used: they alone can fault
+    int faulty_lane = n;
+    FaultRecord fault{};  // of the first of the lanes that have one
+
+    template <class Value>
+    RDDL_INLINE Mask<n> require(Mask<n> ok, FaultKind kind, Place place, const Value& value) {
+        if (any(active && !ok)) record(active && !ok, kind, place, value);
+        return ok;
+    }
+
+  private:
+    template <class Value>
+    [[gnu::noinline, gnu::cold]] void record(Mask<n> failed, FaultKind kind, Place place,
+                                             const Value& value) {
+        const int lane = __builtin_ctzll(failed.bits);
+        if (lane >= faulty_lane) return;
+        place.index += static_cast<std::uint32_t>(lane);
+        fault = {kind, place, get_lane(value, lane)};
+        faulty_lane = lane;
+    }
+};
+
+// Lane k draws for the object k places behind that of lane 0, whose place is even: the numbers of a
+// counter value are those of two neighbours.
+template <int n, class R>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Objects<n, R>>& context, Place place) {
+    using Word = Lanes<std::uint64_t, n / 2>;
+    const Word first{std::uint64_t{place.index / 2}};
+    philox::Block<Word> words;
+    context.schedule.generate(place.series, first + Word::load(detail::lane_numbers<n / 2>.data()),
+                              words);
+    return unit_real<R>(
+        interleaved(join_lower_halves(words[0], words[1]), join_lower_halves(words[2], words[3])));
+}
+
+// --------------------------------------------------------------------------------- elements
+
+namespace detail {
+
+// The dimensions of nested arrays.
+template <class T>
+inline constexpr std::size_t rank = 0;
+template <class T, std::size_t n>
+inline constexpr std::size_t rank<std::array<T, n>> = 1 + rank<T>;
+
+// The first of the parts of nested arrays that have m dimensions.
+template <std::size_t m, class T>
+constexpr auto& first_part(T& table) {
+    if constexpr (rank<std::remove_const_t<T>> == m)
+        return table;
+    else
+        return first_part<m>(table[0]);
+}
+
+template <int n>
+RDDL_INLINE Mask<n> load_some(const bool* from, const SomeObjects<n>& objects) {
+    return Mask<n>::of_bits(simd::bits_of_stored_bytes(from, objects.count));
+}
+template <int n, class T>
+RDDL_INLINE Lanes<T, n> load_some(const T* from, const SomeObjects<n>& objects) {
+    if (objects.count == n) return Lanes<T, n>::load(from);
+    Lanes<T, n> values;
+    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+        values.part[p] = simd::load_some(from + first, objects.count - first);
+    return values;
+}
+template <int n>
+RDDL_INLINE void store_some(bool* to, const SomeObjects<n>& objects, const Mask<n>& values) {
+    simd::store_as_bytes<n>(values.bits, to, objects.count);
+}
+template <int n, class T>
+RDDL_INLINE void store_some(T* to, const SomeObjects<n>& objects, const Lanes<T, n>& values) {
+    if (objects.count == n) return values.store(to);
+    for (int p = 0, first = 0; p < values.part_count; ++p, first += values.part_width)
+        simd::store_some(to + first, values.part[p], objects.count - first);
+}
+
+}  // namespace detail
+
+// The element of an object, in a table whose dimensions are those of the loops around it, or whose
+// first ones are.
+template <class Table>
+RDDL_INLINE const auto& at(const Table& table, OneObject object) {
+    return (&detail::first_part<0>(table))[object.place];
+}
+template <class Table, class... Indices>
+requires(sizeof...(Indices) > 0)  //
+    RDDL_INLINE auto at(const Table& table, OneObject object, const Indices&... indices) {
+    return at((&detail::first_part<sizeof...(Indices)>(table))[object.place], indices...);
+}
+
+template <class Table, int n>
+RDDL_INLINE auto at(const Table& table, const SomeObjects<n>& objects) {
+    return detail::load_some(&detail::first_part<0>(table) + objects.first, objects);
+}
+template <class Table, int n, class... Indices>
+requires(sizeof...(Indices) > 0)  //
+    RDDL_INLINE
+    auto at(const Table& table, const SomeObjects<n>& objects, const Indices&... indices) {
+    using Int = Lanes<std::int64_t, n>;
+    using Row = std::remove_cvref_t<decltype(detail::first_part<sizeof...(Indices)>(table))>;
+    const auto lane_numbers = Lanes<std::uint64_t, n>::load(detail::lane_numbers<n>.data());
+    const Int rows = Int{objects.first} + ints_of(lane_numbers);
+    const Int places =
+        rows * Int{detail::Nested<Row>::count} + detail::place_in<Row, Int>(indices...);
+    return detail::gather<detail::Nested<Table>::count>(&detail::first_part<0>(table),
+                                                        select(objects.mask(), places, Int{0}));
+}
+
+// The element that each object chooses from the table by indices of its own.
+template <class Table, class... Indices>
+RDDL_INLINE auto at_own(const Table& table, OneObject, const Indices&... indices) {
+    return at(table, indices...);
+}
+template <class Table, int n, class... Indices>
+RDDL_INLINE auto at_own(const Table& table, const SomeObjects<n>& objects,
+                        const Indices&... indices) {
+    using Int = Lanes<std::int64_t, n>;
+    const Int places = detail::place_in<Table, Int>(indices...);
+    return detail::gather<detail::Nested<Table>::count>(&detail::first_part<0>(table),
+                                                        select(objects.mask(), places, Int{0}));
+}
+
+// The elements in which values are stored.
+template <class Table>
+RDDL_INLINE auto& elements(Table& table, OneObject object) {
+    return (&detail::first_part<0>(table))[object.place];
+}
+template <class Table, int n>
+RDDL_INLINE auto elements(Table& table, const SomeObjects<n>& objects) {
+    auto* const first = &detail::first_part<0>(table) + objects.first;
+    return Elements<std::remove_pointer_t<decltype(first)>, n>{first, objects};
+}
+
+template <class T, int n>
+template <class Value>
+RDDL_INLINE void Elements<T, n>::operator=(const Value& values) const {
+    detail::store_some(first, objects, LanesOf<Value, n>(values));
+}
+
+// ------------------------------------------------------------------------------------ loops
+
+// Calls body(context, object) for [0, count): for a context of these objects.
+template <int n, class R, class Body>
+RDDL_INLINE void for_each_object(Context<Pack<n, R>>& context, Index count, Body&& body) {
+    for (Index i = 0; i < count; ++i) body(context, OneObject{i});
+}
+inline constexpr int objects_at_once = 16;
+template <class R, class Body>
+RDDL_INLINE void for_each_object(Context<ScalarOf<R>>& context, Index count, Body&& body) {
+    constexpr int n = objects_at_once;
+    const philox::Schedule<philox::draw_rounds, std::uint64_t> schedule(
+        context.step, {context.key.low, context.key.high});
+    const auto some_at = [&](Index first, int some_count) RDDL_INLINE_LAMBDA {
+        const SomeObjects<n> objects{first, some_count};
+        Context<Objects<n, R>> some{schedule, objects.mask()};
+        body(some, objects);
+        if (some.fault && !context.fault) context.fault = some.fault;
+    };
+    // Two calls let compilers know how many objects there are in each.
+    const Index full = count / n * n;
+    for (Index first = 0; first < full; first += n) some_at(first, n);
+    if (full < count) some_at(full, static_cast<int>(count - full));
+}
+
+}  // namespace rddl

@@ -1,0 +1,168 @@
+// The inverse of the standard normal distribution function.
+// M. Wichura, Algorithm AS 241 (PPND16), Applied Statistics 37 (1988), 477-484; relative error
+// about 1e-16.
+#pragma once
+
+#include <rddl/lanes/real.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <bit>
+
+namespace rddl {
+
+namespace detail {
+
+template <class R>
+struct Fraction {
+    R dividend;
+    R divisor;
+};
+
+// Within 0.425 of the median, for q = p - 1/2.
+template <class R>
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_centre(R q) {
+    constexpr double numerator[] = {3.3871328727963666080e0, 1.3314166789178437745e2,
+                                    1.9715909503065514427e3, 1.3731693765509461125e4,
+                                    4.5921953931549871457e4, 6.7265770927008700853e4,
+                                    3.3430575583588128105e4, 2.5090809287301226727e3};
+    constexpr double denominator[] = {1.0,
+                                      4.2313330701600911252e1,
+                                      6.8718700749205790830e2,
+                                      5.3941960214247511077e3,
+                                      2.1213794301586595867e4,
+                                      3.9307895800092710610e4,
+                                      2.8729085735721942674e4,
+                                      5.2264952788528545610e3};
+    const R r = 0.180625 - q * q;
+    return {q * polynomial(numerator, r), polynomial(denominator, r)};
+}
+
+// The tail for r = sqrt(-ln(tail probability)) up to 5, and beyond.
+template <class R>
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_tail(R r) {
+    constexpr double numerator[] = {1.42343711074968357734e0,  4.63033784615654529590e0,
+                                    5.76949722146069140550e0,  3.64784832476320460504e0,
+                                    1.27045825245236838258e0,  2.41780725177450611770e-1,
+                                    2.27238449892691845833e-2, 7.74545014278341407640e-4};
+    constexpr double denominator[] = {1.0,
+                                      2.05319162663775882187e0,
+                                      1.67638483018380384940e0,
+                                      6.89767334985100004550e-1,
+                                      1.48103976427480074590e-1,
+                                      1.51986665636164571966e-2,
+                                      5.47593808499534494600e-4,
+                                      1.05075007164441684324e-9};
+    return {polynomial(numerator, r - 1.6), polynomial(denominator, r - 1.6)};
+}
+template <class R>
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_far_tail(R r) {
+    constexpr double numerator[] = {6.65790464350110377720e0,  5.46378491116411436990e0,
+                                    1.78482653991729133580e0,  2.96560571828504891230e-1,
+                                    2.65321895265761230930e-2, 1.24266094738807843860e-3,
+                                    2.71155556874348757815e-5, 2.01033439929228813265e-7};
+    constexpr double denominator[] = {1.0,
+                                      5.99832206555887937690e-1,
+                                      1.36929880922735805310e-1,
+                                      1.48753612908506148525e-2,
+                                      7.86869131145613259100e-4,
+                                      1.84631831751005468180e-5,
+                                      1.42151175831644588870e-7,
+                                      2.04426310338993978564e-15};
+    return {polynomial(numerator, r - 5.0), polynomial(denominator, r - 5.0)};
+}
+
+template <class R, class Mask>
+RDDL_ALWAYS_INLINE Fraction<R> select_fraction(Mask mask, const Fraction<R>& a,
+                                               const Fraction<R>& b) {
+    return {select(mask, a.dividend, b.dividend), select(mask, a.divisor, b.divisor)};
+}
+
+// Farther from the median.
+template <class R>
+RDDL_ALWAYS_INLINE Fraction<R> normal_quantile_outside(R p, R q) {
+    const R r = sqrt(-ln(select(q < 0.0, p, 1.0 - p)));
+    const auto far = r > 5.0;  // once in 4e10 draws
+    Fraction<R> tail = normal_quantile_tail(r);
+    if (any(far)) tail = select_fraction(far, normal_quantile_far_tail(r), tail);
+    return {with_sign_of(q, tail.dividend), tail.divisor};
+}
+
+template <class Real>
+RDDL_ALWAYS_INLINE auto is_central(const Real& q) {
+    return absolute(q) <= 0.425;
+}
+
+// The lanes that are far from the median, 8 at most, in one register.
+template <int n>
+RDDL_ALWAYS_INLINE Lanes<double, n> normal_quantile_of_few_outside(const Lanes<double, n>& p,
+                                                                   Mask<n> outside) {
+    const Fraction<Lanes<double, n>> centre = normal_quantile_centre(p - 0.5);
+    Lanes<double, n> result = centre.dividend / centre.divisor;
+    if (any(outside)) {
+        const Lanes<double, 8> some = compress(outside, p, 0.5);
+        const Fraction<Lanes<double, 8>> tail = normal_quantile_outside(some, some - 0.5);
+        expand(outside, tail.dividend / tail.divisor, result);
+    }
+    return result;
+}
+
+}  // namespace detail
+
+// p in (0, 1).
+template <RealLanes R>
+R normal_quantile(R p) {
+    const R q = p - 0.5;
+    const auto central = detail::is_central(q);
+    detail::Fraction<R> result = detail::normal_quantile_centre(q);
+    if (any(!central))
+        result = select_fraction(central, result, detail::normal_quantile_outside(p, q));
+    return result.dividend / result.divisor;
+}
+
+// 15 of 100 lanes are far from the median. Those of several registers are brought together;
+// otherwise 8 lanes are computed at a time.
+template <int n>
+requires(n > 8) Lanes<double, n> normal_quantile(const Lanes<double, n>& p) {
+    const Mask<n> outside = !detail::is_central(p - 0.5);
+    if (std::popcount(outside.bits) <= 8) return detail::normal_quantile_of_few_outside(p, outside);
+    Lanes<double, n> result;
+    constexpr int parts = Lanes<double, 8>::part_count;
+    for (int first = 0; first < p.part_count; first += parts) {
+        Lanes<double, 8> some;
+        for (int i = 0; i < parts; ++i) some.part[i] = p.part[first + i];
+        some = normal_quantile(some);
+        for (int i = 0; i < parts; ++i) result.part[first + i] = some.part[i];
+    }
+    return result;
+}
+
+// PPND7 of the same article; relative error about 1e-7.
+template <FloatLanes R>
+R normal_quantile(R p) {
+    constexpr float centre_over[] = {3.3871327179e0f, 5.0434271938e1f, 1.5929113202e2f,
+                                     5.9109374720e1f};
+    constexpr float centre_under[] = {1.0f, 1.7895169469e1f, 7.8757757664e1f, 6.7187563600e1f};
+    constexpr float tail_over[] = {1.4234372777e0f, 2.7568153900e0f, 1.3067284816e0f,
+                                   1.7023821103e-1f};
+    constexpr float tail_under[] = {1.0f, 7.3700164250e-1f, 1.2021132975e-1f};
+    constexpr float far_over[] = {6.6579051150e0f, 3.0812263860e0f, 4.2868294337e-1f,
+                                  1.7337203997e-2f};
+    constexpr float far_under[] = {1.0f, 2.4197894225e-1f, 1.2258202635e-2f};
+
+    const R q = p - 0.5f;
+    const auto central = absolute(q) <= 0.425f;
+    const R s = 0.180625f - q * q;
+    const R near = q * detail::polynomial(centre_over, s) / detail::polynomial(centre_under, s);
+    if (!any(!central)) return near;
+    const R r = sqrt(-ln(select(q < 0.0f, p, 1.0f - p)));
+    R tail = detail::polynomial(tail_over, r - 1.6f) / detail::polynomial(tail_under, r - 1.6f);
+    const auto far = r > 5.0f;
+    if (any(far))
+        tail = select(
+            far, detail::polynomial(far_over, r - 5.0f) / detail::polynomial(far_under, r - 5.0f),
+            tail);
+    return select(central, near, select(q < 0.0f, -tail, tail));
+}
+
+}  // namespace rddl

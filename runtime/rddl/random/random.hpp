@@ -1,0 +1,307 @@
+// Random numbers as a pure function of what they are for (docs/randomness.md).
+//
+// An episode has a stream key made from (seed, environment, episode); a draw has the coordinates
+// (step, series, index) in that stream. So a draw depends neither on what was drawn before it nor
+// on batches, threads or machines.
+#pragma once
+
+#include <rddl/lanes/lane.hpp>
+#include <rddl/values/context.hpp>
+#include <rddl/values/pack_ops.hpp>
+#include <rddl/values/philox.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+constexpr StreamKey stream_key(std::uint64_t seed, std::uint64_t environment,
+                               std::uint64_t episode) {
+    const philox::Block<std::uint64_t> block = philox::generate<philox::key_rounds>(
+        philox::Block<std::uint64_t>{environment, environment >> 32, episode, episode >> 32},
+        philox::Key<std::uint64_t>{seed, seed >> 32});
+    return {static_cast<std::uint32_t>(block[0]), static_cast<std::uint32_t>(block[1])};
+}
+
+// The upper 52 bits of a number of 64: a multiple of 2^-52 in [0, 1). Floats take the upper 23, so
+// the double rounded down.
+template <class R = double, class Word>
+RDDL_INLINE auto unit_real(Word bits) {
+    const Word one = Word{std::uint64_t{0x3FF0000000000000}};
+    if constexpr (std::same_as<R, float>)
+        return to_float(real_of_bits(((bits >> 41) << 29) | one) - 1.0);
+    else
+        return real_of_bits((bits >> 12) | one) - 1.0;
+}
+// The unit real of a number's two words, low word first.
+template <class R = double, class Word>
+RDDL_INLINE auto unit_real(Word low, Word high) {
+    return unit_real<R>(join_lower_halves(low, high));
+}
+// A number in (0, 1), symmetric about 1/2: neither 0 nor 1 occurs. Exact.
+template <RealLanes Real>
+RDDL_INLINE Real open_unit_real(Real unit) {
+    return unit + 0x1p-53;
+}
+template <FloatLanes Real>
+RDDL_INLINE Real open_unit_real(Real unit) {
+    return unit + 0x1p-24f;
+}
+
+// ------------------------------------------------------------------- one number of each draw
+
+// A counter value gives two numbers. They are the first ones of two draws, whose indices differ
+// in the last bit.
+template <class Real>
+struct TwoDraws {
+    Real even, odd;
+};
+
+template <class R, class Word>
+RDDL_INLINE auto first_numbers(Word step, std::uint32_t series, Word block_number,
+                               const philox::Key<Word>& key) {
+    const philox::Block<Word> words = philox::generate<philox::draw_rounds>(
+        philox::Block<Word>{step, Word{std::uint64_t{series}}, block_number,
+                            Word{std::uint64_t{0}}},
+        key);
+    const auto even = unit_real<R>(words[0], words[1]);
+    const auto odd = unit_real<R>(words[2], words[3]);
+    return TwoDraws<std::remove_const_t<decltype(even)>>{even, odd};
+}
+
+// A loop draws for one index after the other, so some are made at once: for packs those of as many
+// as keep the processor busy, for one environment those of as many pairs as a register has lanes.
+template <int n, class R>
+inline constexpr std::uint32_t numbers_at_once = n / simd::lanes_of<std::uint64_t> <= 2 ? 4 : 2;
+
+template <std::uint32_t count, int n, class R>
+[[gnu::noinline]] void refill(Context<Pack<n, R>>& context, Place place) {
+    using Block = philox::Block<Lanes<std::uint64_t, n>>;
+    if (!context.is_scheduled) {
+        context.schedule.begin(context.step, {context.key_low, context.key_high});
+        context.is_scheduled = true;
+    }
+    auto& recent = context.recent[place.series % recent_series];
+    recent.series = place.series;
+    recent.first = place.index / count * count;
+    recent.count = count;
+    const auto store = [](const Block& words, Lanes<R, n>* numbers) RDDL_INLINE_LAMBDA {
+        numbers[0] = unit_real<R>(words[0], words[1]);
+        numbers[1] = unit_real<R>(words[2], words[3]);
+    };
+    const std::uint64_t third = recent.first / 2;
+    if constexpr (count == 2) {
+        Block words;
+        context.schedule.generate(place.series, third, words);
+        store(words, recent.numbers);
+    } else {
+        Block words, other_words;
+        context.schedule.generate(place.series, third, words, third + 1, other_words);
+        store(words, recent.numbers);
+        store(other_words, recent.numbers + 2);
+    }
+}
+
+template <int n, class R>
+RDDL_INLINE Lanes<R, n> uniform_at(Context<Pack<n, R>>& context, Place place) {
+    const auto& recent = context.recent[place.series % recent_series];
+    if (recent.series != place.series || place.index - recent.first >= recent.count) {
+        if (__builtin_constant_p(place.index))
+            refill<2>(context, place);  // most likely there is no other one
+        else
+            refill<numbers_at_once<n, R>>(context, place);
+    }
+    return recent.numbers[place.index - recent.first];
+}
+
+namespace detail {
+
+// 0, 1, 2, ...
+template <int n>
+inline constexpr auto lane_numbers = [] {
+    std::array<std::uint64_t, static_cast<std::size_t>(n)> numbers{};
+    for (std::size_t lane = 0; lane < numbers.size(); ++lane) numbers[lane] = lane;
+    return numbers;
+}();
+
+}  // namespace detail
+
+// The standard distribution that a uniform number becomes before parameters have a part in it: here
+// the uniform one itself (others: distributions/continuous.hpp).
+struct Uniform {
+    static constexpr std::uint32_t kind = 0;
+    template <class Real>
+    static RDDL_INLINE Real of(const Real& number) {
+        return number;
+    }
+};
+
+// How many pairs of neighbours are made at once: of uniform numbers as many as a register has
+// lanes.
+template <class Standard, class R>
+inline constexpr int pairs_at_once =
+    Standard::kind == Uniform::kind ? simd::lanes_of<R> : Context<ScalarOf<R>>::most_pairs;
+
+template <class Standard, class R>
+[[gnu::noinline]] void refill(Context<ScalarOf<R>>& context, std::uint32_t series,
+                              std::uint32_t chunk) {
+    constexpr int lanes = pairs_at_once<Standard, R>;
+    using Word = Lanes<std::uint64_t, lanes>;
+    const Word first{std::uint64_t{chunk} * lanes};
+    const auto draws = first_numbers<R, Word>(
+        Word{std::uint64_t{context.step}}, series,
+        first + Word::load(detail::lane_numbers<lanes>.data()),
+        {Word{std::uint64_t{context.key.low}}, Word{std::uint64_t{context.key.high}}});
+    auto& recent = context.recent[(series + Standard::kind) % recent_series];
+    recent.series = series;
+    recent.kind = Standard::kind;
+    recent.chunk = chunk;
+    Standard::of(draws.even).store(recent.numbers[0]);
+    Standard::of(draws.odd).store(recent.numbers[1]);
+}
+
+template <class Standard, class R>
+RDDL_INLINE R recent_number(Context<ScalarOf<R>>& context, Place place) {
+    constexpr int pairs = pairs_at_once<Standard, R>;
+    const std::uint32_t chunk = place.index / 2 / pairs;
+    const auto& recent = context.recent[(place.series + Standard::kind) % recent_series];
+    const bool is_there =
+        recent.series == place.series && recent.kind == Standard::kind && recent.chunk == chunk;
+    if (!is_there) refill<Standard>(context, place.series, chunk);
+    return recent.numbers[place.index % 2][place.index / 2 % pairs];
+}
+
+template <class R>
+RDDL_INLINE R uniform_at(Context<ScalarOf<R>>& context, Place place) {
+    return recent_number<Uniform>(context, place);
+}
+
+// A draw of a standard distribution. A single environment also draws the neighbours' numbers, in
+// registers, unless the compiler sees that the draw has no neighbours.
+template <class Standard, class L>
+RDDL_INLINE typename L::Real standard_at(Context<L>& context, Place place) {
+    if constexpr (L::width == 1)
+        if (!__builtin_constant_p(place.index)) return recent_number<Standard>(context, place);
+    return Standard::of(uniform_at(context, place));
+}
+
+template <class L>
+RDDL_INLINE typename L::Real open_uniform_at(Context<L>& context, Place place) {
+    return open_unit_real(uniform_at(context, place));
+}
+
+// -------------------------------------------------------------------- many numbers of a draw
+
+// The random numbers of one draw in one environment, as many as it needs.
+class Draws {
+  public:
+    // Few draws need more than these.
+    static constexpr std::uint32_t first_count = 3;
+
+    constexpr Draws(StreamKey key, std::uint32_t step, Place place)
+        : step_(step), place_(place), key_{key.low, key.high} {}
+    // The first numbers are known.
+    constexpr Draws(StreamKey key, std::uint32_t step, Place place,
+                    const std::array<double, first_count>& first)
+        : Draws(key, step, place) {
+        known_ = first_count;
+        first_ = first;
+    }
+    template <class R = double>
+    constexpr Draws(const Context<ScalarOf<R>>& context, Place place)
+        : Draws(context.key, context.step, place) {}
+
+    constexpr double uniform() {
+        const std::uint32_t number = number_++;
+        if (number < known_) return first_[number];
+        if (number == 0) return first();
+        if (number % 2 == 0) return second_;
+        const philox::Block<std::uint64_t> words = generate(place_.index, 1 + (number - 1) / 2);
+        second_ = unit_real<double>(words[2], words[3]);
+        return unit_real<double>(words[0], words[1]);
+    }
+    constexpr double open_uniform() { return open_unit_real(uniform()); }
+
+  private:
+    constexpr double first() const {
+        const philox::Block<std::uint64_t> words = generate(place_.index / 2, 0);
+        return place_.index % 2 == 0 ? unit_real<double>(words[0], words[1])
+                                     : unit_real<double>(words[2], words[3]);
+    }
+    constexpr philox::Block<std::uint64_t> generate(std::uint64_t index,
+                                                    std::uint64_t number) const {
+        return philox::generate<philox::draw_rounds>(
+            philox::Block<std::uint64_t>{step_, place_.series, index, number}, key_);
+    }
+
+    std::uint64_t step_;
+    Place place_;
+    philox::Key<std::uint64_t> key_;
+    std::uint32_t number_ = 0;
+    double second_ = 0;  // of the counter value used last
+    std::uint32_t known_ = 0;
+    std::array<double, first_count> first_{};
+};
+
+// The first numbers of a draw in all lanes, made in registers.
+template <int n>
+struct FirstDraws {
+    Lanes<double, n> numbers[Draws::first_count];
+
+    std::array<double, Draws::first_count> of(int lane) const {
+        return {numbers[0][lane], numbers[1][lane], numbers[2][lane]};
+    }
+};
+template <int n, class R>
+[[gnu::noinline]] FirstDraws<n> first_draws(const Context<Pack<n, R>>& context, Place place) {
+    using Word = Lanes<std::uint64_t, n>;
+    const auto generate = [&](std::uint64_t index, std::uint64_t number) {
+        return philox::generate<philox::draw_rounds>(
+            philox::Block<Word>{context.step, Word{std::uint64_t{place.series}}, Word{index},
+                                Word{number}},
+            {context.key_low, context.key_high});
+    };
+    const philox::Block<Word> shared = generate(place.index / 2, 0), own = generate(place.index, 1);
+    const std::size_t half = 2 * (place.index % 2);
+    return {{unit_real<double>(shared[half], shared[half + 1]), unit_real<double>(own[0], own[1]),
+             unit_real<double>(own[2], own[3])}};
+}
+
+// An int, or the lane type's real instead of double.
+template <class L, class T>
+using DrawnBy = std::conditional_t<std::is_floating_point_v<T>, typename L::Element, T>;
+
+// Draws that need more than one number: `kernel(draws, parameters...)`, which draws ints or
+// doubles, in each lane whose parameters are valid, zero elsewhere.
+template <class R, class Kernel, class... Parameters>
+constexpr auto draw_in_each_lane(const Context<ScalarOf<R>>& context, Place place, bool valid,
+                                 Kernel kernel, Parameters... parameters) {
+    Draws draws(context, place);
+    using Result = DrawnBy<ScalarOf<R>, decltype(kernel(draws, parameters...))>;
+    return valid ? static_cast<Result>(kernel(draws, parameters...)) : Result{};
+}
+template <int n, class R, class Kernel, class... Parameters>
+auto draw_in_each_lane(const Context<Pack<n, R>>& context, Place place, Mask<n> valid,
+                       Kernel kernel, Parameters... parameters) {
+    using Drawn = decltype(kernel(std::declval<Draws&>(), parameters[0]...));
+    using Result = DrawnBy<Pack<n, R>, Drawn>;
+    LanesOf<Result, n> results{Result{}};
+    const Mask<n> drawing = valid && context.active;
+    if (!any(drawing)) return results;
+    const FirstDraws<n> first = first_draws(context, place);
+    for_each_lane(drawing, [&](int lane) {
+        Draws draws(context.key(lane), static_cast<std::uint32_t>(context.step[lane]), place,
+                    first.of(lane));
+        results.set(lane, static_cast<Result>(kernel(draws, parameters[lane]...)));
+    });
+    return results;
+}
+
+// Rejection loops end after this many attempts. A loop that accepts once in two attempts gets
+// here with probability 1e-301, so only parameters like nan or infinity do.
+inline constexpr int rejection_limit = 1000;
+
+}  // namespace rddl

@@ -1,0 +1,249 @@
+// Steps of blocks of environments.
+//
+// All of a step is compiled with the simulator, from the caller's actions to the rewards: most
+// values then never leave registers. Rare work is left to the batch, or stands apart.
+#pragma once
+
+#include <rddl/simulator.h>
+#include <rddl/step/columns.hpp>
+#include <rddl/step/engine.hpp>
+#include <rddl/step/episode.hpp>
+#include <rddl/step/range.hpp>
+#include <rddl/values/context.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rddl {
+
+// The actions of a step: records of the C interface, one for each environment of the batch, or one
+// block of them.
+struct Actions {
+    const std::byte* rows;
+    const std::byte* block;  // null: the rows
+};
+
+// The place where stepping stopped, since the next episodes are to start.
+template <class L>
+struct Stop {
+    std::int64_t block;
+    typename L::Bool over;  // its episodes that are over after a step; empty: it has made no step
+};
+
+namespace detail {
+
+template <Engine E, class L>
+constexpr const auto& action_columns(const Blocks<L>& blocks) {
+    if constexpr (TypedEngine<E>)
+        return E::action_columns;
+    else
+        return *blocks.action_columns;
+}
+
+// `room` is for a block that is not a row.
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE const std::byte* action_of_block(const E& engine, const Blocks<L>& blocks,
+                                                    std::int64_t b, const Actions& actions,
+                                                    std::byte* room) {
+    const auto& columns = action_columns<E>(blocks);
+    const std::int64_t first = b * L::width * columns.row_size;
+    if constexpr (std::is_same_v<L, Scalar>) {
+        if (actions.block) return actions.block;
+        if (has_plain_bools(columns, actions.rows + first)) return actions.rows + first;
+    }
+    if (actions.block)
+        copy_action(engine, actions.block, room);
+    else
+        read_records(L{}, columns, actions.rows + first, L::width, room);
+    return room;
+}
+
+// The state of a block, and where the next one is made if it stays there.
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE std::byte* state_of(const E& engine, const Blocks<L>& blocks, std::int64_t b) {
+    if constexpr (makes_states_in_place<E>()) return blocks.state_of(b, engine.state_size());
+    return blocks.states + static_cast<std::size_t>(2 * b) * engine.state_size();
+}
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE std::byte* next_state_of(const E& engine, const Blocks<L>& blocks,
+                                            std::int64_t b, std::byte* elsewhere) {
+    if constexpr (makes_states_in_place<E>()) return blocks.next_state_of(b, engine.state_size());
+    return elsewhere;
+}
+
+// Takes over the results of a step in the lanes of the mask; the other lanes stay as they are.
+template <Engine E, class L>
+[[gnu::noinline]] void take_over_some(const E& engine, const Blocks<L>& blocks, std::int64_t b,
+                                      typename L::Bool mask, const StepBuffers& made) {
+    const auto place = static_cast<std::size_t>(b);
+    merge(L{}, *blocks.state_columns, mask, made.next, state_of(engine, blocks, b));
+    if (blocks.observations != nullptr)
+        merge(L{}, *blocks.observation_columns, mask, made.observation,
+              blocks.observations + place * engine.observation_size());
+}
+
+// States and observations become those that a step made, where the mask holds. `memory` is room to
+// work in.
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE void take_over(const E& engine, const Blocks<L>& blocks, std::int64_t b,
+                                  typename L::Bool mask, const StepBuffers& made,
+                                  const StepBuffers& memory) {
+    const auto place = static_cast<std::size_t>(b);
+    const bool observed = blocks.observations != nullptr;
+    if (all(mask)) {
+        if constexpr (makes_states_in_place<E>())
+            blocks.episodes[b].state ^= 1;
+        else
+            copy_state(engine, made.next, state_of(engine, blocks, b));
+        if (observed)
+            copy_observation(engine, made.observation,
+                             blocks.observations + place * engine.observation_size());
+    } else if (any(mask)) {
+        StepBuffers in_memory = memory;
+        if constexpr (makes_states_in_place<E>())
+            in_memory.next = made.next;
+        else if (made.next != memory.next)
+            copy_state(engine, made.next, memory.next);
+        if (observed && made.observation != memory.observation)
+            copy_observation(engine, made.observation, memory.observation);
+        take_over_some(engine, blocks, b, mask, in_memory);
+    }
+}
+
+// One step of the running episodes of block `b`, with the causes of their ends; returns the
+// rewards, 0 for lanes without a step. States and, if partially observed, observations change
+// unless the step faults. Preconditions are not checked.
+template <Engine E, class L>
+RDDL_ALWAYS_INLINE typename L::Real make_step(const E& engine, const Blocks<L>& blocks,
+                                              std::int64_t b, typename L::Bool running,
+                                              Ends<L>& ends, const Actions& actions,
+                                              StepBuffers made, const StepBuffers& memory) {
+    using Bool = typename L::Bool;
+    using Int = typename L::Int;
+    Episodes<L>& episodes = blocks.episodes[b];
+    const std::byte* const states = state_of(engine, blocks, b);
+    made.next = next_state_of(engine, blocks, b, made.next);
+    const std::byte* const action = action_of_block(engine, blocks, b, actions, made.action);
+    Context<L> context = episodes.context_of_step(running);
+    const typename L::Real reward =
+        engine.step(states, action, made.scratch, made.next, made.observation, context);
+    const Bool terminal = engine.terminal(made.next, context);
+    const Bool violation = engine.violates_invariant(made.next, context);
+    if (any(context.faulted())) episodes.end_by_faults(context);
+    const Bool moved = running && !context.faulted();
+    const Bool whole_block = moved || !episodes.is_present();  // whatever there is in absent lanes
+    take_over(engine, blocks, b, whole_block, made, memory);
+    episodes.has_fault = episodes.has_fault && !moved;
+    if (all(moved)) {
+        episodes.steps = wrap_add(episodes.steps, Int{1});
+        ends = {terminal, episodes.steps >= Int{blocks.horizon}, violation, false};
+        if (any(ends.any())) episodes.ends = ends;  // they ran, so they had no ends
+        return reward;
+    }
+    episodes.steps = select(moved, wrap_add(episodes.steps, Int{1}), episodes.steps);
+    ends = episodes.ends;
+    ends.terminated = select(moved, terminal, ends.terminated);
+    ends.violated = select(moved, violation, ends.violated);
+    ends.beyond_horizon = select(moved, episodes.steps >= Int{blocks.horizon}, ends.beyond_horizon);
+    episodes.ends = ends;
+    return select(moved, reward, typename L::Real{0});
+}
+
+// Whether the next episodes of packs start with nothing but their states, and these are small: then
+// their blocks need not stop for that.
+template <Engine E>
+inline constexpr bool starts_states_only =
+    SmallStateEngine<E> && !PolicyEngine<E> && E::Lane::width > 1;
+
+}  // namespace detail
+
+// Whether the caller wants to know how episodes ended that the step has reset.
+inline bool wants_finals(const rddl_transition& out) {
+    return out.final_observations != nullptr || out.final_states != nullptr ||
+           out.final_observation_values != nullptr;
+}
+
+// Writes which episodes of block `b` are over.
+template <class L>
+RDDL_ALWAYS_INLINE void write_ends(const Blocks<L>& blocks, std::int64_t b, const Ends<L>& ends,
+                                   const rddl_transition& out) {
+    const std::int64_t first = b * L::width;
+    const int lanes = blocks.lanes_of(b);
+    if (out.terminated != nullptr) write_flags(ends.terminated, out.terminated + first, lanes);
+    if (out.truncated != nullptr) write_flags(ends.truncated(), out.truncated + first, lanes);
+    for (int lane = 0; out.causes != nullptr && lane < lanes; ++lane)
+        out.causes[first + lane] = ends.causes(lane);
+}
+
+// A step of the running episodes of the blocks from range.begin on, whose rewards and ends are
+// written; observations are not. With automatic resets it stops at the first block whose episodes
+// are to start again; else at range.end. `memory` is room to work in. Rows of less than a whole
+// block are not read: such a block comes with a block of actions. A block of one environment is
+// always the only one, so that it costs no loop.
+template <Engine E, class L = typename E::Lane>
+RDDL_ALWAYS_INLINE Stop<L> advance(const E& engine, const Blocks<L>& blocks, Range range,
+                                   Actions actions, const StepBuffers& memory,
+                                   const rddl_transition& out) {
+    using Bool = typename L::Bool;
+    if constexpr (L::width == 1) range.end = range.begin + 1;
+    for (std::int64_t b = range.begin; b < range.end; ++b) {
+        const Bool present = blocks.episodes[b].is_present();
+        const Bool running = blocks.episodes[b].running();
+        if (any(present && !running) && blocks.autoreset == RDDL_AUTORESET_NEXT_STEP)
+            return {b, false};
+        typename L::Real reward{0};
+        Ends<L> ends;
+        if (any(running))
+            reward = with_step_buffers<E>(memory, [&](const StepBuffers& made) RDDL_INLINE_LAMBDA {
+                return detail::make_step(engine, blocks, b, running, ends, actions, made, memory);
+            });
+        else
+            ends = blocks.episodes[b].ends;
+        if (out.rewards != nullptr)
+            write_reals(reward, out.rewards + b * L::width, blocks.lanes_of(b));
+        write_ends(blocks, b, ends, out);
+        const Bool over = present && ends.any();
+        if (!any(over) || blocks.autoreset != RDDL_AUTORESET_SAME_STEP) continue;
+        const bool alone = !wants_finals(out) && blocks.observations == nullptr;
+        if (!detail::starts_states_only<E> || !alone) return {b, over};
+        if constexpr (detail::starts_states_only<E>)
+            start_next(engine, blocks, b, over, memory.next);
+    }
+    return {range.end, false};
+}
+
+// ----------------------------------------------------------------- blocks of one environment
+
+// The remaining work of a step.
+enum class Rest : std::uint8_t {
+    NextEpisode,   // its episode is over, and the next one starts
+    Start,         // its episode was over, so that the next one starts instead of a step
+    Observations,  // they are wanted
+};
+
+// The parts of a batch that a thread's steps need: its blocks, buffers, and a function for the
+// rest.
+template <class L>
+struct BatchView {
+    Blocks<L> blocks;
+    StepBuffers buffers;
+    int thread;
+    void* batch;
+    rddl_error (*do_rest)(const BatchView& view, std::int64_t b, Rest rest, Actions actions,
+                          const rddl_transition& out);
+};
+
+// A step of block `b`: always RDDL_OK, so that the calls down to here end with each other and have
+// no registers to save.
+template <Engine E, class L = typename E::Lane>
+RDDL_ALWAYS_INLINE rddl_error advance_one(const E& engine, const BatchView<L>& view, std::int64_t b,
+                                          Actions actions, const rddl_transition& out) {
+    const Stop<L> stop = advance(engine, view.blocks, {b, b + 1}, actions, view.buffers, out);
+    if (stop.over) return view.do_rest(view, b, Rest::NextEpisode, actions, out);
+    if (stop.block == b) return view.do_rest(view, b, Rest::Start, actions, out);
+    if (out.observations) return view.do_rest(view, b, Rest::Observations, actions, out);
+    return RDDL_OK;
+}
+
+}  // namespace rddl

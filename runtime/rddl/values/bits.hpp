@@ -1,0 +1,96 @@
+// Tables of bools as the bits of ints, and what is done with them.
+#pragma once
+
+#include <rddl/lanes/lane.hpp>
+#include <rddl/lanes/pack.hpp>
+#include <rddl/lanes/simd.hpp>
+#include <rddl/values/bool_rows.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+
+namespace detail {
+
+// The first of the elements of nested arrays, which lie one after the other, and their number.
+template <class T>
+constexpr const T* first_element(const T& value) {
+    return &value;
+}
+template <class T, std::size_t n>
+constexpr auto first_element(const std::array<T, n>& table) {
+    return first_element(table[0]);
+}
+template <class T>
+inline constexpr Index element_count = 1;
+template <class T, std::size_t n>
+inline constexpr Index element_count<std::array<T, n>> = static_cast<Index>(n) * element_count<T>;
+
+// Whether the bools may have been stored just now matters to one environment's (simd.hpp).
+template <int count, bool just_stored>
+std::int64_t bits_of(const bool* bools) {
+    return static_cast<std::int64_t>(just_stored ? simd::bits_of_stored_bytes(bools, count)
+                                                 : simd::bits_of_bytes(bools, count));
+}
+template <int count, bool, int n>
+Lanes<std::int64_t, n> bits_of(const Mask<n>* bools) {
+    return bits_in_lanes<count>(bools);
+}
+
+}  // namespace detail
+
+// The elements [first, first + 64) of a table of bools, in row-major order, as bits of an int, the
+// first one lowest; bits beyond its end are 0.
+template <Index first = 0, bool just_stored = true, class Table>
+auto bits(const Table& table) {
+    constexpr Index count = std::min<Index>(detail::element_count<Table> - first, 64);
+    return detail::bits_of<static_cast<int>(count), just_stored>(detail::first_element(table) +
+                                                                 first);
+}
+// The bits of the caller's actions.
+template <Index first = 0, class Table>
+auto action_bits(const Table& table) {
+    return bits<first, false>(table);
+}
+
+// ------------------------------------------------------------------------------- bit by bit
+
+constexpr std::int64_t bit_and(std::int64_t a, std::int64_t b) {
+    return a & b;
+}
+constexpr std::int64_t bit_or(std::int64_t a, std::int64_t b) {
+    return a | b;
+}
+constexpr std::int64_t bit_xor(std::int64_t a, std::int64_t b) {
+    return a ^ b;
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_and(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) & Int(b);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_or(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) | Int(b);
+}
+template <class A, class B>
+requires SomePack<A, B> RDDL_INLINE auto bit_xor(const A& a, const B& b) {
+    using Int = Lanes<std::int64_t, detail::common_width<A, B>>;
+    return Int(a) ^ Int(b);
+}
+
+// How many bits are 1.
+constexpr std::int64_t count_ones(std::int64_t a) {
+    return __builtin_popcountll(static_cast<std::uint64_t>(a));
+}
+template <int n>
+RDDL_INLINE Lanes<std::int64_t, n> count_ones(const Lanes<std::int64_t, n>& a) {
+    return Lanes<std::int64_t, n>::each([](simd::Ints bits) { return simd::count_ones(bits); }, a);
+}
+
+}  // namespace rddl

@@ -1,0 +1,222 @@
+// Bools of rows, a byte each, into masks over the rows and back: 8 rows and 64 columns at once.
+#pragma once
+
+#include <rddl/lanes/pack.hpp>
+#include <rddl/lanes/simd.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace rddl::inline RDDL_SIMD_LEVEL {
+
+namespace bit_matrix {
+
+// A matrix of 8 x 64 bits by rows, and by columns, row 0 lowest.
+#ifdef RDDL_SIMD_AVX512
+using BitRows = simd::Words;
+using BitColumns = std::uint8_t __attribute__((vector_size(64)));
+#else
+using BitRows = std::array<std::uint64_t, 8>;
+using BitColumns = std::array<std::uint8_t, 64>;
+#endif
+
+// Transposes matrices of 8 x 8, byte i being row i (H. Warren, Hacker's Delight, section 7-3).
+template <class Word>
+RDDL_INLINE Word transposed(Word a) {
+    const auto swap = [&](std::uint64_t mask, int distance) RDDL_INLINE_LAMBDA {
+        const Word moved = (a ^ a >> distance) & mask;
+        a ^= moved ^ moved << distance;
+    };
+    swap(0x00AA00AA00AA00AA, 7);
+    swap(0x0000CCCC0000CCCC, 14);
+    swap(0x00000000F0F0F0F0, 28);
+    return a;
+}
+
+#ifdef RDDL_SIMD_AVX512
+
+// The sources of bytes and of pairs of bytes when 8 rows of 8 bytes become 8 columns, or columns
+// rows.
+template <class Element, int count, class Source>
+inline constexpr auto sources = [] {
+    struct alignas(64) {
+        std::array<Element, count> of;
+    } all{};
+    for (int i = 0; i < count; ++i) all.of[i] = static_cast<Element>(Source{}(i));
+    return all;
+}();
+inline __m512i shuffled_bytes(__m512i a, const void* places) {
+    return _mm512_maskz_shuffle_epi8(~std::uint64_t{0}, a, _mm512_load_si512(places));
+}
+inline __m512i permuted_pairs(__m512i a, const void* places) {
+    return _mm512_maskz_permutexvar_epi16(~std::uint32_t{0}, _mm512_load_si512(places), a);
+}
+
+inline BitColumns columns_of(const BitRows& rows) {
+    constexpr auto bytes = [](int i) {
+        return i % 16 / 2 + i % 2 * 8;
+    };
+    constexpr auto pairs = [](int i) {
+        return i % 4 * 8 + i / 4;
+    };
+    const auto two_rows_together = shuffled_bytes(simd::reinterpret<__m512i>(rows),
+                                                  &sources<std::uint8_t, 64, decltype(bytes)>);
+    const auto all_together =
+        permuted_pairs(two_rows_together, &sources<std::uint16_t, 32, decltype(pairs)>);
+    return simd::reinterpret<BitColumns>(transposed(simd::reinterpret<simd::Words>(all_together)));
+}
+inline BitRows rows_of(const BitColumns& columns) {
+    constexpr auto pairs = [](int i) {
+        return i % 8 * 4 + i / 8;
+    };
+    constexpr auto bytes = [](int i) {
+        return i % 8 * 2 + i % 16 / 8;
+    };
+    const auto transposed_squares = transposed(simd::reinterpret<simd::Words>(columns));
+    const auto two_rows_together = permuted_pairs(simd::reinterpret<__m512i>(transposed_squares),
+                                                  &sources<std::uint16_t, 32, decltype(pairs)>);
+    return simd::reinterpret<BitRows>(
+        shuffled_bytes(two_rows_together, &sources<std::uint8_t, 64, decltype(bytes)>));
+}
+
+#else
+
+inline BitColumns columns_of(const BitRows& rows) {
+    BitColumns columns;
+    for (std::size_t square = 0; square < 8; ++square) {
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < 8; ++i) bits |= (rows[i] >> 8 * square & 0xFF) << 8 * i;
+        bits = transposed(bits);
+        std::memcpy(&columns[8 * square], &bits, sizeof bits);
+    }
+    return columns;
+}
+inline BitRows rows_of(const BitColumns& columns) {
+    BitRows rows{};
+    for (std::size_t square = 0; square < 8; ++square) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &columns[8 * square], sizeof bits);
+        bits = transposed(bits);
+        for (std::size_t i = 0; i < 8; ++i) rows[i] |= (bits >> 8 * i & 0xFF) << 8 * square;
+    }
+    return rows;
+}
+
+#endif
+
+// The lanes [lane, lane + 8) of `count` <= 64 masks, a column each; the other columns are zero.
+template <int n>
+RDDL_INLINE BitColumns lanes_of(const Mask<n>* masks, int count, int lane) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+    if constexpr (n == 8)
+        return simd::reinterpret<BitColumns>(_mm512_maskz_loadu_epi8(there, masks));
+    if constexpr (n == 16) {
+        const auto half = [&](int first) RDDL_INLINE_LAMBDA {
+            constexpr std::uint32_t all = ~std::uint32_t{0};
+            const __m512i bits =
+                _mm512_maskz_loadu_epi16(static_cast<std::uint32_t>(there >> first), masks + first);
+            return _mm512_maskz_cvtepi16_epi8(
+                all, _mm512_maskz_srli_epi16(all, bits, static_cast<unsigned>(lane)));
+        };
+        return simd::reinterpret<BitColumns>(
+            _mm512_maskz_inserti64x4(0xFF, _mm512_castsi256_si512(half(0)), half(32), 1));
+    }
+#endif
+    BitColumns columns{};
+    for (int k = 0; k < count; ++k)
+        columns[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(masks[k].bits >> lane);
+    return columns;
+}
+
+// The reverse, for all lanes: element i of `columns` has those from 8 i on.
+template <int n>
+RDDL_INLINE void store_masks(const std::array<BitColumns, n / 8>& columns, int count,
+                             Mask<n>* masks) {
+#ifdef RDDL_SIMD_AVX512
+    const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+    if constexpr (n == 8) {
+        _mm512_mask_storeu_epi8(masks, there, simd::reinterpret<__m512i>(columns[0]));
+        return;
+    }
+    if constexpr (n == 16) {
+        const auto store_half = [&](int first, __m256i low, __m256i high) RDDL_INLINE_LAMBDA {
+            constexpr std::uint32_t all = ~std::uint32_t{0};
+            const __m512i bits =
+                _mm512_maskz_cvtepu8_epi16(all, low) |
+                _mm512_maskz_slli_epi16(all, _mm512_maskz_cvtepu8_epi16(all, high), 8);
+            _mm512_mask_storeu_epi16(masks + first, static_cast<std::uint32_t>(there >> first),
+                                     bits);
+        };
+        const auto low = simd::reinterpret<__m512i>(columns[0]),
+                   high = simd::reinterpret<__m512i>(columns[1]);
+        store_half(0, _mm512_maskz_extracti64x4_epi64(0xF, low, 0),
+                   _mm512_maskz_extracti64x4_epi64(0xF, high, 0));
+        store_half(32, _mm512_maskz_extracti64x4_epi64(0xF, low, 1),
+                   _mm512_maskz_extracti64x4_epi64(0xF, high, 1));
+        return;
+    }
+#endif
+    using Bits = typename Mask<n>::Bits;
+    for (int k = 0; k < count; ++k) {
+        Bits bits{0};
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            bits = static_cast<Bits>(
+                bits | static_cast<Bits>(columns[i][static_cast<std::size_t>(k)]) << 8 * i);
+        masks[k] = Mask<n>::of_bits(bits);
+    }
+}
+
+}  // namespace bit_matrix
+
+// `count` bools of each of the first `present` rows; the others have false ones.
+template <int n>
+RDDL_ALWAYS_INLINE void read_bools(const std::byte* rows, std::int64_t row_size, int present,
+                                   std::int64_t count, Mask<n>* masks) {
+    for (std::int64_t first = 0; first < count; first += 64) {
+        const auto column_count = static_cast<int>(std::min<std::int64_t>(64, count - first));
+        const auto row = [&](int lane) RDDL_INLINE_LAMBDA {
+            if (lane >= present) return std::uint64_t{0};
+            return simd::bits_of_bytes(rows + lane * row_size + first, column_count);
+        };
+        std::array<bit_matrix::BitColumns, n / 8> columns;
+        for (int i = 0; i < n / 8; ++i)
+            columns[static_cast<std::size_t>(i)] = bit_matrix::columns_of(bit_matrix::BitRows{
+                row(8 * i), row(8 * i + 1), row(8 * i + 2), row(8 * i + 3), row(8 * i + 4),
+                row(8 * i + 5), row(8 * i + 6), row(8 * i + 7)});
+        bit_matrix::store_masks(columns, column_count, masks + first);
+    }
+}
+template <int n>
+void write_bools(const Mask<n>* masks, std::int64_t count, std::byte* rows, std::int64_t row_size,
+                 int present) {
+    for (std::int64_t first = 0; first < count; first += 64) {
+        const auto columns = static_cast<int>(std::min<std::int64_t>(64, count - first));
+        for (int lane = 0; lane < present; lane += 8) {
+            const auto by_column = bit_matrix::lanes_of(masks + first, columns, lane);
+            const bit_matrix::BitRows chunk = bit_matrix::rows_of(by_column);
+            for (int i = 0; i < 8 && lane + i < present; ++i)
+                simd::store_as_bytes<64>(chunk[static_cast<std::size_t>(i)],
+                                         rows + (lane + i) * row_size + first, columns);
+        }
+    }
+}
+
+// The bits that `count` <= 64 masks have in each lane, that of the first one lowest.
+template <int count, int n>
+Lanes<std::int64_t, n> bits_in_lanes(const Mask<n>* masks) {
+    Lanes<std::uint64_t, n> bits;
+    constexpr int parts = 8 / bits.part_width;
+    for (int i = 0; i < n / 8; ++i) {
+        const bit_matrix::BitRows rows =
+            bit_matrix::rows_of(bit_matrix::lanes_of(masks, count, 8 * i));
+        std::memcpy(&bits.part[parts * i], &rows, sizeof rows);
+    }
+    return ints_of(bits);
+}
+
+}  // namespace rddl::inline RDDL_SIMD_LEVEL

@@ -1,0 +1,178 @@
+// The functions of floats (binary32). The frequent ones have kernels of their own, after S.
+// Moshier's Cephes library; the others are those of doubles, rounded, so nearly always the nearest
+// float. Alone and in packs they give the same bits.
+#pragma once
+
+#include <rddl/lanes/real.hpp>
+#include <rddl/values/math/exponential.hpp>
+#include <rddl/values/math/hyperbolic.hpp>
+#include <rddl/values/math/hypot.hpp>
+#include <rddl/values/math/inverse_trigonometric.hpp>
+#include <rddl/values/math/logarithm.hpp>
+#include <rddl/values/math/parts.hpp>
+#include <rddl/values/math/power.hpp>
+#include <rddl/values/math/remainder.hpp>
+#include <rddl/values/math/trigonometric.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace rddl {
+
+// ------------------------------------------------------------------------ frequent ones
+
+namespace detail::single {
+
+// Adding it rounds to an integer, which then stands in the last bits.
+inline constexpr float rounder = 0x1.8p23f;
+
+template <class R>
+RDDL_ALWAYS_INLINE R clamp(R a, float lowest, float highest) {
+    return select(a < lowest, R{lowest}, select(a > highest, R{highest}, a));
+}
+
+// Requires an integer from -126 to 127.
+template <class R>
+RDDL_ALWAYS_INLINE R power_of_two(R exponent) {
+    return real_of_bits((bits_of(exponent + rounder) + std::uint32_t{127}) << 23);
+}
+
+// Their sum is ln 2. Products of the first with exponents are exact.
+inline constexpr float ln_2_high = 0.693359375f;
+inline constexpr float ln_2_low = -2.12194440e-4f;
+
+// e^r = 1 + r + r^2 p(r) for |r| <= ln(2) / 2.
+inline constexpr float exp_coefficients[] = {5.0000001201e-1f, 1.6666665459e-1f, 4.1665795894e-2f,
+                                             8.3334519073e-3f, 1.3981999507e-3f, 1.9875691500e-4f};
+
+// ln(1 + f) = f - f^2 / 2 + f^3 p(f) for 1 + f from sqrt(1/2) to sqrt(2).
+inline constexpr float ln_coefficients[] = {3.3333331174e-1f,  -2.4999993993e-1f, 2.0000714765e-1f,
+                                            -1.6668057665e-1f, 1.4249322787e-1f,  -1.2420140846e-1f,
+                                            1.1676998740e-1f,  -1.1514610310e-1f, 7.0376836292e-2f};
+
+// Requires a positive, finite a.
+template <class R>
+RDDL_ALWAYS_INLINE R ln_of_positive(R a) {
+    constexpr std::uint32_t least_significand = bits_of(0.70710678f);
+    const auto subnormal = a < 0x1p-126f;
+    const R normal = select(subnormal, a * 0x1p24f, a);
+    const auto bits = bits_of(normal) + (bits_of(1.0f) - least_significand);
+    const R biased_exponent = real_of_bits((bits >> 23) | bits_of(0x1p23f)) - 0x1p23f;
+    const R exponent = biased_exponent - select(subnormal, R{127.0f + 24.0f}, R{127.0f});
+    const R f = real_of_bits((bits & std::uint32_t{0x007F'FFFF}) + least_significand) - 1.0f;
+    const R square = f * f;
+    const R small = f * square * polynomial(ln_coefficients, f) + exponent * ln_2_low;
+    return exponent * ln_2_high + (f + (small - 0.5f * square));
+}
+
+// Their sum is pi / 2; products of the first two with 13 bits are exact. Greater angles are left to
+// the functions of doubles.
+inline constexpr float half_pi_parts[] = {1.5703125f, 4.837512969970703125e-4f,
+                                          7.54978995489188216e-8f};
+inline constexpr float two_over_pi = 0.636619772367581f;
+inline constexpr float greatest_angle = 0x1p13f;
+
+// sin r = r + r z p(z) and cos r = 1 - z / 2 + z^2 p(z) with z = r^2, for |r| <= pi / 4.
+inline constexpr float sin_coefficients[] = {-1.6666654611e-1f, 8.3321608736e-3f,
+                                             -1.9515295891e-4f};
+inline constexpr float cos_coefficients[] = {4.166664568298827e-2f, -1.388731625493765e-3f,
+                                             2.443315711809948e-5f};
+
+// The sine of `a` and `quarters` right angles, for |a| <= greatest_angle.
+template <class R>
+RDDL_ALWAYS_INLINE R sine(R a, std::uint32_t quarters) {
+    const R rounded = a * two_over_pi + rounder;
+    const R quadrants = rounded - rounder;
+    const R r = ((a - quadrants * half_pi_parts[0]) - quadrants * half_pi_parts[1]) -
+                quadrants * half_pi_parts[2];
+    const R z = r * r;
+    const auto s = bits_of(r + r * (z * polynomial(sin_coefficients, z)));
+    const auto c = bits_of((1.0f - 0.5f * z) + z * z * polynomial(cos_coefficients, z));
+    const auto turns = bits_of(rounded) + quarters;
+    using Bits = std::remove_const_t<decltype(turns)>;
+    const Bits odd = Bits{std::uint32_t{0}} - (turns & std::uint32_t{1});
+    const Bits sign = (turns << 30) & std::uint32_t{0x8000'0000};
+    return real_of_bits((s ^ ((s ^ c) & odd)) ^ sign);
+}
+
+// `result` for angles that `sine` can reduce, else that of doubles.
+template <class R, class Function>
+RDDL_ALWAYS_INLINE R with_great_angles(R a, R result, Function function) {
+    const auto great = absolute(a) > greatest_angle;
+    if (!any(great)) return result;
+    return select(great, to_float(function(to_double(a))), result);
+}
+
+}  // namespace detail::single
+
+template <FloatLanes R>
+R exp(R a) {
+    using namespace detail::single;
+    const R bounded = clamp(a, -105.0f, 100.0f);  // beyond, the result is 0 or infinity
+    const R exponent = (bounded * 1.44269504f + rounder) - rounder;
+    const R r = (bounded - exponent * ln_2_high) - exponent * ln_2_low;
+    const R significand = 1.0f + (r + r * r * detail::polynomial(exp_coefficients, r));
+    const R half = (0.5f * exponent + rounder) - rounder;
+    return significand * power_of_two(half) * power_of_two(exponent - half);
+}
+
+template <FloatLanes R>
+R ln(R a) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const R logarithm = detail::single::ln_of_positive(a);
+    const auto ordinary = a > 0.0f && a <= std::numeric_limits<float>::max();
+    if (!any(!ordinary)) return logarithm;
+    const R of_infinity_or_nan = select(a == infinity, a, R{infinity - infinity});
+    return select(ordinary, logarithm, select(a == 0.0f, R{-infinity}, of_infinity_or_nan));
+}
+
+template <FloatLanes R>
+R sin(R a) {
+    const R result = detail::single::sine(a, 0);
+    return detail::single::with_great_angles(a, select(absolute(a) < 0x1p-12f, a, result),
+                                             [](auto x) { return sin(x); });
+}
+template <FloatLanes R>
+R cos(R a) {
+    return detail::single::with_great_angles(a, detail::single::sine(a, 1),
+                                             [](auto x) { return cos(x); });
+}
+
+template <FloatLanes R>
+R power(R base, R exponent) {
+    const R square = base * base;
+    const auto squares = exponent == 2.0f;  // by far the most frequent
+    if (!any(!squares)) return square;
+    return select(squares, square, to_float(power(to_double(base), to_double(exponent))));
+}
+
+// -------------------------------------------------------------------------- the others
+
+#define RDDL_OF_FLOATS(function)                 \
+    template <FloatLanes R>                      \
+    R function(R a) {                            \
+        return to_float(function(to_double(a))); \
+    }
+RDDL_OF_FLOATS(exp_minus_one)
+RDDL_OF_FLOATS(ln_one_plus)
+RDDL_OF_FLOATS(tan)
+RDDL_OF_FLOATS(asin)
+RDDL_OF_FLOATS(acos)
+RDDL_OF_FLOATS(atan)
+RDDL_OF_FLOATS(sinh)
+RDDL_OF_FLOATS(cosh)
+RDDL_OF_FLOATS(tanh)
+#undef RDDL_OF_FLOATS
+
+#define RDDL_OF_FLOATS(function)                               \
+    template <FloatLanes R>                                    \
+    R function(R a, R b) {                                     \
+        return to_float(function(to_double(a), to_double(b))); \
+    }
+RDDL_OF_FLOATS(log)
+RDDL_OF_FLOATS(atan2)
+RDDL_OF_FLOATS(hypot)
+RDDL_OF_FLOATS(floor_mod)
+#undef RDDL_OF_FLOATS
+
+}  // namespace rddl

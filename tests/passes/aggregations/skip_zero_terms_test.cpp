@@ -1,0 +1,34 @@
+#include "passes/aggregations/skip_zero_terms.hpp"
+
+#include "texts.hpp"
+
+namespace rddlc {
+namespace {
+
+std::string skipping(const std::string& cpf_of_x) {
+    return of_moderate_x(cpf_of_x, passes::skip_zero_terms).after;
+}
+
+TEST(SkipZeroTerms, ComputesOnlyTermsThatCount) {
+    EXPECT_EQ(skipping("sum_{?o : obj} [cos[v(?o)] * p(?o)]"),
+              "sum[o in obj](select(state.p[o], cos(state.v[o]), 0.0))");
+    EXPECT_EQ(skipping("sum_{?o : obj} [p(?o) * (1.0 - pow[v(?o) * v(?o), 0.5])]"),
+              "sum[o in obj](select(state.p[o], 1.0 - power(state.v[o] * state.v[o], 0.5), 0.0))");
+    EXPECT_EQ(skipping("sum_{?o : obj} [p(?o) * pow[sum_{?q : obj} [v(?q) * v(?q)], 0.5]]"),
+              "sum[o in obj](select(state.p[o], "
+              "power(sum[q in obj](state.v[q] * state.v[q]), 0.5), 0.0))");
+}
+
+// Terms are left if they are cheap, may be inf or nan, draw, or are not part of a sum.
+TEST(SkipZeroTerms, LeavesOtherTerms) {
+    for (const char* cpf :
+         {"sum_{?o : obj} [v(?o) * p(?o)]", "sum_{?o : obj} [exp[v(?o)] * p(?o)]",
+          "sum_{?o : obj} [p(?o) * pow[v(?o), 0.5]]", "sum_{?o : obj} [Normal(x, 1.0) * p(?o)]",
+          "prod_{?o : obj} [cos[v(?o)] * p(?o)]"}) {
+        const Texts x = of_moderate_x(cpf, passes::skip_zero_terms);
+        EXPECT_EQ(x.before, x.after);
+    }
+}
+
+}  // namespace
+}  // namespace rddlc

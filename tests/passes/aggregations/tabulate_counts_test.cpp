@@ -1,0 +1,133 @@
+#include "passes/aggregations/tabulate_counts.hpp"
+
+#include "passes/aggregations/make_aggregations_sparse.hpp"
+#include "texts.hpp"
+
+#include <rddl/values/math.hpp>
+
+#include <algorithm>
+
+namespace rddlc {
+namespace {
+
+std::string tabulated(const std::string& cpf_of_x) {
+    return of_x(cpf_of_x, passes::tabulate_counts).after;
+}
+
+TEST(TabulateCounts, ReplacesWhatDependsOnACount) {
+    ir::Program program =
+        grounded(with_tables("x + 1.0 / (1.0 + exp[0.5 - sum_{?o : obj} p(?o)])"));
+    EXPECT_EQ(value_of_x(program),
+              "state.x + 1.0 / (1.0 + exp(0.5 - real(sum[o in obj](int(state.p[o])))))");
+    passes::Report report;
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    EXPECT_EQ(value_of_x(program), "state.x + x-by-count[sum[o in obj](int(state.p[o]))]");
+    EXPECT_EQ(report["expressions of a count made tables"], 1);
+
+    const ir::Buffer& table = program.buffers.back();
+    ASSERT_EQ(table.shape, std::vector<std::int64_t>{4});
+    for (std::int64_t count = 0; count < 4; ++count) {
+        const double expected = 1.0 / (1.0 + rddl::exp(0.5 - static_cast<double>(count)));
+        EXPECT_EQ(table.values[count], ir::Value(expected));
+    }
+}
+
+TEST(TabulateCounts, HasARowForEachObject) {
+    EXPECT_EQ(tabulated("sum_{?u : obj} [v(?u) * exp[W(?u) * sum_{?o : obj} p(?o)]]"),
+              "sum[u in obj](state.v[u] * x-by-count[u, sum[o in obj](int(state.p[o]))])");
+}
+
+TEST(TabulateCounts, RepeatsTheLastEntryThatAnObjectReaches) {
+    Problem problem = with_tables(
+        "sum_{?u : obj} [v(?u) * exp[W(?u) * (1 + sum_{?o : obj} [NONE(?u, ?o) ^ p(?o) ^ v(?o) > "
+        "0])]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1); NONE(b3, b3);";
+    passes::Report report;
+    ir::Program program = passes::make_aggregations_sparse(grounded(problem), report);
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    const ir::Buffer& table = program.buffers.back();
+    ASSERT_EQ(table.shape, (std::vector<std::int64_t>{3, 3}));
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table.values, (std::vector{e(1), e(2), e(2), e(4), e(4), e(4), e(1), e(2), e(3)}));
+}
+
+TEST(TabulateCounts, HasOneRowForObjectsOfAKind) {
+    Problem problem =
+        with_tables("sum_{?u : obj, ?w : obj} [v(?u) * exp[NONE(?u, ?w) * sum_{?o : obj} p(?o)]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1);";
+    passes::Report report;
+    const ir::Program program = valid(passes::tabulate_counts(grounded(problem), report));
+    EXPECT_EQ(value_of_x(program),
+              "sum[u in obj](sum[w in obj](state.v[u] * "
+              "x-by-count[x-kind[u, w], sum[o in obj](int(state.p[o]))]))");
+    const auto table = [&](const std::string& name) {
+        return *std::ranges::find(program.buffers, name, &ir::Buffer::name);
+    };
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table("x-by-count").shape, (std::vector<std::int64_t>{2, 4}));
+    EXPECT_EQ(table("x-by-count").values,
+              (std::vector{e(0), e(0), e(0), e(0), e(0), e(1), e(2), e(3)}));
+    EXPECT_EQ(table("x-kind").shape, (std::vector<std::int64_t>{3, 3}));
+    const std::vector<std::int64_t> kinds{0, 1, 0, 0, 0, 0, 1, 0, 0};
+    EXPECT_EQ(table("x-kind").values, std::vector<ir::Value>(kinds.begin(), kinds.end()));
+}
+
+// b1 reaches two of the cases, b2 one and b3 all three.
+TEST(TabulateCounts, SharesTheRowOfTheObjectThatReachesFurthest) {
+    Problem problem = with_tables(
+        "sum_{?u : obj} [v(?u) * exp[SAME(?u) * (1 + sum_{?o : obj} [NONE(?u, ?o) ^ p(?o) ^ v(?o) "
+        "> 0])]]");
+    problem.non_fluents += "NONE(b1, b2); NONE(b3, b1); NONE(b3, b3);";
+    passes::Report report;
+    ir::Program program = passes::make_aggregations_sparse(grounded(problem), report);
+    program = valid(passes::tabulate_counts(std::move(program), report));
+    const ir::Buffer& table = program.buffers.back();
+    const auto e = [](double x) {
+        return ir::Value(rddl::exp(x));
+    };
+    EXPECT_EQ(table.shape, std::vector<std::int64_t>{3});
+    EXPECT_EQ(table.values, (std::vector{e(1.5), e(3), e(4.5)}));
+}
+
+TEST(TabulateCounts, BeginsWithTheLeastCount) {
+    EXPECT_EQ(tabulated("exp[0.5 + sum_{?o : obj} (if (p(?o)) then -1 else 0)]"),
+              "x-by-count[sum[o in obj](select(state.p[o], -1, 0)) - -3]");
+}
+
+TEST(TabulateCounts, TakesSumsOfCounts) {
+    EXPECT_EQ(tabulated("exp[(sum_{?o : obj} p(?o)) + sum_{?o : obj} ~p(?o)]"),
+              "x-by-count[sum[o in obj](int(state.p[o])) + sum[o in obj](int(!state.p[o]))]");
+}
+
+TEST(TabulateCounts, LeavesCheapExpressions) {
+    const Texts x = of_x("2.0 * sum_{?o : obj} p(?o) + 1.0", passes::tabulate_counts);
+    EXPECT_EQ(x.before, x.after);
+}
+
+TEST(TabulateCounts, LeavesWhatDependsOnMore) {
+    for (const char* cpf :
+         {"exp[x * sum_{?o : obj} p(?o)]", "exp[(sum_{?o : obj} p(?o)) * sum_{?o : obj} ~p(?o)]",
+          "exp[0.5 * sum_{?o : obj} (p(?o) * E(?o))]"}) {
+        const Texts x = of_x(cpf, passes::tabulate_counts);
+        EXPECT_EQ(x.before, x.after);
+    }
+}
+
+// Not every int beyond 2^53 is a double, which ranges are of.
+TEST(TabulateCounts, LeavesCountsThatAreTooLarge) {
+    EXPECT_EQ(tabulated("exp[(exists_{?o : obj} p(?o)) - 9007199254740993]"),
+              "x-by-count[int(exists[o in obj](state.p[o]))]");
+}
+
+TEST(TabulateCounts, KeepsFaults) {
+    const Texts x = of_x("1.0 + (0 - 3) * 1.5 + exp[0.0 + pow[2, 1 - sum_{?o : obj} p(?o)]]",
+                         passes::tabulate_counts);
+    EXPECT_EQ(x.before, x.after);
+}
+
+}  // namespace
+}  // namespace rddlc

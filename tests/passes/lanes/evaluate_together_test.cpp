@@ -1,0 +1,70 @@
+#include "passes/lanes/evaluate_together.hpp"
+
+#include "texts.hpp"
+
+#include <string>
+
+namespace rddlc {
+namespace {
+
+// Nine pairs of objects; the CPF of `on` is given.
+Problem with_pairs(const std::string& cpf_of_on) {
+    return {
+        .pvariables =
+            "P(obj, obj) : { non-fluent, real, default = 0.5 };\n"
+            "W(obj) : { non-fluent, real, default = 0.25 };\n"
+            "on(obj, obj) : { state-fluent, bool, default = false };\n"
+            "v(obj, obj) : { state-fluent, real, default = 0.0 };\n"
+            "w(obj) : { state-fluent, bool, default = false };\n"
+            "a : { action-fluent, bool, default = false };",
+        .cpfs = "on'(?x, ?y) = " + cpf_of_on + ";\nv'(?x, ?y) = v(?x, ?y) + 1.0;\nw'(?x) = ~w(?x);",
+        .non_fluents = "P(b1, b2) = 0.25; W(b2) = 0.5;"};
+}
+
+// How the loop over the pairs runs.
+std::string loop_for(const std::string& cpf_of_on) {
+    passes::Report report;
+    const ir::Program program =
+        valid(passes::evaluate_together(grounded(with_pairs(cpf_of_on)), report));
+    const std::string text = ir::print(program);
+    const std::size_t end = text.find("\n", text.find("step\n") + 5);
+    return text.substr(text.find("step\n") + 9, end - text.find("step\n") - 9);
+}
+
+TEST(EvaluateTogether, TakesLoopsThatDrawOrGiveBools) {
+    for (const char* cpf :
+         {"Bernoulli(P(?x, ?y))", "on(?x, ?y) | a", "if (a) then Bernoulli(0.3) else on(?x, ?y)",
+          "Normal(v(?x, ?y), 1.0) > 2.0", "v(?x, ?y) > 2.0"})
+        EXPECT_EQ(loop_for(cpf), "for x in obj, several at once") << cpf;
+}
+
+TEST(EvaluateTogether, TakesLoopsOverRealsThatAreNotCheap) {
+    const auto marked = [](const std::string& cpf_of_v) {
+        Problem problem = with_pairs("a");
+        problem.cpfs = "on'(?x, ?y) = a;\nv'(?x, ?y) = " + cpf_of_v + ";\nw'(?x) = ~w(?x);";
+        passes::Report report;
+        passes::evaluate_together(grounded(problem), report);
+        return report["loops over several objects at once"] - 1;  // that of `on` is one
+    };
+    EXPECT_EQ(marked("exp[v(?x, ?y)]"), 1);
+    EXPECT_EQ(marked("max[0.0, min[v(?x, ?y), P(?x, ?y)]] + 2 * v(?x, ?y)"), 1);
+    EXPECT_EQ(marked("v(?x, ?y) + 1.0"), 0);
+    EXPECT_EQ(marked("exp[v(?y, ?x)]"), 0);
+}
+
+TEST(EvaluateTogether, LeavesLoopsThatReadOtherElements) {
+    for (const char* cpf :
+         {"on(?y, ?x) ^ a", "Bernoulli(W(?x))", "w(?y)", "exists_{?z : obj} [on(?x, ?z)]",
+          "forall_{?z : obj} [Bernoulli(P(?x, ?z))]", "Poisson(2.0) > 3", "?x == ?y"})
+        EXPECT_EQ(loop_for(cpf), "for x in obj") << cpf;
+}
+
+TEST(EvaluateTogether, LeavesCheapSumsAndShortLoops) {
+    passes::Report report;
+    const std::string text =
+        ir::print(passes::evaluate_together(grounded(with_pairs("on(?x, ?y)")), report));
+    EXPECT_EQ(report["loops over several objects at once"], 1) << text;
+}
+
+}  // namespace
+}  // namespace rddlc

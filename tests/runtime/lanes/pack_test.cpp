@@ -1,0 +1,297 @@
+// Operators on packs give in each lane the bits that they give for the scalars there. This file is
+// also built for other instruction sets than the compiler's default (CMakeLists.txt).
+#include <rddl/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+constexpr int width = 16;
+using Reals = Pack<width>::Real;
+using Ints = Pack<width>::Int;
+using Bools = Pack<width>::Bool;
+
+std::uint64_t bits(double a) {
+    return std::isnan(a) ? 1 : std::bit_cast<std::uint64_t>(a);  // no nan but the one
+}
+std::uint64_t bits(std::int64_t a) {
+    return static_cast<std::uint64_t>(a);
+}
+std::uint64_t bits(bool a) {
+    return a;
+}
+
+std::vector<double> reals(unsigned seed) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> result = {0.0,   -0.0,     1.0,       -1.0,     0.5,       -0.5,   1.5,
+                                  2.5,   infinity, -infinity, NAN,      0x1p-1074, 0x1p63, -0x1p63,
+                                  1e300, -1e300,   0x1p52,    0x1.8p52, 0x1p62,    3.0};
+    std::mt19937_64 random(seed);
+    while (result.size() < 4000) {
+        const double bounded = std::uniform_real_distribution<>(-20, 20)(random);
+        result.push_back(random() % 4 ? bounded : std::bit_cast<double>(random()));
+    }
+    std::shuffle(result.begin(), result.end(), random);
+    return result;
+}
+
+std::vector<std::int64_t> ints(unsigned seed) {
+    using Limits = std::numeric_limits<std::int64_t>;
+    std::vector<std::int64_t> result = {
+        0, 1, -1, Limits::min(), Limits::max(), 1ll << 53, (1ll << 53) + 1, (1ll << 62) + 1};
+    std::mt19937_64 random(seed);
+    while (result.size() < 4000)
+        result.push_back(static_cast<std::int64_t>(random()) >> (random() % 64));
+    std::shuffle(result.begin(), result.end(), random);
+    return result;
+}
+
+template <class Function, class First, class... Others>
+void expect_bits_of_scalars(const char* name, Function function, const std::vector<First>& first,
+                            const std::vector<Others>&... others) {
+    for (std::size_t i = 0; i + width <= first.size(); i += width) {
+        const auto found = function(LanesOf<First, width>::load(&first[i]),
+                                    LanesOf<Others, width>::load(&others[i])...);
+        for (int lane = 0; lane < width; ++lane) {
+            const std::size_t at = i + static_cast<std::size_t>(lane);
+            ASSERT_EQ(bits(found[lane]), bits(function(first[at], others[at]...)))
+                << name << " of " << first[at] << " on " << simd::level;
+        }
+    }
+}
+
+#define EXPECT_BITS_OF_SCALARS(expression, ...) \
+    expect_bits_of_scalars(                     \
+        #expression, [](auto... x) { return expression; }, __VA_ARGS__)
+
+#ifdef RDDL_EXPECTED_LEVEL
+TEST(Packs, UseTheRegistersAskedFor) {
+    EXPECT_STREQ(simd::level, RDDL_EXPECTED_LEVEL);
+}
+#endif
+
+TEST(Packs, ComputeWithRealsAsScalarsDo) {
+    const std::vector<double> a = reals(1), b = reals(2);
+    EXPECT_BITS_OF_SCALARS((x + ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x - ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x * ...), a, b);
+    EXPECT_BITS_OF_SCALARS((x / ...), a, b);
+    EXPECT_BITS_OF_SCALARS(-(x + ...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(absolute(x...), a);
+    EXPECT_BITS_OF_SCALARS(sign(x...), a);
+    EXPECT_BITS_OF_SCALARS(floor_mod(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(truncate_to_int(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::round(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::floor(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::ceil(x...), a);
+    EXPECT_BITS_OF_SCALARS(round_as_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(floor_as_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(ceil_as_real(x...), a);
+}
+
+TEST(Packs, ComputeElementaryFunctionsAsScalarsDo) {
+    const std::vector<double> a = reals(3), b = reals(4);
+    EXPECT_BITS_OF_SCALARS(rddl::sqrt(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::exp(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::ln(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::sin(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::cos(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::tan(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::tanh(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::atan(x...), a);
+    EXPECT_BITS_OF_SCALARS(rddl::power(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(rddl::hypot(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(rddl::atan2(x...), a, b);
+}
+
+// Lanes far from the median are brought together where a pack has few of them.
+TEST(Packs, FindNormalQuantilesAsScalarsDo) {
+    const std::vector<double> central = {0.5, 0.075, 0.925, 0.0750000001, 0.3, 0.7, 0.9, 0.1};
+    const std::vector<double> outside = {0x1p-53, 1 - 0x1p-53, 1e-12, 1 - 1e-12,
+                                         1e-9,    0.0749999,   0.95,  0.01};
+    std::mt19937_64 random(12);
+    std::vector<double> probabilities;
+    for (int count = 0; count <= width; ++count)
+        for (int repetition = 0; repetition < 20; ++repetition) {
+            std::array<double, width> pack;
+            for (int i = 0; i < width; ++i)
+                pack[static_cast<std::size_t>(i)] = (i < count ? outside : central)[random() % 8];
+            std::shuffle(pack.begin(), pack.end(), random);
+            probabilities.insert(probabilities.end(), pack.begin(), pack.end());
+        }
+    EXPECT_BITS_OF_SCALARS(normal_quantile(x...), probabilities);
+}
+
+TEST(Packs, ComputeWithIntsAsScalarsDo) {
+    const std::vector<std::int64_t> a = ints(5), b = ints(6);
+    EXPECT_BITS_OF_SCALARS(wrap_add(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_sub(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_mul(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(wrap_neg(x...), a);
+    EXPECT_BITS_OF_SCALARS(minimum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(maximum(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(absolute(x...), a);
+    EXPECT_BITS_OF_SCALARS(sign(x...), a);
+    EXPECT_BITS_OF_SCALARS(to_real(x...), a);
+    EXPECT_BITS_OF_SCALARS(bit_and(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(bit_or(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(bit_xor(x...), a, b);
+    EXPECT_BITS_OF_SCALARS(count_ones(x...), a);
+}
+
+// 70 bools in each lane, as two words.
+TEST(Packs, MakeBitsOfBoolsAsScalarsDo) {
+    constexpr std::size_t rows = 7, columns = 10;
+    using Table = std::array<std::array<bool, columns>, rows>;
+    std::mt19937_64 random(12);
+    std::array<Table, width> tables{};
+    std::array<std::array<Bools, columns>, rows> packed{};
+    for (int lane = 0; lane < width; ++lane)
+        for (std::size_t r = 0; r < rows; ++r)
+            for (std::size_t c = 0; c < columns; ++c) {
+                const bool value = random() % 2 == 0;
+                tables[static_cast<std::size_t>(lane)][r][c] = value;
+                packed[r][c].set(lane, value);
+            }
+    for (int lane = 0; lane < width; ++lane) {
+        const Table& table = tables[static_cast<std::size_t>(lane)];
+        std::uint64_t first = 0, last = 0;
+        for (std::size_t i = 0; i < rows * columns; ++i)
+            (i < 64 ? first : last) |= std::uint64_t{table[i / columns][i % columns]} << (i % 64);
+        EXPECT_EQ(rddl::bits(table), static_cast<std::int64_t>(first));
+        EXPECT_EQ(rddl::bits<64>(table), static_cast<std::int64_t>(last));
+        EXPECT_EQ(rddl::bits(packed)[lane], static_cast<std::int64_t>(first));
+        EXPECT_EQ(rddl::bits<64>(packed)[lane], static_cast<std::int64_t>(last));
+    }
+}
+
+// The six comparisons, each once, of a and b.
+template <class T>
+void expect_comparisons_of_scalars(const std::vector<T>& a, const std::vector<T>& b) {
+    expect_bits_of_scalars(
+        "<", [](auto x, auto y) { return x < y; }, a, b);
+    expect_bits_of_scalars(
+        "<=", [](auto x, auto y) { return x <= y; }, a, b);
+    expect_bits_of_scalars(
+        "==", [](auto x, auto y) { return x == y; }, a, b);
+    expect_bits_of_scalars(
+        "!=", [](auto x, auto y) { return x != y; }, a, b);
+    expect_bits_of_scalars(
+        ">", [](auto x, auto y) { return x > y; }, a, b);
+    expect_bits_of_scalars(
+        ">=", [](auto x, auto y) { return x >= y; }, a, b);
+    expect_bits_of_scalars(
+        "select", [](auto x, auto y) { return select(x < y && !(y == x), y, x); }, a, b);
+}
+
+TEST(Packs, CompareAsScalarsDo) {
+    expect_comparisons_of_scalars(reals(7), reals(8));
+    expect_comparisons_of_scalars(ints(9), ints(10));
+    expect_comparisons_of_scalars(reals(7), reals(7));
+    expect_comparisons_of_scalars(ints(9), ints(9));
+}
+
+TEST(Packs, CountLanesOfMasks) {
+    for (const std::uint64_t pattern : {0x0000u, 0x0001u, 0x8000u, 0xA5A5u, 0xFFFFu}) {
+        const Bools mask = Bools::of_bits(pattern);
+        const Ints numbers = to_int(mask);
+        std::uint64_t visited = 0;
+        for_each_lane(mask, [&](int lane) { visited |= std::uint64_t{1} << lane; });
+        EXPECT_EQ(visited, pattern);
+        EXPECT_EQ(any(mask), pattern != 0);
+        EXPECT_EQ(all(mask), pattern == 0xFFFF);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(numbers[lane], static_cast<std::int64_t>(pattern >> lane & 1));
+    }
+}
+
+TEST(Packs, BringSomeLanesTogetherAndBack) {
+    for (const std::uint64_t pattern : {0x0000u, 0x8001u, 0x0100u, 0xA5A5u, 0xFF00u, 0x00FFu}) {
+        const Bools mask = Bools::of_bits(pattern);
+        Reals values, target{-1.0};
+        for (int lane = 0; lane < width; ++lane) values.set(lane, 100 + lane);
+        const Lanes<double, 8> some = compress(mask, values, 7.0);
+        expand(mask, some, target);
+        int next = 0;
+        for_each_lane(mask, [&](int lane) { EXPECT_EQ(some[next++], 100 + lane); });
+        while (next < 8) EXPECT_EQ(some[next++], 7.0);
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(target[lane], mask[lane] ? 100 + lane : -1.0);
+    }
+}
+
+TEST(Packs, TakeBranchesInEachLane) {
+    const auto third = [] {
+        return Bools::of_bits(0x00FF);
+    };
+    for (const std::uint64_t pattern : {0x0000u, 0x0001u, 0xA5A5u, 0xFFFFu}) {
+        const Bools first = Bools::of_bits(pattern);
+        const Bools chosen = branch(
+            first, [] { return true; }, [&] { return !first; }, [] { return false; }, third);
+        EXPECT_EQ(chosen.bits, pattern) << "the second condition holds where the first does not";
+        const auto number = branch(
+            first, [] { return Ints{1}; }, third, [] { return Ints{2}; }, [] { return Ints{3}; });
+        for (int lane = 0; lane < width; ++lane)
+            EXPECT_EQ(number[lane], first[lane] ? 1 : third()[lane] ? 2 : 3);
+    }
+    const Bools of_all = branch(true, third, [] { return false; });
+    EXPECT_EQ(of_all.bits, third().bits);
+}
+
+template <std::size_t size>
+void expect_elements_of_scalars() {
+    std::array<double, size> table;
+    std::array<std::int64_t, size> numbers;
+    std::array<bool, size> flags;
+    std::array<Bools, size> flags_of_lanes;
+    for (std::size_t i = 0; i < size; ++i) {
+        table[i] = 0.1 * static_cast<double>(i);
+        numbers[i] = -static_cast<std::int64_t>(i * i);
+        flags[i] = i * i % 7 < 3;
+        flags_of_lanes[i] = Bools::of_bits(0x9E3779B9 * (i + 1) >> 7);
+    }
+    std::vector<std::int64_t> indices = ints(11);
+    for (std::int64_t& index : indices) index = floor_mod(index, std::int64_t{size});
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(table, i); }, indices);
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(numbers, i); }, indices);
+    expect_bits_of_scalars(
+        "at", [&](auto i) { return at(flags, i); }, indices);
+    const Ints own = Ints::load(indices.data());
+    const Bools found = at(flags_of_lanes, own);
+    for (int lane = 0; lane < width; ++lane)
+        EXPECT_EQ(found[lane], flags_of_lanes[static_cast<std::size_t>(own[lane])][lane])
+            << own[lane] << " of " << size << " in lane " << lane << " on " << simd::level;
+}
+
+// Tables of up to 16 reals or 64 bools are kept in registers. Small tables are not read in units of
+// 8 bytes.
+TEST(Packs, ReadTablesInEachLane) {
+    expect_elements_of_scalars<1>();
+    expect_elements_of_scalars<3>();
+    expect_elements_of_scalars<8>();
+    expect_elements_of_scalars<9>();
+    expect_elements_of_scalars<16>();
+    expect_elements_of_scalars<17>();
+    expect_elements_of_scalars<37>();
+    expect_elements_of_scalars<64>();
+    expect_elements_of_scalars<65>();
+    expect_elements_of_scalars<513>();
+}
+
+}  // namespace
+}  // namespace rddl

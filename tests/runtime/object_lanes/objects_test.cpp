@@ -1,0 +1,219 @@
+// One environment whose objects are in registers has the values, draws and faults that it has with
+// one object after the other. Also built for other instruction sets (CMakeLists.txt).
+#include <rddl/object_lanes/objects.hpp>
+#include <rddl/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rddl {
+namespace {
+
+// The number is not a multiple of the lanes.
+constexpr Index rows = 11, columns = 5, count = rows * columns;
+
+template <class T>
+using Grid = std::array<std::array<T, columns>, rows>;
+
+struct Tables {
+    Grid<bool> on;
+    Grid<std::int64_t> number;
+    Grid<double> level;
+    Grid<std::array<double, 3>> by_number;
+};
+Tables tables() {
+    Tables result;
+    Index i = 0;
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c, ++i) {
+            result.on[r][c] = i % 3 == 0 || i % 7 == 2;
+            result.number[r][c] = i % 3;
+            result.level[r][c] = 0.01 * static_cast<double>(i);
+            result.by_number[r][c] = {0.1, 0.5, 1.0 - result.level[r][c]};
+        }
+    return result;
+}
+
+Context<Scalar> context_of_step(std::uint32_t step) {
+    return {stream_key(1, 2, 3), step, {}};
+}
+
+TEST(Objects, AreElementsOfTables) {
+    const Tables from = tables();
+    Context<Scalar> context = context_of_step(1);
+    struct {
+        Grid<bool> on;
+        bool behind_on = true;
+        Grid<double> level;
+        double behind_level = -1;
+        Grid<std::int64_t> number;
+        std::int64_t behind_number = -1;
+    } to;
+    for_each_object(context, count, [&](auto&, auto x) {
+        elements(to.on, x) = !at(from.on, x);
+        elements(to.level, x) = at(from.by_number, x, at(from.number, x)) + at(from.level, x);
+        elements(to.number, x) = wrap_add(at(from.number, x), 3);
+    });
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const auto number = static_cast<std::size_t>(from.number[r][c]);
+            EXPECT_EQ(to.on[r][c], !from.on[r][c]);
+            EXPECT_EQ(to.level[r][c], from.by_number[r][c][number] + from.level[r][c]);
+            EXPECT_EQ(to.number[r][c], from.number[r][c] + 3);
+        }
+    EXPECT_TRUE(to.behind_on);
+    EXPECT_EQ(to.behind_level, -1);
+    EXPECT_EQ(to.behind_number, -1);
+}
+
+template <std::size_t kinds>
+void expect_own_choices() {
+    std::array<std::array<double, 9>, kinds> values;
+    std::array<std::array<bool, 9>, kinds> flags;
+    for (std::size_t k = 0; k < 9 * kinds; ++k) {
+        values[k / 9][k % 9] = 0.5 * static_cast<double>(k);
+        flags[k / 9][k % 9] = k % 3 == 1;
+    }
+    Grid<std::int64_t> kind;
+    Index i = 0;
+    for (auto& row : kind)
+        for (std::int64_t& of_object : row) of_object = (5 * i++ + 2) % static_cast<Index>(kinds);
+    const Tables from = tables();
+    Context<Scalar> context = context_of_step(1);
+    Grid<double> value;
+    Grid<bool> flag;
+    for_each_object(context, count, [&](auto&, auto x) {
+        const auto number = wrap_add(at(from.number, x), 6);
+        elements(value, x) = at_own(values, x, at(kind, x), number);
+        elements(flag, x) = at_own(flags, x, at(kind, x), number);
+    });
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const auto row = static_cast<std::size_t>(kind[r][c]);
+            const auto number = static_cast<std::size_t>(from.number[r][c] + 6);
+            EXPECT_EQ(value[r][c], values[row][number]);
+            EXPECT_EQ(flag[r][c], flags[row][number]);
+        }
+}
+
+// Elements are chosen from tables that registers may hold, and from greater ones.
+TEST(Objects, ChooseElementsOfTheirOwn) {
+    expect_own_choices<1>();
+    expect_own_choices<2>();
+    expect_own_choices<3>();
+    expect_own_choices<9>();
+}
+
+TEST(Objects, TakeOneValueForAll) {
+    for (const Index n : {Index{8}, Index{16}, Index{17}, Index{64}}) {
+        std::array<bool, 65> on{};
+        std::array<double, 65> level{};
+        Context<Scalar> context = context_of_step(1);
+        for_each_object(context, n, [&](auto&, auto x) {
+            elements(on, x) = true;
+            elements(level, x) = 2.5;
+        });
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            EXPECT_EQ(on[i], static_cast<Index>(i) < n);
+            EXPECT_EQ(level[i], static_cast<Index>(i) < n ? 2.5 : 0);
+        }
+    }
+}
+
+TEST(Objects, DrawWhatTheyDrawOneByOne) {
+    const Tables from = tables();
+    Context<Scalar> context = context_of_step(7), other = context;
+    Grid<bool> on;
+    Grid<double> level, wait;
+    for_each_object(context, count, [&](auto& several, auto x) {
+        elements(on, x) = branch(
+            several, at(from.on, x), [&] { return true; },
+            [&] {
+                return sample::bernoulli(several, {3, x}, at(from.level, x));
+            });
+        elements(level, x) = sample::normal(several, {4, x, 3}, at(from.level, x), 2.0);
+        elements(wait, x) = sample::exponential(several, {5, x}, 2.0);
+    });
+    Index i = 0;
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c, ++i) {
+            const double p = from.level[r][c];
+            EXPECT_EQ(on[r][c], from.on[r][c] || sample::bernoulli(other, {3, i}, p));
+            EXPECT_EQ(level[r][c], sample::normal(other, {4, i, 3}, p, 2.0));
+            EXPECT_EQ(wait[r][c], sample::exponential(other, {5, i}, 2.0));
+        }
+    EXPECT_FALSE(context.faulted());
+}
+
+// The first of several faults counts, though one operator comes before the other.
+TEST(Objects, TellTheFaultOfTheFirstObject) {
+    std::array<double, 40> p{}, variance{};
+    p[30] = 2;
+    variance[21] = -1;
+    variance[30] = -1;
+    std::array<bool, 40> draws{};
+    std::array<double, 40> levels{};
+    Context<Scalar> context = context_of_step(1);
+    for_each_object(context, 40, [&](auto& several, auto x) {
+        elements(draws, x) = sample::bernoulli(several, {0, x}, at(p, x));
+        elements(levels, x) = sample::normal(several, {1, x}, 0.0, at(variance, x));
+    });
+    EXPECT_EQ(context.fault.kind, FaultKind::Variance);
+    EXPECT_EQ(context.fault.place, Place(1, 21));
+    EXPECT_EQ(context.fault.value, -1);
+}
+
+TEST(Objects, DoNotFaultInBranchesThatTheyDoNotTake) {
+    std::array<double, 20> p{};
+    p[3] = 2;
+    std::array<bool, 20> draws{};
+    Context<Scalar> context = context_of_step(1);
+    for_each_object(context, 20, [&](auto& several, auto x) {
+        elements(draws, x) = branch(
+            several, at(p, x) > 1.0, [&] { return false; },
+            [&] {
+                return sample::bernoulli(several, {0, x}, at(p, x));
+            });
+    });
+    EXPECT_FALSE(context.faulted());
+}
+
+// Packs of environments take one object after the other.
+TEST(Objects, ArePlainElementsInPacks) {
+    using L = Pack<16>;
+    std::array<L::Bool, count> on;
+    std::array<L::Real, count> level;
+    const Tables from = tables();
+    Context<L> context = Context<L>::of(L::Word{7}, L::Word{9}, L::Word{1}, true);
+    for_each_object(context, count, [&](auto& several, auto x) {
+        elements(on, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
+        elements(level, x) = at(from.by_number, x, 1) + 1.0;
+    });
+    Context<Scalar> alone{StreamKey{7, 9}, 1, {}};
+    Grid<bool> expected;
+    for_each_object(alone, count, [&](auto& several, auto x) {
+        elements(expected, x) = sample::bernoulli(several, {0, x}, at(from.level, x));
+    });
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        EXPECT_EQ(on[i][5], expected[i / columns][i % columns]);
+        EXPECT_EQ(level[i][5], 1.5);
+    }
+}
+
+TEST(Objects, HaveFloats) {
+    std::array<float, 20> p;
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = 0.05f * static_cast<float>(i);
+    std::array<bool, 20> draws{};
+    Context<ScalarOf<float>> context{stream_key(1, 2, 3), 1, {}}, other = context;
+    for_each_object(context, 20, [&](auto& several, auto x) {
+        elements(draws, x) = sample::bernoulli(several, {0, x}, at(p, x));
+    });
+    for (std::size_t i = 0; i < p.size(); ++i)
+        EXPECT_EQ(draws[i], sample::bernoulli(other, {0, static_cast<Index>(i)}, p[i]));
+}
+
+}  // namespace
+}  // namespace rddl

@@ -1,0 +1,105 @@
+// Several objects of one environment take from their rows what one object after the other takes,
+// whether that is looked up or computed. Also built for other instruction sets (CMakeLists.txt).
+#include <rddl/object_lanes/rows.hpp>
+#include <rddl/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace rddl {
+namespace {
+
+// The number is not a multiple of the lanes.
+constexpr std::size_t height = 7, width = 5, objects = height * width, cases = 4;
+
+template <class R>
+using Rows = std::array<std::array<R, cases>, 3>;
+
+constexpr Rows<double> lines = {{{0.25, 0.5, 0.75, 1}, {0.1, 0.4, 0.4, 0.4}, {-2, -2, -2, -2}}};
+constexpr Rows<double> curves = {{{0, 1, 4, 9}, {1, 0.5, 0.25, 0.125}, {-2, -2, -2, -2}}};
+constexpr Rows<double> nearly_lines = {{{0.1, 0.2, 0.3, 0.4}, {0, 1, 2, 3}, {0, 1, 2, 3}}};
+// Differences of these overflow, or are nan.
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Rows<double> extreme = {{{-greatest, greatest, greatest, greatest},
+                                   {infinite, infinite, infinite, infinite},
+                                   {1, greatest, infinite, infinite}}};
+constexpr Rows<float> float_lines = {{{0.25, 0.5, 0.75, 1}, {0.5, 2, 2, 2}, {0, 0, 0, 0}}};
+static_assert(detail::are_lines<lines> && detail::are_lines<float_lines>);
+static_assert(!detail::are_lines<curves> && !detail::are_lines<nearly_lines> &&
+              !detail::are_lines<extreme>);
+
+constexpr auto kinds = [] {
+    std::array<std::array<std::int64_t, width>, height> table{};
+    for (std::size_t x = 0; x < objects; ++x)
+        table[x / width][x % width] = static_cast<std::int64_t>((5 * x + 2) % 3);
+    return table;
+}();
+
+template <class R>
+constexpr auto rows_of_objects = [] {
+    std::array<std::array<R, cases>, objects> table{};
+    for (std::size_t x = 0; x < objects; ++x)
+        for (std::size_t count = 0; count < cases; ++count)
+            table[x][count] = static_cast<R>(x) + static_cast<R>(0.5) * static_cast<R>(count);
+    return table;
+}();
+constexpr auto rows = rows_of_objects<double>;
+static_assert(detail::are_lines<rows>);
+
+std::array<std::int64_t, objects> some_counts() {
+    std::array<std::int64_t, objects> counts{};
+    for (std::size_t x = 0; x < objects; ++x) counts[x] = static_cast<std::int64_t>(x * 7 % cases);
+    return counts;
+}
+
+// `take(x, count)` of all objects at once, or one after the other.
+template <class R, class Take>
+std::array<R, objects> taken(const Take& take) {
+    const auto counts = some_counts();
+    Context<ScalarOf<R>> context{stream_key(1, 2, 3), 1, {}};
+    std::array<R, objects> values{};
+    for_each_object(context, objects,
+                    [&](auto&, auto x) { elements(values, x) = take(x, at(counts, x)); });
+    return values;
+}
+
+template <const auto& table, class R>
+void expect_rows_of_kinds() {
+    const auto values =
+        taken<R>([](auto x, const auto& count) { return at_row<table, kinds>(x, count); });
+    for (std::size_t x = 0; x < objects; ++x) {
+        const auto kind = static_cast<std::size_t>(kinds[x / width][x % width]);
+        EXPECT_EQ(bits_of(values[x]),
+                  bits_of(table[kind][static_cast<std::size_t>(some_counts()[x])]));
+    }
+}
+
+TEST(Rows, AreThoseOfKinds) {
+    expect_rows_of_kinds<lines, double>();
+    expect_rows_of_kinds<curves, double>();
+    expect_rows_of_kinds<nearly_lines, double>();
+    expect_rows_of_kinds<extreme, double>();
+    expect_rows_of_kinds<float_lines, float>();
+}
+
+TEST(Rows, AreThoseOfObjects) {
+    const auto values =
+        taken<double>([](auto x, const auto& count) { return at_row<rows>(x, count); });
+    for (std::size_t x = 0; x < objects; ++x)
+        EXPECT_EQ(values[x], rows[x][static_cast<std::size_t>(some_counts()[x])]);
+}
+
+TEST(Rows, TakeOneCountForAll) {
+    const auto values =
+        taken<double>([](auto x, const auto&) { return at_row<lines, kinds>(x, std::int64_t{2}); });
+    for (std::size_t x = 0; x < objects; ++x)
+        EXPECT_EQ(values[x], lines[static_cast<std::size_t>(kinds[x / width][x % width])][2]);
+}
+
+}  // namespace
+}  // namespace rddl

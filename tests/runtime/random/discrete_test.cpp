@@ -1,0 +1,134 @@
+#include "fit.hpp"
+
+#include <rddl/random/distributions/discrete.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+using fit::draws_of;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Draws of each index against their probabilities; an index of probability 0 must not occur.
+void expect_indices_fit(const std::vector<std::int64_t>& draws,
+                        const std::vector<double>& probabilities) {
+    std::vector<double> counts(probabilities.size(), 0.0);
+    for (const std::int64_t draw : draws) counts.at(static_cast<std::size_t>(draw)) += 1;
+    std::vector<double> observed, expected;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (probabilities[i] == 0) {
+            EXPECT_EQ(counts[i], 0) << i;
+            continue;
+        }
+        observed.push_back(counts[i]);
+        expected.push_back(probabilities[i] * static_cast<double>(draws.size()));
+    }
+    fit::expect_counts_fit(observed, expected);
+}
+
+TEST(Bernoulli, IsTrueAsOftenAsItShouldBe) {
+    for (const double p : {0.0, 1e-3, 0.25, 0.5, 0.999, 1.0}) {
+        SCOPED_TRACE(p);
+        std::vector<std::int64_t> draws;
+        for (const bool draw : draws_of(
+                 [&](auto&context, Place place) { return sample::bernoulli(context, place, p); }))
+            draws.push_back(draw);
+        expect_indices_fit(draws, {1 - p, p});
+    }
+}
+
+TEST(Discrete, FollowsItsProbabilities) {
+    const std::array<double, 5> weights{0.1, 0.0, 0.25, 0.6, 0.05};
+    expect_indices_fit(draws_of([&](auto& context, Place place) {
+                           return sample::discrete(context, place, weights);
+                       }),
+                       {0.1, 0.0, 0.25, 0.6, 0.05});
+}
+
+TEST(Discrete, IsTheSmallestIndexWhoseSumExceedsTheUniformNumber) {
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    const std::array<double, 3> weights{0.2, 0.5, 0.3};
+    for (int i = 0; i < 1000; ++i) {
+        const double u = uniform_at(context, {0, i});
+        const std::int64_t expected = u < 0.2 ? 0 : u < 0.2 + 0.5 ? 1 : 2;
+        EXPECT_EQ(sample::discrete(context, {0, i}, weights), expected);
+    }
+}
+
+// A sum of 0.99999 is accepted, not renormalised, and what is missing goes to index 0.
+TEST(Discrete, GivesMissingMassToTheFirstIndex) {
+    Context<Scalar> context{{}, 1, {}};
+    std::int64_t index = 0;
+    while (uniform_at(context, {0, index}) < 0.99999) ++index;
+    const std::array<double, 2> weights{0.0, 0.99999};
+    EXPECT_EQ(sample::discrete(context, {0, index}, weights), 0);
+    EXPECT_EQ(sample::discrete(context, {0, index + 1}, weights), 1);
+    EXPECT_FALSE(context.fault);
+}
+
+TEST(Discrete, ChecksTheSum) {
+    const auto faults = [](double second) {
+        Context<Scalar> context;
+        sample::discrete(context, {3, 4}, std::array<double, 2>{0.5, second});
+        return context.fault;
+    };
+    EXPECT_FALSE(faults(0.5));
+    EXPECT_FALSE(faults(0.50001));
+    EXPECT_FALSE(faults(0.49999));
+    EXPECT_EQ(faults(0.500011).kind, FaultKind::ProbabilitySum);
+    EXPECT_EQ(faults(0.4).kind, FaultKind::ProbabilitySum);
+    EXPECT_EQ(faults(0.4).value, 0.9);
+    EXPECT_EQ(faults(0.4).place, (Place{3, 4}));
+    EXPECT_EQ(faults(infinity).kind, FaultKind::ProbabilitySum);
+    EXPECT_EQ(faults(-0.1).kind, FaultKind::Weight);
+    EXPECT_EQ(faults(nan).kind, FaultKind::Weight);
+}
+
+TEST(UnnormalisedDiscrete, FollowsItsWeights) {
+    const std::array<double, 6> weights{0.0, 3.0, 1.0, 0.0, 4.0, 0.0};
+    expect_indices_fit(draws_of([&](auto& context, Place place) {
+                           return sample::unnormalised_discrete(context, place, weights);
+                       }),
+                       {0.0, 0.375, 0.125, 0.0, 0.5, 0.0});
+}
+
+TEST(UnnormalisedDiscrete, ChecksItsWeights) {
+    const auto faults = [](double first, double second) {
+        Context<Scalar> context;
+        const std::array<double, 2> weights{first, second};
+        EXPECT_EQ(sample::unnormalised_discrete(context, {}, weights) == 0 || !context.fault, true);
+        return context.fault.kind;
+    };
+    EXPECT_EQ(faults(1e-300, 0.0), FaultKind::None);
+    EXPECT_EQ(faults(0.0, 1e300), FaultKind::None);
+    EXPECT_EQ(faults(0.0, 0.0), FaultKind::WeightSum);
+    EXPECT_EQ(faults(infinity, 1.0), FaultKind::WeightSum);
+    EXPECT_EQ(faults(1e308, 1e308), FaultKind::WeightSum);
+    EXPECT_EQ(faults(1.0, -2e-9), FaultKind::Weight);
+    EXPECT_EQ(faults(nan, 1.0), FaultKind::Weight);
+}
+
+TEST(DiscreteOver, IsDiscreteOfItsWeights) {
+    Context<Scalar> context{stream_key(5, 0, 0), 1, {}};
+    const std::array<double, 4> weights{0.1, 0.2, 0.3, 0.4};
+    const auto weight = [&](Index k) {
+        return weights[static_cast<std::size_t>(k)];
+    };
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_EQ(sample::discrete(context, {0, i}, weights),
+                  sample::discrete_over(context, {0, i}, 4, weight));
+        EXPECT_EQ(sample::unnormalised_discrete(context, {0, i}, weights),
+                  sample::unnormalised_discrete_over(context, {0, i}, 4, weight));
+    }
+}
+
+}  // namespace
+}  // namespace rddl

@@ -1,0 +1,144 @@
+// Rows of the C interface become blocks of packs and rows again. This file is also built for other
+// instruction sets than the compiler's default (CMakeLists.txt).
+#include <rddl/step/columns.hpp>
+#include <rddl/values/tables.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <vector>
+
+namespace rddl {
+namespace {
+
+constexpr std::int64_t bool_count = 150, real_count = 3, int_count = 2;
+
+// A row of the actions, and a block of them.
+struct Row {
+    std::array<bool, bool_count> bools;
+    std::array<double, real_count> reals;
+    std::array<std::int64_t, int_count> ints;
+    bool last;
+};
+template <class L>
+struct Block {
+    std::array<typename L::Bool, bool_count> bools;
+    std::array<typename L::Real, real_count> reals;
+    std::array<typename L::Int, int_count> ints;
+    typename L::Bool last;
+};
+
+constexpr rddl_fluent action(const char* name, rddl_scalar scalar, std::int64_t count,
+                             std::int64_t offset) {
+    return {name, RDDL_ACTION, scalar, -1, 0, nullptr, count, offset, nullptr, nullptr, {}};
+}
+constexpr rddl_fluent fluents[] = {
+    action("bools", RDDL_BOOL, bool_count, offsetof(Row, bools)),
+    action("reals", RDDL_REAL, real_count, offsetof(Row, reals)),
+    {"state", RDDL_STATE, RDDL_REAL, -1, 0, nullptr, 1, 0, nullptr, nullptr, {}},
+    action("ints", RDDL_INT, int_count, offsetof(Row, ints)),
+    action("last", RDDL_BOOL, 1, offsetof(Row, last))};
+constexpr rddl_problem problem = [] {
+    rddl_problem described{};
+    described.fluents = fluents;
+    described.fluent_count = std::size(fluents);
+    described.action_size = sizeof(Row);
+    return described;
+}();
+
+std::vector<Row> random_rows(int count) {
+    std::mt19937_64 random(21);
+    std::vector<Row> rows(static_cast<std::size_t>(count));
+    for (Row& row : rows) {
+        std::memset(&row, 0, sizeof row);  // also padding
+        for (bool& value : row.bools) value = random() % 3 == 0;
+        for (double& value : row.reals) value = static_cast<double>(random() % 1000) / 8;
+        for (std::int64_t& value : row.ints) value = static_cast<std::int64_t>(random());
+        row.last = random() % 2 == 0;
+    }
+    return rows;
+}
+
+template <class L>
+void expect_lane(const Block<L>& block, int lane, const Row& row) {
+    for (std::size_t k = 0; k < bool_count; ++k)
+        ASSERT_EQ(get_lane(block.bools[k], lane), row.bools[k]) << "bool " << k << " of " << lane;
+    for (std::size_t k = 0; k < real_count; ++k)
+        ASSERT_EQ(get_lane(block.reals[k], lane), row.reals[k]) << "real " << k << " of " << lane;
+    for (std::size_t k = 0; k < int_count; ++k)
+        ASSERT_EQ(get_lane(block.ints[k], lane), row.ints[k]) << "int " << k << " of " << lane;
+    ASSERT_EQ(get_lane(block.last, lane), row.last) << lane;
+}
+
+template <class Lane>
+struct ColumnsOf : testing::Test {};
+using PackTypes = testing::Types<Pack<8>, Pack<16>, Pack<32>, Pack<64>, Pack<16, float>>;
+TYPED_TEST_SUITE(ColumnsOf, PackTypes);
+
+// The records are at an odd address, as callers may have them.
+TYPED_TEST(ColumnsOf, ReadAndWriteWholeAndOtherBlocks) {
+    using L = TypeParam;
+    const Columns columns = columns_of<L>(problem, RDDL_ACTION, problem.action_size);
+    constexpr auto known = known_columns<L, problem, RDDL_ACTION>(problem.action_size);
+    ASSERT_EQ(columns.block_size, static_cast<std::int64_t>(sizeof(Block<L>)));
+    ASSERT_EQ(known.block_size, columns.block_size);
+    for (const int present : {1, 7, L::width - 1, L::width}) {
+        const std::vector<Row> rows = random_rows(present);
+        const std::size_t size = rows.size() * sizeof(Row);
+        std::vector<std::byte> given(size + 1), written(size + 1);
+        std::memcpy(given.data() + 1, rows.data(), size);
+
+        Block<L> block, same;
+        read_records(L{}, columns, given.data() + 1, present, reinterpret_cast<std::byte*>(&block));
+        read_records(L{}, known, given.data() + 1, present, reinterpret_cast<std::byte*>(&same));
+        for (int lane = 0; lane < present; ++lane) {
+            expect_lane(block, lane, rows[static_cast<std::size_t>(lane)]);
+            expect_lane(same, lane, rows[static_cast<std::size_t>(lane)]);
+        }
+        for (int lane = present; lane < L::width; ++lane)
+            EXPECT_FALSE(get_lane(block.bools[0], lane));
+
+        write_records(L{}, columns, reinterpret_cast<const std::byte*>(&block), written.data() + 1,
+                      present);
+        EXPECT_EQ(written, given) << present << " rows";
+    }
+}
+
+// A constant of which GCC 12 makes a wrong copy by itself, with AVX-512.
+constexpr std::array<std::int64_t, 7> ones_before_zeros = {1, 1, 0, 1, 1, 0, 0};
+
+#ifdef __clang__
+[[gnu::noinline]]
+#else
+[[gnu::noinline, gnu::optimize("O3")]]
+#endif
+void copy_ones_before_zeros(std::array<std::int64_t, 7>& target) {
+    assign(target, ones_before_zeros);
+}
+
+TEST(Tables, AreCopiedAsTheyAre) {
+    std::array<std::int64_t, 7> target;
+    copy_ones_before_zeros(target);
+    const std::int64_t expected[] = {1, 1, 0, 1, 1, 0, 0};
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(target[i], expected[i]) << i;
+}
+
+TEST(Flags, AreBytes) {
+    std::mt19937_64 random(22);
+    for (const int present : {1, 8, 13, 32}) {
+        const auto mask = Mask<32>::of_bits(random());
+        std::array<std::uint8_t, 33> flags;
+        flags.fill(7);
+        write_flags(mask, flags.data(), present);
+        for (int lane = 0; lane < present; ++lane)
+            EXPECT_EQ(flags[static_cast<std::size_t>(lane)], mask[lane] ? 1 : 0);
+        EXPECT_EQ(flags[static_cast<std::size_t>(present)], 7) << "written beyond the end";
+    }
+}
+
+}  // namespace
+}  // namespace rddl

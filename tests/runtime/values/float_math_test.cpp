@@ -1,0 +1,141 @@
+// The functions of floats: how exact they are, and that lanes have the bits of single floats.
+#include <rddl/random/distributions/normal_quantile.hpp>
+#include <rddl/values/math.hpp>
+#include <rddl/values/pack_ops.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace rddl {
+namespace {
+
+constexpr int width = 16;
+using Floats = Lanes<float, width>;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+double ulps(float found, double exact) {
+    const float nearest = std::fabs(static_cast<float>(exact));
+    return std::fabs(double{found} - exact) / (std::nextafter(nearest, infinity) - nearest);
+}
+
+// Half a million arguments from `lowest` to `highest`, evenly spaced by their bits if `by_bits`.
+template <class Function, class Exact>
+void expect_accuracy(float lowest, float highest, double bound, Function function, Exact exact,
+                     bool by_bits = false) {
+    constexpr int count = 500'000;
+    double worst = 0;
+    for (int i = 0; i < count; i += width) {
+        Floats arguments;
+        for (int lane = 0; lane < width; ++lane) {
+            const double part = static_cast<double>(i + lane) / count;
+            const auto between =
+                bits_of(lowest) +
+                static_cast<std::uint32_t>(static_cast<double>(bits_of(highest) - bits_of(lowest)) *
+                                           part);
+            arguments.set(lane, by_bits ? real_of_bits(between)
+                                        : static_cast<float>(lowest + (highest - lowest) * part));
+        }
+        const Floats results = function(arguments);
+        for (int lane = 0; lane < width; ++lane) {
+            const float alone = function(arguments[lane]);
+            ASSERT_EQ(bits_of(alone), bits_of(results[lane])) << arguments[lane];
+            worst = std::fmax(worst, ulps(alone, exact(double{arguments[lane]})));
+        }
+    }
+    EXPECT_LE(worst, bound);
+}
+
+#define RDDL_OF(function)   \
+    [](auto x) {            \
+        return function(x); \
+    }
+
+TEST(FloatMath, IsAccurate) {
+    expect_accuracy(-87, 88, 1.1, RDDL_OF(exp), RDDL_OF(std::exp));
+    expect_accuracy(0.4f, 2.5f, 1.0, RDDL_OF(ln), RDDL_OF(std::log));
+    expect_accuracy(1e-44f, 3e38f, 1.0, RDDL_OF(ln), RDDL_OF(std::log), true);
+    expect_accuracy(-3, 3, 1.7, RDDL_OF(sin), RDDL_OF(std::sin));
+    expect_accuracy(1e-30f, 3, 1.7, RDDL_OF(sin), RDDL_OF(std::sin), true);
+    expect_accuracy(-1.5f, 1.5f, 1.7, RDDL_OF(cos), RDDL_OF(std::cos));
+    expect_accuracy(9000, 1e6, 0.51, RDDL_OF(sin), RDDL_OF(std::sin));
+    expect_accuracy(1e-30f, 0.9999999f, 7, RDDL_OF(normal_quantile), RDDL_OF(normal_quantile),
+                    true);
+}
+
+TEST(FloatMath, IsRoundedFromDoubles) {
+    expect_accuracy(-1.5f, 1.5f, 0.51, RDDL_OF(tan), RDDL_OF(std::tan));
+    expect_accuracy(-1, 1, 0.51, RDDL_OF(asin), RDDL_OF(std::asin));
+    expect_accuracy(-1, 1, 0.51, RDDL_OF(acos), RDDL_OF(std::acos));
+    expect_accuracy(-30, 30, 0.51, RDDL_OF(atan), RDDL_OF(std::atan));
+    expect_accuracy(-30, 30, 0.51, RDDL_OF(sinh), RDDL_OF(std::sinh));
+    expect_accuracy(-30, 30, 0.51, RDDL_OF(cosh), RDDL_OF(std::cosh));
+    expect_accuracy(-5, 5, 0.51, RDDL_OF(tanh), RDDL_OF(std::tanh));
+    expect_accuracy(-5, 5, 0.51, RDDL_OF(exp_minus_one), RDDL_OF(std::expm1));
+    expect_accuracy(-0.9f, 5, 0.51, RDDL_OF(ln_one_plus), RDDL_OF(std::log1p));
+    const auto cube_root = [](auto x) {
+        return power(x, decltype(x)(1.0f / 3.0f));
+    };
+    expect_accuracy(0, 100, 0.51, cube_root,
+                    [](double x) { return std::pow(x, double{1.0f / 3.0f}); });
+}
+
+// Angles up to 2^13 have a small absolute error, though zeros are not met to the last bit.
+TEST(FloatMath, TurnsFarAngles) {
+    for (float angle = -8192; angle < 8192; angle += 0.37f) {
+        EXPECT_NEAR(sin(angle), std::sin(double{angle}), 1.2e-7) << angle;
+        EXPECT_NEAR(cos(angle), std::cos(double{angle}), 1.2e-7) << angle;
+    }
+}
+
+TEST(FloatMath, HasTheRareCases) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(exp(-infinity), 0.0f);
+    EXPECT_EQ(exp(infinity), infinity);
+    EXPECT_EQ(exp(-104.5f), 0.0f);
+    EXPECT_EQ(exp(-103.0f), 0x1p-149f);
+    EXPECT_EQ(exp(89.0f), infinity);
+    EXPECT_EQ(exp(0.0f), 1.0f);
+    EXPECT_EQ(ln(0.0f), -infinity);
+    EXPECT_EQ(ln(infinity), infinity);
+    EXPECT_EQ(ln(1.0f), 0.0f);
+    EXPECT_TRUE(std::signbit(sin(-0.0f)));
+    EXPECT_EQ(power(-2.0f, 3.0f), -8.0f);
+    for (const float none : {exp(nan), ln(-1.0f), ln(nan), sin(infinity), cos(nan)})
+        EXPECT_TRUE(std::isnan(none));
+}
+
+// Packs convert, round and gather as single numbers do.
+TEST(FloatLanesOf, HaveTheBitsOfTheScalar) {
+    std::array<float, 64> table;
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(i) * 0.1f;
+    Floats a;
+    Lanes<std::int64_t, width> places, great;
+    for (int lane = 0; lane < width; ++lane) {
+        a.set(lane, static_cast<float>(lane) * 0.75f - 5.0f);
+        places.set(lane, lane * 37 % 64);
+        great.set(lane, (std::int64_t{1} << (4 * lane)) + lane - 5);
+    }
+    const Floats chosen = at(table, places), converted = to_float(great), root = sqrt(a * a);
+    const auto rounded = round(a), lower = floor(a), upper = ceil(a);
+    const Floats least = minimum(a, 1.5f), picked = select(a < 0.0f, a, 2.0f);
+    for (int lane = 0; lane < width; ++lane) {
+        const float x = a[lane];
+        EXPECT_EQ(chosen[lane], table[static_cast<std::size_t>(places[lane])]);
+        EXPECT_EQ(converted[lane], to_float(great[lane]));
+        EXPECT_EQ(to_float(to_double(a))[lane], x);
+        EXPECT_EQ(root[lane], std::fabs(x));
+        EXPECT_EQ(rounded[lane], rddl::round(x));
+        EXPECT_EQ(lower[lane], rddl::floor(x));
+        EXPECT_EQ(upper[lane], rddl::ceil(x));
+        EXPECT_EQ(least[lane], minimum(x, 1.5f));
+        EXPECT_EQ(picked[lane], select(x < 0.0f, x, 2.0f));
+    }
+}
+
+}  // namespace
+}  // namespace rddl

@@ -1,0 +1,45 @@
+#include "cache/builders_turn.hpp"
+
+#include "support/program.hpp"
+#include "terminal/interrupt.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+
+namespace rddlc::workbench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Whether another process has the lock, as opposed to a file system without locks.
+bool is_taken(int descriptor) {
+    return ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR);
+}
+
+}  // namespace
+
+BuildersTurn::BuildersTurn(const std::filesystem::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0 || !is_taken(descriptor_)) return;
+    if (is_terminal(STDERR_FILENO))
+        tell(" (waiting for another process that compiles the runtime)");
+    const auto end = Clock::now() + std::chrono::minutes(2);
+    while (Clock::now() < end && is_taken(descriptor_)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (!is_interrupted()) continue;
+        ::close(descriptor_);
+        give_up_if_interrupted();
+    }
+}
+
+BuildersTurn::~BuildersTurn() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+}  // namespace rddlc::workbench

@@ -1,0 +1,34 @@
+// C++ text compiled to a shared object. Shared objects are kept by content under
+// $XDG_CACHE_HOME/rddlc (or ~/.cache/rddlc), so that a text is compiled once.
+#pragma once
+
+#include "ir/ir.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rddlc::workbench {
+
+struct CacheOptions {
+    std::string what;  // for messages
+    bool ignore_cache = false;
+    bool quiet = false;
+    // The user's headers that the text includes: a change to one is a change to the text.
+    std::vector<std::filesystem::path> extern_headers = {};
+    // The reals of the batches that the text links, which are the same for all simulators; nothing
+    // if it links no batches.
+    std::optional<RealType> linked_batches = std::nullopt;
+};
+
+struct CachedObject {
+    std::filesystem::path path;
+    std::optional<double> build_seconds;  // nothing if it was there already
+};
+
+// Fails if there is no C++ compiler or no folder for it (cache_folder.hpp); throws Diagnosed if the
+// compiler refuses the user's headers.
+CachedObject cached_object(const std::string& text, const CacheOptions& options);
+
+}  // namespace rddlc::workbench
