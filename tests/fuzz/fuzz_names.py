@@ -54,7 +54,7 @@ def preprocessed(compiler: str, *options: str) -> str:
 def taken_by_rddl() -> set[str]:
     """Words of the grammar, and functions."""
     grammar = (ROOT / "grammar/RDDL.g4").read_text()
-    vocabulary = (ROOT / "compiler/model/vocabulary.cpp").read_text()
+    vocabulary = "".join(file.read_text() for file in ROOT.glob("compiler/vocabulary/*.cpp"))
     return set(re.findall(r"'([A-Za-z_-]+)'", grammar)) | set(re.findall(r'"(\w+)"', vocabulary))
 
 

@@ -1,3 +1,4 @@
+// Over 400 lines: finding the entries, writing their tables and rewriting the nest share one state.
 #include "passes/aggregations/make_aggregations_sparse.hpp"
 
 #include "ir/fold.hpp"
